@@ -1,0 +1,45 @@
+# What every target of the project shares, and how the tests of a folder are declared.
+
+function(fairway_defaults target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF VERIFY_INTERFACE_HEADER_SETS ON)
+  # The same bits on every machine: no contraction, no fast-math, no -march=native.
+  target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wshadow -Wconversion
+    -Wno-sign-conversion -Wnon-virtual-dtor)
+  if(FAIRWAY_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(FAIRWAY_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${FAIRWAY_SANITIZE}
+      -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=${FAIRWAY_SANITIZE})
+  endif()
+endfunction()
+
+# fairway_sources(TARGET SOURCES a.cpp ... HEADERS a.hpp ...): paths relative to the folder.
+# Headers keep their path below the project: "fairway/map/region.hpp" here and once installed.
+function(fairway_sources target)
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS" ${ARGN})
+  list(TRANSFORM ARG_SOURCES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  list(TRANSFORM ARG_HEADERS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  target_sources(${target}
+    PRIVATE ${ARG_SOURCES}
+    PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
+endfunction()
+
+# fairway_tests(NAME SOURCES a_test.cpp ... LINK fairway ...): one GoogleTest program, one CTest.
+function(fairway_tests name)
+  if(NOT FAIRWAY_BUILD_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  find_package(GTest REQUIRED)
+  add_executable(${name} ${ARG_SOURCES})
+  fairway_defaults(${name})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest_main GTest::gmock rapidcheck)
+  target_compile_definitions(${name} PRIVATE
+    FAIRWAY_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    FAIRWAY_SHARED_MAPS="${PROJECT_SOURCE_DIR}/../shared/maps")
+  add_test(NAME ${name} COMMAND ${name})
+endfunction()

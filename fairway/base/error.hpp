@@ -1,0 +1,34 @@
+// Three kinds of error, kept apart:
+//   InputError         bad input from outside, thrown by readers only; the command exits with 65.
+//   ContractViolation  a caller's mistake, always checked; our fault in the command (exit 70).
+//   the domain's answer (goal unreachable, undecided) is a value, never an exception.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace fairway {
+
+/// `where` is FILE:LINE, FILE: KEY or an option; `what` says what is wrong and what is expected.
+class InputError : public std::runtime_error {
+ public:
+  InputError(std::string where, const std::string& what)
+      : std::runtime_error(where.empty() ? what : where + ": " + what), where_(std::move(where)) {}
+  const std::string& where() const { return where_; }
+
+ private:
+  std::string where_;
+};
+
+class ContractViolation : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
+
+/// Throws ContractViolation when a caller's promise does not hold. Always on.
+inline void require(bool holds, const char* promise) {
+  if (!holds) throw ContractViolation(promise);
+}
+
+}  // namespace fairway

@@ -1,0 +1,28 @@
+// Work over ranges on all threads. Results must not depend on how a range is cut; the command's
+// --threads bounds the number of threads for the whole process (see app/).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace fairway {
+
+/// Calls body(begin, end) over disjoint pieces of [0, count), each at least `grain` long.
+template <typename Body>
+void for_ranges(std::size_t count, std::size_t grain, const Body& body) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, std::max<std::size_t>(1, grain)),
+                    [&](const tbb::blocked_range<std::size_t>& r) { body(r.begin(), r.end()); });
+}
+
+/// The same over rows of a grid, as ints.
+template <typename Body>
+void for_rows(int rows, const Body& body) {
+  for_ranges(static_cast<std::size_t>(std::max(rows, 0)), 16, [&](std::size_t a, std::size_t b) {
+    body(static_cast<int>(a), static_cast<int>(b));
+  });
+}
+
+}  // namespace fairway

@@ -1,0 +1,29 @@
+// What the vehicle is asked to do: reach a place (paper 1, Eq. 4) or follow a path (Eq. 5).
+#pragma once
+
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "fairway/base/vec2.hpp"
+
+namespace fairway {
+
+/// Reach the disc of radius beta * r about `goal_m`.
+struct GoalMission {
+  Vec2 goal_m;
+  std::optional<double> goal_heading_rad;
+};
+
+/// Follow a polyline of at least two vertices, from the first to the last; `closed` joins the last
+/// to the first again. The tolerances say when a state counts as on the path (Eq. 5).
+struct PathMission {
+  std::vector<Vec2> vertices_m;
+  bool closed = false;
+  double delta_position_m = 10.0;  ///< delta_x_max = delta_y_max
+  double delta_heading_rad = 0.5;  ///< delta_theta_max
+};
+
+using Mission = std::variant<GoalMission, PathMission>;
+
+}  // namespace fairway
