@@ -1,0 +1,26 @@
+// The two curves of paper 1's figures, from a recorded flight.
+#pragma once
+
+#include <string>
+
+#include "fairway/report/draw_chart.hpp"
+#include "fairway/simulate/flight.hpp"
+#include "fairway/vehicle/mission.hpp"
+
+namespace fairway {
+
+/// Heading against time (Figs. 6b, 8a): seconds, radians, unwrapped, that is, without jumps of
+/// 2 pi. Exact: one point at each end of every piece.
+[[nodiscard]] ChartSeries heading_over_time(const Flight& flight, double speed_mps,
+                                            std::string name);
+
+/// Distance from the mission's path against time (Figs. 7b, 8b): seconds, metres, sampled at least
+/// every `step_m` along the flight and at each end of every piece.
+[[nodiscard]] ChartSeries path_distance_over_time(const Flight& flight, double speed_mps,
+                                                  const PathMission& path, double step_m,
+                                                  std::string name);
+
+/// Distance from a point to the nearest point of the path's polyline, metres.
+[[nodiscard]] double distance_to_path_m(Vec2 point_m, const PathMission& path);
+
+}  // namespace fairway
