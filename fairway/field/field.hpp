@@ -13,7 +13,8 @@ namespace fairway {
 
 /// How distances are measured.
 enum class Metric {
-  euclidean,  ///< exact distances for the buffer, an eikonal cost-to-go: directions are not quantised
+  euclidean,  ///< exact distances for the buffer, an eikonal cost-to-go: directions are not
+              ///< quantised
   octile,     ///< exact shortest 8-connected paths, steps 1 and sqrt(2)
   paper       ///< Algorithms 1 and 2 of paper 1 to the letter: synchronous sweeps, steps 1 and 1.41
 };
@@ -51,7 +52,8 @@ struct Field {
   std::vector<float> cost_m;       ///< cost to go, metres; +inf where the goal cannot be reached
   std::vector<float> heading_rad;  ///< commanded heading, (-pi, pi]; NaN: none
   std::size_t unreachable_free_cells = 0;  ///< free cells of infinite cost (walled-off pockets)
-  std::size_t vanished_cells = 0;  ///< cells whose filtered vector was too short to have a direction
+  std::size_t vanished_cells =
+      0;  ///< cells whose filtered vector was too short to have a direction
 };
 
 /// Why there is no field for this mission on this map. `message` is one sentence for the user.

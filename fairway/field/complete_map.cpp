@@ -1,0 +1,216 @@
+#include "fairway/field/complete_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "fairway/base/parallel.hpp"
+#include "fairway/field/distance_transform.hpp"
+#include "fairway/field/octile.hpp"
+
+namespace fairway {
+namespace {
+
+using Reason = MissionRefusal::Reason;
+
+// The largest squared distance, in cells, that is still buffer. The added 1e-9 keeps a distance of
+// exactly alpha * r inside when the quotient is rounded down.
+double buffer_limit_cells2(const Grid& grid, const Vehicle& vehicle, const FieldOptions& options) {
+  const double cells = options.alpha * vehicle.turn_radius_m / grid.cell_m;
+  return cells * cells * (1.0 + 1e-9);
+}
+
+void mark_buffer_euclidean(CompleteMap& complete, double limit_cells2) {
+  for_ranges(complete.region.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const std::int32_t d2 = complete.clearance_cells2[i];
+      complete.region[i] = d2 == 0              ? Region::obstacle
+                           : d2 <= limit_cells2 ? Region::buffer
+                                                : Region::free;
+    }
+  });
+}
+
+// Algorithm 1, lines 2 to 18.
+void mark_buffer_paper(CompleteMap& complete, const ObstacleMap& map, const Vehicle& vehicle,
+                       const FieldOptions& options) {
+  const Grid& g = map.grid;
+  std::vector<std::uint8_t> not_obstacle(g.size());
+  std::vector<std::uint32_t> obstacles;
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    not_obstacle[i] = map.obstacle[i] == 0 ? 1 : 0;
+    if (map.obstacle[i] != 0) obstacles.push_back(static_cast<std::uint32_t>(i));
+  }
+  const auto sweeps =
+      static_cast<int>(std::ceil(options.alpha * vehicle.turn_radius_m / g.cell_m - 1e-9));
+  const std::vector<float> number =
+      paper_wavefront(not_obstacle, g.nx, g.ny, obstacles, 1.0F, sweeps);
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    complete.region[i] = map.obstacle[i] != 0       ? Region::obstacle
+                         : std::isfinite(number[i]) ? Region::buffer
+                                                    : Region::free;
+  }
+}
+
+MissionRefusal refusal(Reason reason, std::string message, double lacks_m = 0.0) {
+  return {reason, std::move(message), lacks_m};
+}
+
+// The cell centre nearest to the goal whose disc fits into the safe start, for the user's next try.
+std::optional<Vec2> nearest_place_that_fits(const Grid& grid, const std::vector<Region>& region,
+                                            Vec2 goal_m, double radius_m) {
+  std::vector<std::uint8_t> taken(grid.size());
+  for (std::size_t i = 0; i < taken.size(); ++i) taken[i] = region[i] != Region::free ? 1 : 0;
+  std::vector<std::int32_t> d2(grid.size());
+  distance_transform(taken, grid.nx, grid.ny, {d2, {}});
+  const double needed_cells = radius_m / grid.cell_m + 0.5;
+  std::optional<Vec2> best;
+  for (std::size_t i = 0; i < d2.size(); ++i) {
+    if (d2[i] <= needed_cells * needed_cells) continue;
+    const Vec2 p = grid.center(grid.cell_at(i));
+    if (!best || norm2(p - goal_m) < norm2(*best - goal_m)) best = p;
+  }
+  return best;
+}
+
+// The mission cell that comes closest to an obstacle, with its distance.
+struct Tightest {
+  std::size_t index = 0;
+  std::int32_t clearance_cells2 = no_feature_distance;
+};
+template <typename Cells, typename IndexOf>
+Tightest tightest_of(const CompleteMap& complete, const Cells& cells, const IndexOf& index_of) {
+  Tightest least;
+  for (const auto& cell : cells) {
+    const std::size_t i = index_of(cell);
+    if (complete.clearance_cells2[i] < least.clearance_cells2) {
+      least = {i, complete.clearance_cells2[i]};
+    }
+  }
+  return least;
+}
+
+bool all_free(const CompleteMap& complete) {
+  return std::all_of(complete.goal_cells.begin(), complete.goal_cells.end(),
+                     [&](std::uint32_t i) { return complete.region[i] == Region::free; });
+}
+
+std::optional<MissionRefusal> place_goal(CompleteMap& complete, const Grid& grid,
+                                         const GoalMission& goal, const Vehicle& vehicle,
+                                         const FieldOptions& options) {
+  const double x = goal.goal_m.x;
+  const double y = goal.goal_m.y;
+  const double radius = options.beta * vehicle.turn_radius_m;
+  if (!(x >= grid.x0_m && x <= grid.x0_m + grid.width_m() && y >= grid.y0_m &&
+        y <= grid.y0_m + grid.height_m())) {
+    return refusal(
+        Reason::outside_map,
+        fmt::format("the goal [{:.6g}, {:.6g}] lies outside the map, which covers x {:.6g} "
+                    "to {:.6g} m and y {:.6g} to {:.6g} m",
+                    x, y, grid.x0_m, grid.x0_m + grid.width_m(), grid.y0_m,
+                    grid.y0_m + grid.height_m()));
+  }
+  Cell cell = grid.cell_of(goal.goal_m);
+  cell = {std::min(cell.ix, grid.nx - 1), std::min(cell.iy, grid.ny - 1)};
+  complete.goal_cells = cells_inside_disc(grid, goal.goal_m, radius);
+  const auto next_try = [&]() -> std::string {
+    const auto fits = nearest_place_that_fits(grid, complete.region, goal.goal_m, radius);
+    if (!fits) return "no place on this map fits such a goal: reduce alpha, beta or turn_radius_m";
+    return fmt::format("the nearest goal that fits is [{:.6g}, {:.6g}]", fits->x, fits->y);
+  };
+  if (complete.region[grid.index(cell)] == Region::obstacle) {
+    return refusal(
+        Reason::in_obstacle,
+        fmt::format("the goal [{:.6g}, {:.6g}] lies in an obstacle; {}", x, y, next_try()));
+  }
+  if (complete.goal_cells.empty()) {
+    return refusal(
+        Reason::goal_too_small,
+        fmt::format("no cell lies wholly inside the goal disc of radius beta * "
+                    "turn_radius_m = {:.6g} m about [{:.6g}, {:.6g}]: cells are {:.6g} m "
+                    "wide; enlarge beta or reduce cell_m",
+                    radius, x, y, grid.cell_m));
+  }
+  if (all_free(complete)) return std::nullopt;
+  const Tightest tight =
+      tightest_of(complete, complete.goal_cells, [](std::uint32_t i) { return std::size_t{i}; });
+  const double clearance = std::sqrt(static_cast<double>(tight.clearance_cells2)) * grid.cell_m;
+  const double needed = options.alpha * vehicle.turn_radius_m;
+  const double lacks = std::max(needed - clearance, 0.0);
+  return refusal(
+      Reason::in_buffer,
+      fmt::format("the goal disc (radius beta * turn_radius_m = {:.6g} m about [{:.6g}, "
+                  "{:.6g}]) reaches into the buffer: it comes within {:.6g} m of an "
+                  "obstacle, and must stay farther than alpha * turn_radius_m = {:.6g} m "
+                  "away, so it lacks {:.6g} m (Assumption 1); {}",
+                  radius, x, y, clearance, needed, lacks, next_try()),
+      lacks);
+}
+
+std::optional<MissionRefusal> place_path(CompleteMap& complete, const Grid& grid,
+                                         const PathMission& path, const Vehicle& vehicle,
+                                         const FieldOptions& options) {
+  for (std::size_t k = 0; k < path.vertices_m.size(); ++k) {
+    const Vec2 p = path.vertices_m[k];
+    if (p.x >= grid.x0_m && p.x <= grid.x0_m + grid.width_m() && p.y >= grid.y0_m &&
+        p.y <= grid.y0_m + grid.height_m()) {
+      continue;
+    }
+    return refusal(Reason::outside_map,
+                   fmt::format("vertex {} of the path, [{:.6g}, {:.6g}], lies outside the map",
+                               k + 1, p.x, p.y));
+  }
+  complete.path_cells = cells_on_path(grid, path);
+  for (const PathCell& cell : complete.path_cells) complete.goal_cells.push_back(cell.index);
+  if (all_free(complete)) return std::nullopt;
+  const Tightest tight = tightest_of(complete, complete.path_cells,
+                                     [](const PathCell& c) { return std::size_t{c.index}; });
+  const Vec2 where = grid.center(grid.cell_at(tight.index));
+  const double clearance = std::sqrt(static_cast<double>(tight.clearance_cells2)) * grid.cell_m;
+  if (clearance == 0.0) {
+    return refusal(
+        Reason::in_obstacle,
+        fmt::format("the path crosses an obstacle near [{:.6g}, {:.6g}]", where.x, where.y));
+  }
+  const double needed = options.alpha * vehicle.turn_radius_m;
+  const double lacks = std::max(needed - clearance, 0.0);
+  return refusal(
+      Reason::in_buffer,
+      fmt::format("the path enters the buffer near [{:.6g}, {:.6g}]: it comes within {:.6g} m "
+                  "of an obstacle, and must stay farther than alpha * turn_radius_m = "
+                  "{:.6g} m away, so it lacks {:.6g} m (Assumption 1); alpha below {:.4g} "
+                  "would do",
+                  where.x, where.y, clearance, needed, lacks, clearance / vehicle.turn_radius_m),
+      lacks);
+}
+
+}  // namespace
+
+std::variant<CompleteMap, MissionRefusal> complete_map(const ObstacleMap& map,
+                                                       const Vehicle& vehicle,
+                                                       const Mission& mission,
+                                                       const FieldOptions& options) {
+  const Grid& grid = map.grid;
+  CompleteMap complete;
+  complete.region.resize(grid.size());
+  complete.clearance_cells2.resize(grid.size());
+  distance_transform(map.obstacle, grid.nx, grid.ny, {complete.clearance_cells2, {}});
+  if (options.metric == Metric::paper) {
+    mark_buffer_paper(complete, map, vehicle, options);
+  } else {
+    mark_buffer_euclidean(complete, buffer_limit_cells2(grid, vehicle, options));
+  }
+
+  const auto* goal = std::get_if<GoalMission>(&mission);
+  const std::optional<MissionRefusal> refused =
+      goal != nullptr
+          ? place_goal(complete, grid, *goal, vehicle, options)
+          : place_path(complete, grid, std::get<PathMission>(mission), vehicle, options);
+  if (refused) return *refused;
+  for (const std::uint32_t i : complete.goal_cells) complete.region[i] = Region::goal;  // line 20
+  return complete;
+}
+
+}  // namespace fairway

@@ -1,0 +1,258 @@
+#include "fairway/field/eikonal.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <thread>
+
+#include <tbb/task_arena.h>
+
+#include "fairway/base/error.hpp"
+#include "fairway/base/parallel.hpp"
+
+namespace fairway {
+namespace {
+
+// Inside the solver a distance is measured in waves: a cell's side is 3/2 waves, so that a wave is
+// thinner than the 1/sqrt(2) cell by which values grow, and so that the side is exact in float.
+constexpr float side = 1.5F;
+constexpr float diagonal = 2.12132034F;      // 1.5 sqrt(2)
+constexpr float largest_drop = 1.06066017F;  // 1.5 / sqrt(2): beyond it the diagonal alone wins
+constexpr float cells_per_wave = 1.0F / side;
+constexpr float unreached = std::numeric_limits<float>::infinity();
+constexpr std::size_t slots = 4;  // a step reaches at most three waves ahead: 1 + 2.13
+constexpr std::size_t last_wave = std::size_t{1}
+                                  << 22;  // whole waves are exact in float up to here
+
+// Threads meet here after every wave; waves are short (microseconds), so they spin first.
+class WaveBarrier {
+ public:
+  explicit WaveBarrier(int threads) : threads_(threads) {}
+  void wait() {
+    const int phase = phase_.load(std::memory_order_acquire);
+    if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == threads_) {
+      arrived_.store(0, std::memory_order_relaxed);
+      phase_.store(phase + 1, std::memory_order_release);
+      return;
+    }
+    for (int spins = 0; phase_.load(std::memory_order_acquire) == phase; ++spins) {
+      if (spins > 4000) std::this_thread::yield();
+    }
+  }
+
+ private:
+  int threads_;
+  std::atomic<int> arrived_{0};
+  std::atomic<int> phase_{0};
+};
+
+using CellList = std::vector<std::uint32_t>;
+
+class WaveFront {
+ public:
+  WaveFront(std::vector<float>& u, std::size_t stride, std::vector<CellList> starts, int threads)
+      : u_(u.data()),
+        stride_(static_cast<std::ptrdiff_t>(stride)),
+        starts_(std::move(starts)),
+        lists_(static_cast<std::size_t>(threads)),
+        pending_(2 * lists_.size()),
+        barrier_(threads) {
+    if (!starts_.empty()) lists_[0].cells[0] = starts_[0];
+  }
+
+  void run() {
+    std::vector<std::thread> others;
+    for (std::size_t t = 1; t < lists_.size(); ++t) others.emplace_back([this, t] { work(t); });
+    work(0);
+    for (std::thread& other : others) other.join();
+  }
+
+ private:
+  struct alignas(128) ThreadLists {
+    std::array<CellList, slots> cells;
+  };
+
+  // Every thread runs the same loop and reads the same counts, so all leave it together. A list is
+  // written by its owner only, and read by all in the wave it belongs to, when nobody writes it.
+  void work(std::size_t thread) {
+    ThreadLists& mine = lists_[thread];
+    for (std::size_t wave = 0; wave < last_wave; ++wave) {
+      if (thread == 0) start_wave(wave + 1);
+      spread_wave(wave, thread);
+      std::size_t ahead = 0;
+      for (std::size_t w = wave + 1; w < wave + slots; ++w) ahead += mine.cells[w % slots].size();
+      pending_[wave % 2 * lists_.size() + thread] = ahead;
+      barrier_.wait();
+      mine.cells[wave % slots].clear();
+      if (over(wave)) return;
+    }
+  }
+
+  // Sources join the wave they belong to; thread 0 owns them. Called one wave ahead.
+  void start_wave(std::size_t wave) {
+    if (wave >= starts_.size()) return;
+    CellList& list = lists_[0].cells[wave % slots];
+    list.insert(list.end(), starts_[wave].begin(), starts_[wave].end());
+  }
+
+  bool over(std::size_t wave) const {
+    if (wave + 1 < starts_.size()) return false;
+    const auto counts = pending_.begin() + static_cast<std::ptrdiff_t>(wave % 2 * lists_.size());
+    return std::all_of(counts, counts + static_cast<std::ptrdiff_t>(lists_.size()),
+                       [](std::size_t count) { return count == 0; });
+  }
+
+  // This thread's share of the cells of the wave: an even cut of all threads' lists in a row.
+  void spread_wave(std::size_t wave, std::size_t thread) {
+    std::size_t total = 0;
+    for (const ThreadLists& l : lists_) total += l.cells[wave % slots].size();
+    const std::size_t begin = total * thread / lists_.size();
+    const std::size_t end = total * (thread + 1) / lists_.size();
+    std::size_t offset = 0;
+    const auto first = static_cast<float>(wave);
+    for (const ThreadLists& l : lists_) {
+      const CellList& cells = l.cells[wave % slots];
+      const std::size_t from = std::clamp(begin, offset, offset + cells.size()) - offset;
+      const std::size_t to = std::clamp(end, offset, offset + cells.size()) - offset;
+      for (std::size_t i = from; i < to; ++i) spread(cells[i], first, lists_[thread]);
+      offset += cells.size();
+    }
+  }
+
+  // Blocked cells are NaN: they compare false, so they are neither final nor to be lowered.
+  void spread(std::uint32_t cell, float wave_begin, ThreadLists& mine) {
+    const float* at = u_ + cell;
+    const float value = load(at);
+    if (!(value >= wave_begin)) return;  // it was lowered into an earlier wave, and is done
+    const float wave_end = wave_begin + 1.0F;
+    const std::ptrdiff_t n = stride_;
+    const float e = load(at + 1);
+    const float w = load(at - 1);
+    const float no = load(at + n);
+    const float so = load(at - n);
+    const float across_x = std::min(final_or_inf(no, wave_end), final_or_inf(so, wave_end));
+    const float across_y = std::min(final_or_inf(e, wave_end), final_or_inf(w, wave_end));
+    // Values grow by 1.06 waves or more; far out, where a float is coarser, they are held to it.
+    const float along_x = std::max(axial_value(value, across_x), wave_end);
+    const float along_y = std::max(axial_value(value, across_y), wave_end);
+    if (e > along_x) lower(cell + 1, along_x, mine);
+    if (w > along_x) lower(cell - 1, along_x, mine);
+    if (no > along_y) lower(cell + static_cast<std::uint32_t>(n), along_y, mine);
+    if (so > along_y) lower(cell - static_cast<std::uint32_t>(n), along_y, mine);
+    const float slanted = std::max(value + diagonal, wave_end);
+    for (const std::ptrdiff_t step : {n + 1, n - 1, -n + 1, -n - 1}) {
+      if (load(at + step) > slanted) {
+        lower(static_cast<std::uint32_t>(static_cast<std::ptrdiff_t>(cell) + step), slanted, mine);
+      }
+    }
+  }
+
+  static float final_or_inf(float value, float wave_end) {
+    return value < wave_end ? value : unreached;
+  }
+
+  // The triangle of an axial neighbour of value a and the diagonal one of value b beside it:
+  //   min over 0 <= s <= 1 of a - s (a - b) + side sqrt(1 + s^2)
+  //     = a + sqrt(side^2 - (a - b)^2) where 0 <= a - b <= side / sqrt(2), else an end point.
+  // The end point b is spread by the diagonal cell itself.
+  static float axial_value(float a, float b) {
+    const float drop = std::clamp(a - b, 0.0F, largest_drop);
+    return a + std::sqrt(side * side - drop * drop);
+  }
+
+  static float load(const float* p) {
+    return std::atomic_ref<float>(*const_cast<float*>(p)).load(std::memory_order_relaxed);
+  }
+
+  // A cell enters the list of a wave when its value enters that wave, once.
+  void lower(std::uint32_t cell, float value, ThreadLists& mine) {
+    std::atomic_ref<float> shared(u_[cell]);
+    float old = shared.load(std::memory_order_relaxed);
+    if (lists_.size() == 1) {
+      shared.store(value, std::memory_order_relaxed);
+    } else {
+      while (old > value && !shared.compare_exchange_weak(old, value, std::memory_order_relaxed)) {
+      }
+      if (!(old > value)) return;
+    }
+    const auto wave = static_cast<std::size_t>(value);
+    if (old == unreached || static_cast<std::size_t>(old) != wave) {
+      mine.cells[wave % slots].push_back(cell);
+    }
+  }
+
+  float* u_;
+  std::ptrdiff_t stride_;
+  std::vector<CellList> starts_;
+  std::vector<ThreadLists> lists_;
+  std::vector<std::size_t> pending_;  // cells waiting in each thread's lists, two waves in turn
+  WaveBarrier barrier_;
+};
+
+// Sources by the wave they fall into; of two sources in one cell the nearer counts.
+std::vector<CellList> sorted_starts(std::span<const EikonalSource> sources, int nx,
+                                    std::size_t stride, std::vector<float>& u) {
+  const auto columns = static_cast<std::uint32_t>(nx);
+  auto padded = [&](std::uint32_t index) {
+    return (index / columns + 1) * stride + index % columns + 1;
+  };
+  for (const EikonalSource& source : sources) {
+    float& value = u[padded(source.index)];
+    const float waves = source.distance_cells * side;
+    if (value > waves) value = waves;
+  }
+  std::vector<CellList> starts;
+  for (const EikonalSource& source : sources) {
+    const std::size_t at = padded(source.index);
+    if (u[at] != source.distance_cells * side) continue;
+    const auto wave = static_cast<std::size_t>(u[at]);
+    if (wave >= starts.size()) starts.resize(wave + 1);
+    starts[wave].push_back(static_cast<std::uint32_t>(at));
+  }
+  return starts;
+}
+
+}  // namespace
+
+std::vector<float> eikonal_distance(std::span<const std::uint8_t> inside, int nx, int ny,
+                                    std::span<const EikonalSource> sources) {
+  require(nx >= 0 && ny >= 0, "eikonal_distance: sides are not negative");
+  const auto columns = static_cast<std::size_t>(nx);
+  const auto rows = static_cast<std::size_t>(ny);
+  require(inside.size() == columns * rows, "eikonal_distance: one entry of `inside` per cell");
+  const std::size_t stride = columns + 2;  // a rim of blocked cells spares every bounds check
+  require(stride * (rows + 2) < std::numeric_limits<std::uint32_t>::max(),
+          "eikonal_distance: fewer than 2^32 cells");
+  for (const EikonalSource& source : sources) {
+    require(source.index < inside.size() && source.distance_cells >= 0.0F &&
+                source.distance_cells < 1.0e6F,
+            "eikonal_distance: sources lie on the grid, at 0 to a million cells");
+  }
+
+  std::vector<float> u(stride * (rows + 2), std::numeric_limits<float>::quiet_NaN());
+  for_rows(ny, [&](int first, int last) {
+    for (auto iy = static_cast<std::size_t>(first); iy < static_cast<std::size_t>(last); ++iy) {
+      for (std::size_t ix = 0; ix < columns; ++ix) {
+        if (inside[iy * columns + ix] != 0) u[(iy + 1) * stride + ix + 1] = unreached;
+      }
+    }
+  });
+  std::vector<CellList> starts = sorted_starts(sources, nx, stride, u);
+  WaveFront(u, stride, std::move(starts), tbb::this_task_arena::max_concurrency()).run();
+
+  // Cut off the rim in place: every row moves towards the front of the array.
+  for (std::size_t iy = 0; iy < rows; ++iy) {
+    for (std::size_t ix = 0; ix < columns; ++ix) {
+      const float waves = u[(iy + 1) * stride + ix + 1];
+      const bool final = waves >= 0.0F && waves < static_cast<float>(last_wave);
+      u[iy * columns + ix] = final ? waves * cells_per_wave : unreached;
+    }
+  }
+  u.resize(columns * rows);
+  return u;
+}
+
+}  // namespace fairway

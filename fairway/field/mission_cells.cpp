@@ -1,0 +1,127 @@
+#include "fairway/field/mission_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fairway/base/error.hpp"
+
+namespace fairway {
+namespace {
+
+struct Segment {
+  Vec2 from;
+  Vec2 to;
+  double length_m;
+};
+
+// The pieces of the polyline that have a length, the closing one included.
+std::vector<Segment> segments_of(const PathMission& path) {
+  std::vector<Segment> out;
+  const std::size_t n = path.vertices_m.size();
+  const std::size_t pieces = path.closed ? n : (n == 0 ? 0 : n - 1);
+  for (std::size_t i = 0; i < pieces; ++i) {
+    const Vec2 a = path.vertices_m[i];
+    const Vec2 b = path.vertices_m[(i + 1) % n];
+    const double length = norm(b - a);
+    if (length > 0.0) out.push_back({a, b, length});
+  }
+  return out;
+}
+
+double distance_to(const Segment& s, Vec2 p) {
+  const Vec2 along = (1.0 / s.length_m) * (s.to - s.from);
+  const double t = std::clamp(dot(p - s.from, along), 0.0, s.length_m);
+  return norm(p - (s.from + t * along));
+}
+
+int clamped_floor(double value, int low, int high) {
+  return static_cast<int>(
+      std::clamp(std::floor(value), static_cast<double>(low), static_cast<double>(high)));
+}
+
+// Cells of one segment, row by row: the stretch of the segment inside the row, widened by nothing
+// but the closed sides of the cells.
+template <typename Visit>
+void visit_cells(const Grid& g, const Segment& s, const Visit& visit) {
+  const Vec2 a{(s.from.x - g.x0_m) / g.cell_m, (s.from.y - g.y0_m) / g.cell_m};
+  const Vec2 b{(s.to.x - g.x0_m) / g.cell_m, (s.to.y - g.y0_m) / g.cell_m};
+  const double low_y = std::min(a.y, b.y);
+  const double high_y = std::max(a.y, b.y);
+  if (high_y < 0.0 || low_y > g.ny) return;
+  const int first = clamped_floor(std::ceil(low_y) - 1.0, 0, g.ny - 1);
+  const int last = clamped_floor(high_y, 0, g.ny - 1);
+  for (int iy = first; iy <= last; ++iy) {
+    double x1 = a.x;
+    double x2 = b.x;
+    if (a.y != b.y) {
+      const double t1 = std::clamp((iy - a.y) / (b.y - a.y), 0.0, 1.0);
+      const double t2 = std::clamp((iy + 1 - a.y) / (b.y - a.y), 0.0, 1.0);
+      x1 = a.x + t1 * (b.x - a.x);
+      x2 = a.x + t2 * (b.x - a.x);
+    }
+    const double low_x = std::min(x1, x2);
+    const double high_x = std::max(x1, x2);
+    if (high_x < 0.0 || low_x > g.nx) continue;
+    const int from = clamped_floor(std::ceil(low_x) - 1.0, 0, g.nx - 1);
+    const int to = clamped_floor(high_x, 0, g.nx - 1);
+    for (int ix = from; ix <= to; ++ix) visit(Cell{ix, iy});
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> cells_inside_disc(const Grid& grid, Vec2 center_m, double radius_m) {
+  std::vector<std::uint32_t> cells;
+  const auto near = [&](double c, double o, int n) {
+    return std::pair{clamped_floor((c - radius_m - o) / grid.cell_m - 1.0, 0, n - 1),
+                     clamped_floor((c + radius_m - o) / grid.cell_m + 1.0, 0, n - 1)};
+  };
+  const auto [x_first, x_last] = near(center_m.x, grid.x0_m, grid.nx);
+  const auto [y_first, y_last] = near(center_m.y, grid.y0_m, grid.ny);
+  for (int iy = y_first; iy <= y_last; ++iy) {
+    for (int ix = x_first; ix <= x_last; ++ix) {
+      const Vec2 low = grid.corner({ix, iy}) - center_m;
+      const Vec2 high = grid.corner({ix + 1, iy + 1}) - center_m;
+      const Vec2 farthest{std::max(std::fabs(low.x), std::fabs(high.x)),
+                          std::max(std::fabs(low.y), std::fabs(high.y))};
+      if (norm2(farthest) <= radius_m * radius_m) {
+        cells.push_back(static_cast<std::uint32_t>(grid.index({ix, iy})));
+      }
+    }
+  }
+  return cells;
+}
+
+std::vector<PathCell> cells_on_path(const Grid& grid, const PathMission& path) {
+  std::vector<PathCell> cells;
+  for (const Segment& s : segments_of(path)) {
+    visit_cells(grid, s, [&](Cell c) {
+      cells.push_back({static_cast<std::uint32_t>(grid.index(c)),
+                       (1.0 / s.length_m) * (s.to - s.from), distance_to(s, grid.center(c))});
+    });
+  }
+  // Of the segments that cross a cell the nearest to its centre gives the tangent; of equally near
+  // ones the first along the path (the sort is stable).
+  std::stable_sort(cells.begin(), cells.end(), [](const PathCell& a, const PathCell& b) {
+    return a.index != b.index ? a.index < b.index : a.distance_m < b.distance_m;
+  });
+  const auto same = [](const PathCell& a, const PathCell& b) { return a.index == b.index; };
+  cells.erase(std::unique(cells.begin(), cells.end(), same), cells.end());
+  return cells;
+}
+
+PathPoint nearest_on_path(const PathMission& path, Vec2 p) {
+  PathPoint best{std::numeric_limits<double>::infinity(), {1.0, 0.0}, 0.0};
+  double along = 0.0;
+  for (const Segment& s : segments_of(path)) {
+    const Vec2 tangent = (1.0 / s.length_m) * (s.to - s.from);
+    const double t = std::clamp(dot(p - s.from, tangent), 0.0, s.length_m);
+    const double distance = norm(p - (s.from + t * tangent));
+    if (distance < best.distance_m) best = {distance, tangent, along + t};
+    along += s.length_m;
+  }
+  return best;
+}
+
+}  // namespace fairway

@@ -1,0 +1,35 @@
+// The cells of a mission: the goal disc (paper 1, Eq. 4) and the cells a path crosses (Eq. 5).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fairway/base/grid.hpp"
+#include "fairway/vehicle/mission.hpp"
+
+namespace fairway {
+
+/// Flat indices of the cells that lie wholly inside the closed disc, ascending. `center_m` finite.
+[[nodiscard]] std::vector<std::uint32_t> cells_inside_disc(const Grid& grid, Vec2 center_m,
+                                                           double radius_m);
+
+/// One cell that a path crosses, and the path at the point nearest to the cell's centre.
+struct PathCell {
+  std::uint32_t index = 0;
+  Vec2 tangent;             ///< unit vector along the path
+  double distance_m = 0.0;  ///< from the cell's centre to the path
+};
+
+/// All cells of the grid that the polyline touches, ascending by index, each once. Cells met only
+/// at a corner or along a side count: the set is connected by sides and corners.
+[[nodiscard]] std::vector<PathCell> cells_on_path(const Grid& grid, const PathMission& path);
+
+/// The point of the polyline nearest to `p`; of several the first along the path.
+struct PathPoint {
+  double distance_m = 0.0;
+  Vec2 tangent;
+  double along_m = 0.0;  ///< arc length from the first vertex
+};
+[[nodiscard]] PathPoint nearest_on_path(const PathMission& path, Vec2 p);
+
+}  // namespace fairway
