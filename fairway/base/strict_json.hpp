@@ -1,0 +1,29 @@
+// JSON from outside, read strictly: nothing deep, repeated or not finite passes.
+// Private to the library: nlohmann/json is not part of its interface.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+namespace fairway {
+
+/// Throws InputError{where, ...} for text that is not one JSON value, repeats a key in an object,
+/// or nests more than 32 deep.
+[[nodiscard]] nlohmann::json parse_strict_json(std::string_view text, const std::string& where);
+
+/// A value for an error message, cut when long.
+[[nodiscard]] std::string shown(const nlohmann::json& value);
+
+/// Members of an object, with errors that name them. `where` is the place of the object.
+const nlohmann::json& member(const nlohmann::json& object, const char* key,
+                             const std::string& where);
+double finite_number(const nlohmann::json& object, const char* key, const std::string& where);
+std::string text_member(const nlohmann::json& object, const char* key, const std::string& where);
+/// Refuses keys that are not in `known`.
+void require_known_keys(const nlohmann::json& object, std::initializer_list<std::string_view> known,
+                        const std::string& where);
+
+}  // namespace fairway

@@ -1,0 +1,242 @@
+#include "fairway/plan/plan_file.hpp"
+
+#include <array>
+#include <atomic>
+#include <climits>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
+#include <nlohmann/json.hpp>
+
+#include "fairway/base/digest.hpp"
+#include "fairway/base/error.hpp"
+#include "fairway/base/heading.hpp"
+#include "fairway/base/mapped_file.hpp"
+#include "fairway/base/parallel.hpp"
+#include "fairway/base/safetensors.hpp"
+#include "fairway/base/strict_json.hpp"
+
+namespace fairway {
+namespace {
+
+using nlohmann::json;
+
+constexpr int format_version = 1;
+constexpr std::array<const char*, 5> own_keys{"format_version", "origin_m", "cell_m", "vehicle",
+                                              "sha256"};
+
+/// F32 first, so that every array is aligned.
+std::vector<Tensor> tensors_of(const Plan& plan) {
+  const std::vector<std::uint64_t> shape{static_cast<std::uint64_t>(plan.grid.ny),
+                                         static_cast<std::uint64_t>(plan.grid.nx)};
+  return {{"heading_rad", "F32", shape, std::as_bytes(std::span(plan.heading_rad))},
+          {"cost_m", "F32", shape, std::as_bytes(std::span(plan.cost_m))},
+          {"region", "I8", shape, std::as_bytes(std::span(plan.region))}};
+}
+
+std::array<std::string, 3> digests_of(const std::vector<Tensor>& tensors) {
+  std::array<std::string, 3> digest;
+  tbb::parallel_invoke([&] { digest[0] = sha256_hex(tensors[0].data); },
+                       [&] { digest[1] = sha256_hex(tensors[1].data); },
+                       [&] { digest[2] = sha256_hex(tensors[2].data); });
+  return digest;
+}
+
+std::string geometry_defect(const Grid& grid, const Vehicle& vehicle) {
+  const auto positive = [](double x) { return std::isfinite(x) && x > 0.0; };
+  if (grid.nx < 1 || grid.ny < 1) return "the grid has no cells";
+  if (!positive(grid.cell_m)) return "cell_m is not a positive number";
+  if (!positive(vehicle.speed_mps)) return "speed_mps is not a positive number";
+  if (!positive(vehicle.turn_radius_m)) return "turn_radius_m is not a positive number";
+  if (!(grid.cell_m < vehicle.turn_radius_m)) {
+    return fmt::format("cell_m is {} m, expected less than turn_radius_m, {} m", grid.cell_m,
+                       vehicle.turn_radius_m);
+  }
+  constexpr double farthest_cells = 1e9;  // beyond it neighbouring borders run together
+  if (!(std::abs(grid.x0_m) <= farthest_cells * grid.cell_m &&
+        std::abs(grid.y0_m) <= farthest_cells * grid.cell_m)) {
+    return fmt::format("origin_m is [{}, {}], expected within 1e9 cells of zero", grid.x0_m,
+                       grid.y0_m);
+  }
+  return {};
+}
+
+bool cell_valid(const Plan& plan, std::size_t i) {
+  const double heading_rad = plan.heading_rad[i];
+  const int region = static_cast<int>(plan.region[i]);
+  const bool heading_valid = heading_rad > -pi && heading_rad <= pi;
+  const bool may_lack_heading = plan.cost_m[i] == std::numeric_limits<float>::infinity() ||
+                                plan.region[i] == Region::obstacle;
+  return plan.cost_m[i] >= 0.0F && region >= -1 && region <= 2 &&
+         (heading_valid || (std::isnan(heading_rad) && may_lack_heading));
+}
+
+std::string cell_defect(const Plan& plan, std::size_t i) {
+  const double heading_rad = plan.heading_rad[i];
+  const float cost_m = plan.cost_m[i];
+  const int region = static_cast<int>(plan.region[i]);
+  if (!std::isnan(heading_rad) && !(heading_rad > -pi && heading_rad <= pi)) {
+    return fmt::format("heading_rad is {}, expected (-pi, pi] or NaN", heading_rad);
+  }
+  if (!(cost_m >= 0.0F)) return fmt::format("cost_m is {}, expected >= 0 or infinity", cost_m);
+  if (region < -1 || region > 2) {
+    return fmt::format("region is {}, expected -1, 0, 1 or 2", region);
+  }
+  return "heading_rad is NaN, expected a heading where cost_m is finite";
+}
+
+json metadata_of(const Plan& plan, const std::vector<Tensor>& tensors) {
+  json record = json::parse(plan.record_json, nullptr, false);
+  require(record.is_object(), "record_json is one JSON object");
+  for (const char* key : own_keys)
+    require(!record.contains(key), "record_json leaves out what the plan holds");
+  const auto digest = digests_of(tensors);
+  record["format_version"] = format_version;
+  record["origin_m"] = {plan.grid.x0_m, plan.grid.y0_m};
+  record["cell_m"] = plan.grid.cell_m;
+  record["vehicle"] = {{"speed_mps", plan.vehicle.speed_mps},
+                       {"turn_radius_m", plan.vehicle.turn_radius_m}};
+  for (std::size_t i = 0; i < tensors.size(); ++i) record["sha256"][tensors[i].name] = digest[i];
+  return record;
+}
+
+template <typename T>
+void copy_tensor(const Safetensors& file, std::size_t index, std::vector<T>& into) {
+  const std::span<const std::byte> data = file.tensors[index].data;
+  into.resize(data.size() / sizeof(T));
+  std::memcpy(into.data(), data.data(), data.size());
+}
+
+/// The index of the tensor `name`; its type and shape are as expected.
+std::size_t tensor_at(const Safetensors& file, std::string_view name, std::string_view dtype,
+                      const std::string& where) {
+  for (std::size_t i = 0; i < file.tensors.size(); ++i) {
+    const Tensor& tensor = file.tensors[i];
+    if (tensor.name != name) continue;
+    const std::string place = fmt::format("{}: \"{}\"", where, name);
+    if (tensor.dtype != dtype) {
+      throw InputError(place + ".dtype", fmt::format("is {}, expected {}", tensor.dtype, dtype));
+    }
+    if (tensor.shape.size() != 2 || tensor.shape != file.tensors[0].shape) {
+      throw InputError(place + ".shape", "expected [ny, nx], the same for every array");
+    }
+    for (const std::uint64_t extent : tensor.shape) {
+      if (extent < 1 || extent > INT_MAX) {
+        throw InputError(place + ".shape", fmt::format("has the size {}", extent));
+      }
+    }
+    return i;
+  }
+  throw InputError(where, fmt::format("lacks the array \"{}\"", name));
+}
+
+void require_digest(const json& digests, const Tensor& tensor, const std::string& found,
+                    const std::string& where) {
+  const std::string place = where + ".sha256";
+  if (text_member(digests, tensor.name.c_str(), place) != found) {
+    throw InputError(place + "." + tensor.name,
+                     "is not the digest of the array: the file was damaged or altered");
+  }
+}
+
+void take_geometry(const json& record, const std::string& where, Plan& plan) {
+  const json& version = member(record, "format_version", where);
+  if (version != json(format_version)) {
+    throw InputError(where + ".format_version",
+                     fmt::format("is {}, expected {}", shown(version), format_version));
+  }
+  const json& origin = member(record, "origin_m", where);
+  if (!origin.is_array() || origin.size() != 2 || !origin[0].is_number() ||
+      !origin[1].is_number()) {
+    throw InputError(where + ".origin_m", "expected [x0, y0], found " + shown(origin));
+  }
+  plan.grid.x0_m = origin[0].get<double>();
+  plan.grid.y0_m = origin[1].get<double>();
+  plan.grid.cell_m = finite_number(record, "cell_m", where);
+  const json& vehicle = member(record, "vehicle", where);
+  require_known_keys(vehicle, {"speed_mps", "turn_radius_m"}, where + ".vehicle");
+  plan.vehicle.speed_mps = finite_number(vehicle, "speed_mps", where + ".vehicle");
+  plan.vehicle.turn_radius_m = finite_number(vehicle, "turn_radius_m", where + ".vehicle");
+}
+
+}  // namespace
+
+std::string plan_defect(const Plan& plan) {
+  if (const std::string defect = geometry_defect(plan.grid, plan.vehicle); !defect.empty()) {
+    return defect;
+  }
+  const std::size_t n = plan.grid.size();
+  if (plan.heading_rad.size() != n || plan.region.size() != n || plan.cost_m.size() != n) {
+    return "an array has not one entry per cell";
+  }
+  std::atomic<std::size_t> first{n};  // the lowest, whichever thread sees it
+  for_ranges(n, 1 << 16, [&](std::size_t begin, std::size_t end) {
+    std::size_t i = begin;
+    while (i < end && cell_valid(plan, i)) ++i;
+    std::size_t lowest = first.load();
+    while (i < end && i < lowest && !first.compare_exchange_weak(lowest, i)) {
+    }
+  });
+  if (first == n) return {};
+  const Cell c = plan.grid.cell_at(first);
+  return fmt::format("cell ix {} iy {}: {}", c.ix, c.iy, cell_defect(plan, first));
+}
+
+void write_plan(const Plan& plan, const std::filesystem::path& path, Existing existing) {
+  if (const std::string defect = plan_defect(plan); !defect.empty()) {
+    throw ContractViolation("a plan to be written: " + defect);
+  }
+  AtomicFile file(path, existing);
+  const std::vector<Tensor> tensors = tensors_of(plan);
+  const std::string record = metadata_of(plan, tensors).dump(-1, ' ', true);
+  write_safetensors(file, {{{"fairway", record}}, tensors});
+  file.commit();
+}
+
+Plan plan_of_bytes(std::span<const std::byte> bytes, const std::string& where) {
+  const Safetensors file = parse_safetensors(bytes, where);
+  const auto text = file.metadata.find("fairway");
+  if (text == file.metadata.end()) {
+    throw InputError(where, "is not a plan: __metadata__ has no string \"fairway\"");
+  }
+  const std::string place = where + ": fairway";
+  json record = parse_strict_json(text->second, place);
+  if (file.tensors.size() > 3) {
+    throw InputError(where, "has arrays beside heading_rad, cost_m and region");
+  }
+
+  const std::size_t heading = tensor_at(file, "heading_rad", "F32", where);
+  const std::size_t cost = tensor_at(file, "cost_m", "F32", where);
+  const std::size_t region = tensor_at(file, "region", "I8", where);
+
+  Plan plan;
+  plan.grid.ny = static_cast<int>(file.tensors[0].shape[0]);
+  plan.grid.nx = static_cast<int>(file.tensors[0].shape[1]);
+  take_geometry(record, place, plan);
+  const auto digest = digests_of(file.tensors);
+  const json& digests = member(record, "sha256", place);
+  require_known_keys(digests, {"heading_rad", "cost_m", "region"}, place + ".sha256");
+  for (std::size_t i = 0; i < 3; ++i) require_digest(digests, file.tensors[i], digest[i], place);
+
+  copy_tensor(file, heading, plan.heading_rad);
+  copy_tensor(file, cost, plan.cost_m);
+  copy_tensor(file, region, plan.region);
+  if (const std::string defect = plan_defect(plan); !defect.empty()) {
+    throw InputError(where, defect);
+  }
+  for (const char* key : own_keys) record.erase(key);
+  plan.record_json = record.dump(-1, ' ', true);
+  return plan;
+}
+
+Plan read_plan(const std::filesystem::path& path) {
+  const MappedFile file(path);
+  return plan_of_bytes(file.bytes(), path.string());
+}
+
+}  // namespace fairway
