@@ -1,0 +1,136 @@
+#include "fairway/report/draw_flights.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fairway/base/error.hpp"
+#include "fairway/report/flight_path.hpp"
+#include "fairway/report/map_page.hpp"
+
+namespace fairway {
+namespace {
+
+constexpr double start_dot_pt = 2.4;
+constexpr double start_tick_pt = 9.0;
+
+/// Rare outcomes are drawn last and strongest, so that they are seen among many flights.
+constexpr std::array<Outcome, 4> outcomes{Outcome::reach, Outcome::leave, Outcome::collide,
+                                          Outcome::trapped};
+
+Pen outcome_pen(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::reach:
+      return {color_of_oklch(0.48, 0.13, 255.0), 0.9, {}};
+    case Outcome::collide:
+      return {color_of_oklch(0.58, 0.20, 40.0), 1.5, {4.0, 1.5}};
+    case Outcome::leave:
+      return {color_of_oklch(0.62, 0.13, 80.0), 1.5, {1.5, 1.5}};
+    case Outcome::trapped:
+      return {color_of_oklch(0.50, 0.17, 340.0), 1.3, {6.0, 1.5, 1.5, 1.5}};
+  }
+  return {};
+}
+
+/// One style with all flights that share it.
+struct Bundle {
+  std::string label;
+  std::string layer;
+  Pen pen;
+  std::vector<const Flight*> flights;
+};
+
+std::vector<Bundle> bundles_by_outcome(std::span<const Flight> flights) {
+  std::vector<Bundle> bundles;
+  for (const Outcome outcome : outcomes) {
+    Bundle bundle{"", fmt::format("flights-{}", name_of(outcome)), outcome_pen(outcome), {}};
+    for (const Flight& flight : flights)
+      if (flight.result.outcome == outcome) bundle.flights.push_back(&flight);
+    if (bundle.flights.empty()) continue;
+    bundle.label = fmt::format("{} ({})", name_of(outcome), bundle.flights.size());
+    bundles.push_back(std::move(bundle));
+  }
+  return bundles;
+}
+
+std::vector<Bundle> bundles_by_name(std::span<const Flight> flights,
+                                    const std::vector<std::string>& names) {
+  static const std::array<std::vector<double>, 3> dashes{
+      {{}, {1.5, 1.8}, {5.0, 2.0}}};  // solid, dotted, dashed, as the charts have them
+  std::vector<Bundle> bundles;
+  std::map<std::string, std::size_t> place;
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    const std::size_t k = place.try_emplace(names[i], bundles.size()).first->second;
+    if (k == bundles.size())
+      bundles.push_back({names[i],
+                         fmt::format("flights-{}", k + 1),
+                         {series_color(static_cast<int>(k)), 1.6, dashes[k % dashes.size()]},
+                         {}});
+    bundles[k].flights.push_back(&flights[i]);
+  }
+  return bundles;
+}
+
+void draw_bundle(MapPage& page, const Bundle& bundle, std::size_t share_of_drawn) {
+  Canvas& canvas = page.canvas();
+  const auto layer = canvas.layer(bundle.layer, page.frame().rect);
+  Pen pen = bundle.pen;
+  if (bundle.flights.size() > 60) pen.width_pt *= 0.6;
+  const std::size_t count = std::min(bundle.flights.size(), share_of_drawn);
+  for (std::size_t i = 0; i < count; ++i)
+    canvas.stroke(flight_path(*bundle.flights[i], page.frame()), pen);
+  DrawingPath dots;
+  DrawingPath ticks;
+  const double dot_pt = bundle.flights.size() > 60 ? 0.6 * start_dot_pt : start_dot_pt;
+  for (std::size_t i = 0; i < count; ++i) {
+    const State& start = bundle.flights[i]->start;
+    const Vec2 at = page.frame().to_page(start.position_m);
+    const Vec2 along{start.heading.unit().x, -start.heading.unit().y};
+    dots.move_to({at.x + dot_pt, at.y}).arc(at, dot_pt, 0.0, two_pi).close();
+    ticks.move_to(at).line_to(at + dot_pt / start_dot_pt * start_tick_pt * along);
+  }
+  canvas.stroke(ticks, {pen.color, 1.2 * dot_pt / start_dot_pt, {}});
+  canvas.fill(dots, pen.color);
+}
+
+}  // namespace
+
+Picture draw_flights(const Plan& plan, std::span<const Flight> flights,
+                     const FlightPictureOptions& options) {
+  require(options.names.empty() || options.names.size() == flights.size(),
+          "names: none, or one per flight");
+  require(options.most_drawn >= 1, "at least one flight is drawn");
+  const bool by_name = !options.names.empty();
+  const auto bundles =
+      by_name ? bundles_by_name(flights, options.names) : bundles_by_outcome(flights);
+  std::vector<LegendEntry> entries;
+  for (const Bundle& bundle : bundles) entries.push_back(line_entry(bundle.label, bundle.pen));
+
+  // Every outcome keeps its fair part: the few that collide matter more than the many that do not.
+  std::vector<std::size_t> drawn(bundles.size(), 0);
+  std::size_t left = static_cast<std::size_t>(options.most_drawn);
+  for (bool any = true; any && left > 0;) {
+    any = false;
+    for (std::size_t k = bundles.size(); k-- > 0 && left > 0;)
+      if (drawn[k] < bundles[k].flights.size()) {
+        ++drawn[k];
+        --left;
+        any = true;
+      }
+  }
+  std::size_t total = 0;
+  for (const std::size_t count : drawn) total += count;
+  if (total < flights.size())
+    entries.push_back({fmt::format("{} of {} drawn", total, flights.size()), {}});
+
+  MapPage page(plan,
+               {options.title, false, options.mission, options.frame_pt, options.pixels_per_pt},
+               std::move(entries));
+  for (std::size_t k = 0; k < bundles.size(); ++k) draw_bundle(page, bundles[k], drawn[k]);
+  return page.finish();
+}
+
+}  // namespace fairway
