@@ -1,0 +1,379 @@
+#include "fairway/simulate/exact_flight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "fairway/base/error.hpp"
+#include "fairway/base/parallel.hpp"
+
+namespace fairway {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+FlightLimits with_defaults(FlightLimits limits, const Grid& grid, double turn_radius_m) {
+  if (limits.length_m == 0.0) {
+    limits.length_m =
+        4.0 * static_cast<double>(grid.size()) * grid.cell_m + 1000.0 * two_pi * turn_radius_m;
+  }
+  if (limits.crossings == 0) {
+    limits.crossings = static_cast<std::uint64_t>(64.0 * (limits.length_m / grid.cell_m));
+  }
+  return limits;
+}
+
+}  // namespace
+
+/// Where a flight is: a cell of the padded table, and the state in the cell's own coordinates.
+struct ExactFlights::Position {
+  std::size_t place = 0;
+  CellState state;
+  bool slides = false;  // straight along a border whose two cells turn towards it
+};
+
+ExactFlights::ExactFlights(const Plan& plan)
+    : grid_(plan.grid),
+      vehicle_(plan.vehicle),
+      stride_(static_cast<std::size_t>(plan.grid.nx) + 2) {
+  require(grid_.nx > 0 && grid_.ny > 0, "a plan has at least one cell");
+  require(std::isfinite(grid_.x0_m) && std::isfinite(grid_.y0_m), "the grid's origin is finite");
+  require(grid_.cell_m > 0.0 && grid_.cell_m < vehicle_.turn_radius_m &&
+              std::isfinite(vehicle_.turn_radius_m),
+          "0 < cell side < turning radius");
+  require(vehicle_.speed_mps > 0.0 && std::isfinite(vehicle_.speed_mps), "speed > 0");
+  require(plan.heading_rad.size() == grid_.size() && plan.region.size() == grid_.size(),
+          "a plan's arrays have one entry per cell");
+  const auto nx = static_cast<std::size_t>(grid_.nx);
+  const auto ny = static_cast<std::size_t>(grid_.ny);
+  const Direction none = Direction::none();
+  cells_.assign(stride_ * (ny + 2),
+                {none.unit, std::numeric_limits<float>::quiet_NaN(), Kind::outside});
+  for_rows(grid_.ny, [&](int begin, int end) {
+    for (auto iy = static_cast<std::size_t>(begin); iy < static_cast<std::size_t>(end); ++iy) {
+      for (std::size_t ix = 0; ix < nx; ++ix) {
+        CellRecord& cell = cells_[(iy + 1) * stride_ + ix + 1];
+        cell.rad = plan.heading_rad[iy * nx + ix];
+        if (!std::isnan(cell.rad)) {
+          cell.unit = Direction::of(Heading::from_rad(static_cast<double>(cell.rad))).unit;
+        }
+        const Region region = plan.region[iy * nx + ix];
+        cell.kind = region == Region::obstacle ? Kind::obstacle
+                    : region == Region::goal   ? Kind::goal
+                                               : Kind::open;
+      }
+    }
+  });
+}
+
+ExactFlights::Position ExactFlights::locate(const State& start) const {
+  const Vec2 p = start.position_m;
+  require(std::isfinite(p.x) && std::isfinite(p.y), "a start's position is finite");
+  const double d = grid_.cell_m;
+  // The padding ring stands for all the world outside; on the closed grid's edge we are inside.
+  const auto along = [d](double x, double x0, int n, double& local) {
+    if (x < x0 || x > x0 + n * d) {
+      local = 0.5 * d;
+      return x < x0 ? -1 : n;
+    }
+    int i = std::min(static_cast<int>((x - x0) / d), n - 1);
+    // The division may round up to the next cell.
+    if (x < x0 + i * d) --i;
+    if (i + 1 < n && x >= x0 + (i + 1) * d) ++i;
+    local = std::clamp(x - (x0 + i * d), 0.0, d);
+    return i;
+  };
+  Position position;
+  position.state.heading = Direction::of(start.heading);
+  const int ix = along(p.x, grid_.x0_m, grid_.nx, position.state.position_m.x);
+  const int iy = along(p.y, grid_.y0_m, grid_.ny, position.state.position_m.y);
+  position.place = static_cast<std::size_t>(iy + 1) * stride_ + static_cast<std::size_t>(ix + 1);
+  return position;
+}
+
+/// For states on a border that are more than a plain crossing (starts, corners, touches): moves the
+/// state into the cell its heading points into, and answers what it meets there.
+ExactFlights::Kind ExactFlights::settle(Position& position, bool at_start) const {
+  const double d = grid_.cell_m;
+  Vec2& p = position.state.position_m;
+  const Vec2 u = position.state.heading.unit;
+  position.slides = false;
+  if (at(position.place).kind == Kind::outside) return Kind::outside;
+
+  if (p.x == d && u.x > 0.0) {
+    p.x = 0.0;
+    position.place += 1;
+  } else if (p.x == 0.0 && u.x < 0.0) {
+    p.x = d;
+    position.place -= 1;
+  }
+  if (p.y == d && u.y > 0.0) {
+    p.y = 0.0;
+    position.place += stride_;
+  } else if (p.y == 0.0 && u.y < 0.0) {
+    p.y = d;
+    position.place -= stride_;
+  }
+
+  // The closed cells that hold the point: one, two or four. From the ring around the grid the steps
+  // lead back inside, as the point lies on the grid's edge.
+  const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(stride_);
+  const std::ptrdiff_t dx = p.x == 0.0 ? -1 : p.x == d ? 1 : 0;
+  const std::ptrdiff_t dy = p.y == 0.0 ? -row : p.y == d ? row : 0;
+  const auto kind_at = [&](std::ptrdiff_t step) {
+    return cells_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(position.place) + step)]
+        .kind;
+  };
+  for (const std::ptrdiff_t step : {std::ptrdiff_t{0}, dx, dy, dx + dy}) {
+    if (kind_at(step) == Kind::obstacle) return Kind::obstacle;
+  }
+  const std::ptrdiff_t beside = dx != 0 && u.x == 0.0 ? dx : dy != 0 && u.y == 0.0 ? dy : 0;
+  const Kind here = kind_at(0);
+  const Kind there = kind_at(beside);
+  if (beside == 0 || here == Kind::outside || there == Kind::outside) return here;
+  choose_side(position, beside, at_start);
+  return there == Kind::goal ? there : here;
+}
+
+/// Heading along the border between two cells: see the conventions in the header.
+void ExactFlights::choose_side(Position& position, std::ptrdiff_t beside, bool at_start) const {
+  const double d = grid_.cell_m;
+  const Vec2 u = position.state.heading.unit;
+  const Vec2 p = position.state.position_m;
+  // The cell's middle lies to the left of the heading.
+  const bool on_left = cross(u, Vec2{0.5 * d - p.x, 0.5 * d - p.y}) > 0.0;
+  const auto other = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(position.place) + beside);
+  const auto stays = [&](std::size_t place, bool left) {
+    const int turn = turn_towards(position.state.heading, command_at(place));
+    return left ? turn >= 0 : turn <= 0;
+  };
+  const bool stays_here = stays(position.place, on_left);
+  const bool stays_there = stays(other, !on_left);
+  const bool prefers_here = !at_start || on_left;
+  position.slides = !stays_here && !stays_there;
+  if (prefers_here ? stays_here || !stays_there : stays_here && !stays_there) return;
+  position.place = other;
+  Vec2& q = position.state.position_m;
+  if (u.x == 0.0) {
+    q.x = q.x == 0.0 ? d : 0.0;
+  } else {
+    q.y = q.y == 0.0 ? d : 0.0;
+  }
+}
+
+/// Brent's cycle detection: the flight is compared with one kept state, replaced after 2, 4, 8, ...
+/// crossings. A closed curve of curvature at most 1 / r is at least 2 pi r long (Fenchel), which
+/// keeps the tiny hops of a weave along a border from passing for a cycle.
+class ExactFlights::CycleWatch {
+ public:
+  CycleWatch(double cell_m, double turn_radius_m)
+      : position_tolerance_m_(1e-9 * cell_m), shortest_m_(6.28 * turn_radius_m) {}
+
+  bool repeats(const Position& now, double flown_m) {
+    const Vec2 moved = now.state.position_m - kept_.state.position_m;
+    if (now.place == kept_.place && flown_m - kept_at_m_ >= shortest_m_ &&
+        std::abs(moved.x) <= position_tolerance_m_ && std::abs(moved.y) <= position_tolerance_m_ &&
+        norm2(now.state.heading.unit - kept_.state.heading.unit) <= 1e-18) {
+      return true;
+    }
+    if (--left_ == 0) {
+      period_ *= 2;
+      left_ = period_;
+      kept_ = now;
+      kept_at_m_ = flown_m;
+    }
+    return false;
+  }
+
+ private:
+  double position_tolerance_m_;
+  double shortest_m_;
+  Position kept_;
+  double kept_at_m_ = infinity;
+  std::uint64_t period_ = 1;
+  std::uint64_t left_ = 1;
+};
+
+/// Moves `position` from the exit into the next cell and answers what that is.
+ExactFlights::Kind ExactFlights::enter_next(Position& position, const CellExit& exit) const {
+  const double d = grid_.cell_m;
+  position.state = exit.state;
+  position.slides = false;
+  if (exit.on_corner(d) || exit.is_touch()) [[unlikely]]
+    return settle(position, false);
+  Vec2& p = position.state.position_m;
+  switch (exit.side) {
+    case Side::right:
+      p.x = 0.0;
+      position.place += 1;
+      break;
+    case Side::top:
+      p.y = 0.0;
+      position.place += stride_;
+      break;
+    case Side::left:
+      p.x = d;
+      position.place -= 1;
+      break;
+    case Side::bottom:
+      p.y = d;
+      position.place -= stride_;
+      break;
+  }
+  return at(position.place).kind;
+}
+
+template <bool passes_goals, typename Recorder>
+FlightRun ExactFlights::fly_through(const State& start, const FlightLimits& limits,
+                                    Recorder& recorder) const {
+  const CellShape shape{grid_.cell_m, vehicle_.turn_radius_m};
+  CycleWatch watch(shape.cell_m, shape.turn_radius_m);
+  FlightRun run;
+  double reached_m = infinity;
+  Position position = locate(start);
+  Kind kind = settle(position, true);
+  for (;;) {
+    if (passes_goals && kind == Kind::goal) {
+      reached_m = std::min(reached_m, run.flown_m);
+    } else if (kind != Kind::open) {
+      run.ended_by = kind == Kind::goal       ? EndedBy::goal
+                     : kind == Kind::obstacle ? EndedBy::obstacle
+                                              : EndedBy::grid_edge;
+      break;
+    }
+    if (run.flown_m >= limits.length_m) {
+      run.ended_by = EndedBy::length_limit;
+      break;
+    }
+    if (run.crossings >= limits.crossings) {
+      run.ended_by = EndedBy::crossing_limit;
+      break;
+    }
+    if (!passes_goals && watch.repeats(position, run.flown_m)) {
+      run.ended_by = EndedBy::repeating_state;
+      break;
+    }
+    const Direction command = position.slides ? Direction::none() : command_at(position.place);
+    const CellExit exit = cross_cell(position.state, command, shape);
+    recorder.add(position, exit, run.flown_m);
+    run.flown_m += exit.length_m();
+    ++run.crossings;
+    kind = enter_next(position, exit);
+  }
+  run.result = result_of(run, reached_m);
+  return run;
+}
+
+FlightResult ExactFlights::result_of(const FlightRun& run, double reached_m) const {
+  const auto at_length = [&](Outcome outcome, double length_m) {
+    return FlightResult{outcome, length_m / vehicle_.speed_mps, length_m};
+  };
+  if (reached_m < infinity) return at_length(Outcome::reach, reached_m);
+  switch (run.ended_by) {
+    case EndedBy::goal:
+      return at_length(Outcome::reach, run.flown_m);
+    case EndedBy::obstacle:
+      return at_length(Outcome::collide, run.flown_m);
+    case EndedBy::grid_edge:
+      return at_length(Outcome::leave, run.flown_m);
+    default:
+      return at_length(Outcome::trapped, infinity);
+  }
+}
+
+/// Joins what cells cut: pieces of the same curvature, end to end.
+class ExactFlights::PieceRecorder {
+ public:
+  PieceRecorder(const ExactFlights& flights, double until_m)
+      : flights_(flights), until_m_(until_m) {}
+
+  void add(const Position& from, const CellExit& exit, double flown_m) {
+    const Vec2 corner = flights_.corner_of(from.place);
+    const double curvature = exit.turn / flights_.vehicle_.turn_radius_m;
+    append(corner + from.state.position_m, from.state.heading, curvature, exit.arc_m, flown_m);
+    append(corner + exit.arc_end_m, exit.state.heading, 0.0, exit.straight_m, flown_m + exit.arc_m);
+  }
+  std::vector<FlightSegment> take() { return std::move(segments_); }
+
+ private:
+  void append(Vec2 p, const Direction& heading, double curvature, double length_m, double flown_m) {
+    length_m = std::min(length_m, until_m_ - flown_m);
+    if (!(length_m > 0.0)) return;
+    if (!segments_.empty() && segments_.back().curvature_per_m == curvature) {
+      segments_.back().length_m += length_m;
+      return;
+    }
+    segments_.push_back({{p, Heading::from_rad(heading.rad)},
+                         flown_m / flights_.vehicle_.speed_mps,
+                         length_m,
+                         curvature});
+  }
+
+  const ExactFlights& flights_;
+  double until_m_;
+  std::vector<FlightSegment> segments_;
+};
+
+Vec2 ExactFlights::corner_of(std::size_t place) const {
+  const Cell cell{static_cast<int>(place % stride_) - 1, static_cast<int>(place / stride_) - 1};
+  return grid_.corner(cell);
+}
+
+FlightRun ExactFlights::run(const State& start, FlightLimits limits) const {
+  struct {
+    void add(const Position&, const CellExit&, double) {}
+  } nothing;
+  return fly_through<false>(start, with_defaults(limits, grid_, vehicle_.turn_radius_m), nothing);
+}
+
+FlightResult ExactFlights::fly(const State& start, FlightLimits limits) const {
+  return run(start, limits).result;
+}
+
+Flight ExactFlights::record(const State& start, FlightLimits limits) const {
+  PieceRecorder recorder(*this, infinity);
+  const FlightRun run =
+      fly_through<false>(start, with_defaults(limits, grid_, vehicle_.turn_radius_m), recorder);
+  return {start, run.result, recorder.take()};
+}
+
+Flight ExactFlights::follow(const State& start, double length_m) const {
+  require(length_m > 0.0 && std::isfinite(length_m), "a flight is followed for a length > 0");
+  PieceRecorder recorder(*this, length_m);
+  const FlightRun run = fly_through<true>(
+      start, with_defaults({length_m, 0}, grid_, vehicle_.turn_radius_m), recorder);
+  return {start, run.result, recorder.take()};
+}
+
+namespace {
+
+template <typename Result, typename Fly>
+std::vector<Result> each(std::span<const State> starts, const Fly& fly) {
+  std::vector<Result> results(starts.size());
+  for_ranges(starts.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) results[i] = fly(starts[i]);
+  });
+  return results;
+}
+
+}  // namespace
+
+std::vector<FlightResult> ExactFlights::fly_all(std::span<const State> starts,
+                                                FlightLimits limits) const {
+  return each<FlightResult>(starts, [&](const State& s) { return fly(s, limits); });
+}
+
+std::vector<FlightRun> ExactFlights::run_all(std::span<const State> starts,
+                                             FlightLimits limits) const {
+  return each<FlightRun>(starts, [&](const State& s) { return run(s, limits); });
+}
+
+std::vector<Flight> ExactFlights::record_all(std::span<const State> starts,
+                                             FlightLimits limits) const {
+  return each<Flight>(starts, [&](const State& s) { return record(s, limits); });
+}
+
+}  // namespace fairway

@@ -1,0 +1,312 @@
+// The exact motion of the vehicle through one cell under the bang-bang law (the contract's model
+// section; paper 2, section "motion inside a cell"): at most one arc, then a straight line.
+//
+// Coordinates are the cell's own, (0, 0) at its lower left corner, so that rounding stays that of
+// numbers as small as the cell. A heading is kept as an angle and as a unit vector: geometry uses
+// the vector and square roots, only lengths use angles (at most one asin per crossing).
+//
+// Properties that always hold, for a state in the closed cell and cell_m < turn_radius_m:
+//   1. The exit lies on the closed border: the coordinate across its side is exactly 0 or cell_m,
+//      the other one in [0, cell_m].
+//   2. In one cell the vehicle turns by less than 90 degrees: the cell is convex, so the chord of
+//      an arc inside is at most sqrt(2) cell_m < sqrt(2) r, and a chord is 2 r sin(angle / 2).
+//   3. After aligning, the heading is the command, the same bits.
+//   4. A heading along a border keeps its zero component exactly; 0 stays 0.
+//   5. A touch (the arc's extreme point on the border) is an exit whose heading runs along it.
+//   6. Mirroring or turning the cell by 90 degrees changes the answer by rounding only.
+// Error (observed over random draws against long double, see the test): exit point and length
+// within 1e-14 turn radii, but for grazing exits, where the time is as uncertain as the square root
+// of rounding while the point stays on its arc.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "fairway/base/heading.hpp"
+#include "fairway/base/vec2.hpp"
+
+namespace fairway {
+
+/// A direction twice: unit vector and angle in (-pi, pi].
+struct Direction {
+  Vec2 unit{1.0, 0.0};
+  double rad = 0.0;
+
+  static constexpr Direction none() {
+    return {{0.0, 0.0}, std::numeric_limits<double>::quiet_NaN()};
+  }
+  /// The doubles pi and +-pi/2 stand for the axes themselves: their unit vectors are exact.
+  static Direction of(Heading heading) {
+    const double h = heading.rad();
+    if (h == pi) return {{-1.0, 0.0}, h};
+    if (h == pi / 2) return {{0.0, 1.0}, h};
+    if (h == -pi / 2) return {{0.0, -1.0}, h};
+    return {heading.unit(), h};
+  }
+};
+
+/// Sides counter-clockwise, so that a quarter turn adds one.
+enum class Side : std::uint8_t { right = 0, top = 1, left = 2, bottom = 3 };
+
+enum class CellPath : std::uint8_t { straight, arc, arc_then_straight };
+
+struct CellState {
+  Vec2 position_m;  ///< in [0, cell_m]^2
+  Direction heading;
+};
+
+struct CellExit {
+  CellState state;  ///< on the border that is left, in the coordinates of the cell that is left
+  Vec2 arc_end_m;   ///< where the arc ends (the start when there is none)
+  double arc_m = 0.0;
+  double straight_m = 0.0;
+  int turn = 0;  ///< +1 left, -1 right, 0 no arc
+  Side side = Side::right;
+  CellPath path = CellPath::straight;
+
+  double length_m() const { return arc_m + straight_m; }
+  bool on_corner(double cell_m) const {
+    const Vec2 p = state.position_m;
+    return (p.x == 0.0 || p.x == cell_m) && (p.y == 0.0 || p.y == cell_m);
+  }
+  /// The heading runs along the side: a touch, not a crossing.
+  bool is_touch() const {
+    const bool vertical = side == Side::right || side == Side::left;
+    return (vertical ? state.heading.unit.x : state.heading.unit.y) == 0.0;
+  }
+};
+
+struct CellShape {
+  double cell_m = 1.0;
+  double turn_radius_m = 2.0;  ///< > cell_m
+};
+
+/// The side on which the command lies: +1 left, -1 right, 0 aligned or no command. Exactly opposite
+/// (difference of the angles exactly pi in double) turns left.
+inline int turn_towards(const Direction& heading, const Direction& command) {
+  const double sine = cross(heading.unit, command.unit);
+  const double cosine = dot(heading.unit, command.unit);
+  if (cosine < 0.0 && std::abs(sine) < 1e-9) {
+    const double d = command.rad - heading.rad;  // |d| is within 1e-8 of pi
+    return (d > 0.0) == (std::abs(d) <= pi) || std::abs(d) == pi ? 1 : -1;
+  }
+  return sine > 0.0 ? 1 : sine < 0.0 ? -1 : 0;
+}
+
+/// |b - a| on the circle, [0, pi].
+inline double angle_between(double a_rad, double b_rad) {
+  const double d = std::abs(b_rad - a_rad);
+  return d > pi ? two_pi - d : d;
+}
+
+namespace cell_motion {
+
+/// From the start to the end of an arc of radius r that turns from u to c: r tan(angle / 2) along
+/// u + c. The difference left(u) - left(c) would lose the part across a short arc to rounding.
+inline Vec2 arc_move(Vec2 u, Vec2 c, double r) {
+  return (r * std::abs(cross(u, c)) / (1.0 + dot(u, c))) * (u + c);
+}
+
+/// Straight from p along u to the first border. Compares gap_x / |u_x| with gap_y / |u_y| by
+/// cross-multiplying: no division by zero. Rounding may carry the coordinate along the border past
+/// the corner by an ulp of cell_m: there the exit is that corner.
+inline void exit_straight(Vec2 p, Vec2 u, double cell_m, CellExit& exit) {
+  const double gap_x = u.x > 0.0 ? cell_m - p.x : p.x;
+  const double gap_y = u.y > 0.0 ? cell_m - p.y : p.y;
+  const double ax = std::abs(u.x);
+  const double ay = std::abs(u.y);
+  const double to_vertical = gap_x * ay;
+  const double to_horizontal = gap_y * ax;
+  const bool vertical = to_vertical < to_horizontal || (to_vertical == to_horizontal && ax >= ay);
+  if (vertical) {
+    exit.straight_m = gap_x / ax;
+    exit.side = u.x > 0.0 ? Side::right : Side::left;
+    exit.state.position_m = {u.x > 0.0 ? cell_m : 0.0,
+                             std::clamp(p.y + exit.straight_m * u.y, 0.0, cell_m)};
+  } else {
+    exit.straight_m = gap_y / ay;
+    exit.side = u.y > 0.0 ? Side::top : Side::bottom;
+    exit.state.position_m = {std::clamp(p.x + exit.straight_m * u.x, 0.0, cell_m),
+                             u.y > 0.0 ? cell_m : 0.0};
+  }
+}
+
+/// The symmetry of the square that makes every turn a left turn from a heading in [0, 90) degrees:
+/// mirror y for a right turn, then turn the world clockwise by `quarter` quarter turns.
+struct Canonical {
+  double mirror;  // +1 or -1
+  int quarter;
+
+  Canonical(Vec2 u, int turn) : mirror(turn) {
+    const double uy = mirror * u.y;
+    quarter = u.x > 0.0 && uy >= 0.0 ? 0 : u.x <= 0.0 && uy > 0.0 ? 1 : u.x < 0.0 ? 2 : 3;
+  }
+  Vec2 into(Vec2 v) const {
+    v.y *= mirror;
+    switch (quarter) {
+      case 0:
+        return v;
+      case 1:
+        return {v.y, -v.x};
+      case 2:
+        return -v;
+      default:
+        return {-v.y, v.x};
+    }
+  }
+  Vec2 out_of(Vec2 v) const {
+    switch (quarter) {
+      case 0:
+        break;
+      case 1:
+        v = {-v.y, v.x};
+        break;
+      case 2:
+        v = -v;
+        break;
+      default:
+        v = {v.y, -v.x};
+    }
+    return {v.x, mirror * v.y};
+  }
+  /// The world's side that is side `s` (right, top, left) here.
+  Side side(int s) const {
+    const int w = (s + quarter) & 3;
+    return static_cast<Side>(mirror < 0.0 && (w & 1) != 0 ? w ^ 2 : w);
+  }
+};
+
+struct ArcExit {
+  int side;   // canonical
+  Vec2 move;  // from the start
+  Vec2 heading;
+};
+
+/// Whether a left arc reaches the right side, `ahead` away: its heading there, squared x component.
+inline double square_at_right(Vec2 u, double k) { return u.x * u.x - k * (2.0 * u.y + k); }
+
+/// The first exit of a left arc of radius r with unit heading u, u.x > 0, u.y >= 0, from a point
+/// with gaps `ahead` (right side), `above` (top) and `behind` (left side).
+///
+/// On the arc the heading w and the displacement m are tied by w - u = left(m) / r:
+///   w.x = u.x - m.y / r,   w.y = u.y + m.x / r,
+/// and m is along u + w (the chord halves the angle). So a side fixes one component of m, hence one
+/// of w; the other is a square root, written without 1 - w^2, which would lose it when it is small:
+///   w.y^2 = u.y^2 + g (2 u.x - g)  with g = m.y / r;   w.x^2 = u.x^2 - g (2 u.y + g), g = m.x / r.
+/// Turning less than 90 degrees (property 2) the heading stays in [0, 180): y grows all the way
+/// (so never the bottom), x grows up to heading 90 degrees and falls after it. Hence the order of
+/// the tests: top before 90 degrees, right, top after it, left.
+inline ArcExit first_arc_exit(Vec2 u, double r, double ahead, double above, double behind) {
+  const double g = above / r;
+  const Vec2 w{u.x - g, std::sqrt(std::max(0.0, u.y * u.y + g * (2.0 * u.x - g)))};
+  const double to_top_x = above > 0.0 ? above * (u.x + w.x) / (u.y + w.y) : 0.0;
+  const double k_right = ahead / r;
+  const double square = square_at_right(u, k_right);
+  const bool top_first = w.x >= 0.0 ? to_top_x <= ahead : square < 0.0 && to_top_x >= -behind;
+  if (top_first) return {1, {to_top_x, above}, w};
+  if (w.x >= 0.0 || square >= 0.0) {
+    const Vec2 v{std::sqrt(std::max(0.0, square)), u.y + k_right};
+    return {0, {ahead, std::min(above, ahead * (u.y + v.y) / (u.x + v.x))}, v};
+  }
+  const double k = behind / r;
+  const Vec2 v{-std::sqrt(std::max(0.0, u.x * u.x + k * (2.0 * u.y - k))), u.y - k};
+  return {2, {-behind, std::min(above, r * (u.x - v.x))}, v};
+}
+
+/// A turn that leaves the heading's quadrant, or the cell before it is done.
+inline void exit_turning(const CellState& s, const Direction& command, const CellShape& shape,
+                         CellExit& exit) {
+  const double d = shape.cell_m;
+  const double r = shape.turn_radius_m;
+  const Vec2 p = s.position_m;
+  const Canonical canonical(s.heading.unit, exit.turn);
+  const Vec2 u = canonical.into(s.heading.unit);
+  const std::array<double, 4> gap{d - p.x, d - p.y, p.x, p.y};
+  const auto gap_at = [&](int side) { return gap[static_cast<std::size_t>(canonical.side(side))]; };
+  const double ahead = gap_at(0);
+  const double above = gap_at(1);
+  const double behind = gap_at(2);
+
+  // Aligned inside past heading 90 degrees: the arc is monotone before and after its extreme point.
+  const Vec2 c = canonical.into(command.unit);
+  if (c.x <= 0.0 && c.y > 0.0 && dot(u, c) >= 0.0 && square_at_right(u, ahead / r) < 0.0) {
+    const Vec2 move = arc_move(u, c, r);
+    if (move.x >= -behind && move.y <= above) {
+      const Vec2 q = p + canonical.out_of(move);
+      exit.arc_end_m = {std::clamp(q.x, 0.0, d), std::clamp(q.y, 0.0, d)};
+      exit.arc_m = r * angle_between(s.heading.rad, command.rad);
+      exit.path = CellPath::arc_then_straight;
+      exit.state.heading = command;
+      exit_straight(exit.arc_end_m, command.unit, d, exit);
+      return;
+    }
+  }
+
+  const ArcExit arc = first_arc_exit(u, r, ahead, above, behind);
+  const double angle = 2.0 * std::asin(std::min(1.0, norm(arc.move) / (2.0 * r)));
+  // One Newton step towards length 1 keeps long turns from drifting.
+  const double scale = 1.5 - 0.5 * norm2(arc.heading);
+  Vec2 q = p + canonical.out_of(arc.move);
+  exit.side = canonical.side(arc.side);
+  q = {std::clamp(q.x, 0.0, d), std::clamp(q.y, 0.0, d)};
+  switch (exit.side) {
+    case Side::right:
+      q.x = d;
+      break;
+    case Side::top:
+      q.y = d;
+      break;
+    case Side::left:
+      q.x = 0.0;
+      break;
+    case Side::bottom:
+      q.y = 0.0;
+      break;
+  }
+  exit.arc_m = r * angle;
+  exit.path = CellPath::arc;
+  exit.arc_end_m = q;
+  double rad = s.heading.rad + exit.turn * angle;
+  if (rad > pi) rad -= two_pi;
+  if (rad <= -pi) rad += two_pi;
+  exit.state = {q, {scale * canonical.out_of(arc.heading), rad}};
+}
+
+}  // namespace cell_motion
+
+/// Flies from `s` to the first exit of the cell under `command` (Direction::none(): straight).
+/// A state on the border must head inwards or along it; one that heads outwards leaves at once.
+inline CellExit cross_cell(const CellState& s, const Direction& command, const CellShape& shape) {
+  const double d = shape.cell_m;
+  const double r = shape.turn_radius_m;
+  const Vec2 u = s.heading.unit;
+  const Vec2 c = command.unit;
+  CellExit exit;
+  exit.arc_end_m = s.position_m;
+  exit.turn = turn_towards(s.heading, command);
+  if (exit.turn == 0) {
+    exit.state.heading = s.heading;
+    cell_motion::exit_straight(s.position_m, u, d, exit);
+    return exit;
+  }
+  // The common case, a turn within one closed quadrant of headings: x and y are monotone along the
+  // arc, so it stays in the cell if its end does.
+  if (u.x * c.x >= 0.0 && u.y * c.y >= 0.0) {
+    const Vec2 q = s.position_m + cell_motion::arc_move(u, c, r);
+    if (q.x >= 0.0 && q.x <= d && q.y >= 0.0 && q.y <= d) {
+      exit.arc_end_m = q;
+      exit.arc_m = r * angle_between(s.heading.rad, command.rad);
+      exit.path = CellPath::arc_then_straight;
+      exit.state.heading = command;
+      cell_motion::exit_straight(q, c, d, exit);
+      return exit;
+    }
+  }
+  cell_motion::exit_turning(s, command, shape, exit);
+  return exit;
+}
+
+}  // namespace fairway
