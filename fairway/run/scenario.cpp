@@ -1,0 +1,185 @@
+#include "fairway/run/scenario.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "fairway/base/digest.hpp"
+#include "fairway/base/error.hpp"
+#include "fairway/base/mapped_file.hpp"
+#include "fairway/run/scenario_keys.hpp"
+
+namespace fairway {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Number of insertions, deletions and replacements between two words.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row[b.size()];
+}
+
+/// "; did you mean NAME?" for the nearest known name, or the known names when none is near.
+std::string suggestion(std::string_view wrong, const std::vector<std::string>& known) {
+  const auto distance = [&](const std::string& name) {
+    return edit_distance(wrong.substr(0, 64), name);
+  };
+  const auto leaf = [](const std::string& name) { return name.substr(name.find('.') + 1); };
+  const std::string* best = nullptr;
+  for (const std::string& name : known) {
+    if (leaf(name) == wrong.substr(wrong.find('.') + 1)) return "; did you mean " + name + "?";
+    if (best == nullptr || distance(name) < distance(*best)) best = &name;
+  }
+  if (best != nullptr && distance(*best) <= 3) return "; did you mean " + *best + "?";
+  return {};
+}
+
+std::string line_of(const fs::path& file, const toml::source_region& source) {
+  return fmt::format("{}:{}", file.string(), source.begin.line);
+}
+
+[[noreturn]] void refuse_unknown(const std::string& name, const toml::source_region& source,
+                                 const fs::path& file) {
+  std::vector<std::string> names;
+  std::set<std::string> tables;
+  for (const ScenarioKey& key : scenario_keys()) {
+    names.push_back(key.name);
+    tables.insert(key.table());
+  }
+  const bool is_table = name.find('.') == std::string::npos;
+  if (is_table) names.insert(names.begin(), tables.begin(), tables.end());
+  throw InputError(line_of(file, source),
+                   fmt::format("{}: there is no such key{}", name, suggestion(name, names)));
+}
+
+void take_table(const toml::table& table, const std::string& table_name, Scenario& scenario) {
+  const std::string file = scenario.file.string();
+  for (const auto& [toml_key, node] : table) {
+    const std::string name = table_name + "." + std::string(toml_key.str());
+    const auto& keys = scenario_keys();
+    const auto key = std::find_if(keys.begin(), keys.end(),
+                                  [&](const ScenarioKey& k) { return k.name == name; });
+    if (key == keys.end()) refuse_unknown(name, toml_key.source(), scenario.file);
+    key->take(TomlValue(node, file, name, key->range), scenario);
+    scenario.lines[name] = static_cast<int>(node.source().begin.line);
+  }
+}
+
+[[noreturn]] void refuse(const Scenario& s, const char* key, const std::string& what) {
+  throw InputError(s.place_of(key), fmt::format("{}: {}", key, what));
+}
+
+void require_given(const Scenario& s, const char* key, const char* because) {
+  if (!s.lines.contains(key)) {
+    throw InputError(s.file.string(), fmt::format("{} is missing: {}", key, because));
+  }
+}
+
+void forbid(const Scenario& s, const char* key, const char* because) {
+  if (s.lines.contains(key)) refuse(s, key, because);
+}
+
+void check_mission(const Scenario& s) {
+  if (s.mission.kind == MissionKind::path) {
+    require_given(s, "mission.path_file", "a mission of kind \"path\" needs the path to follow");
+    for (const char* key : {"mission.goal_m", "mission.goal_deg", "mission.goal_heading_rad"}) {
+      forbid(s, key, "belongs to missions of kind \"goal\", this one is of kind \"path\"");
+    }
+    return;
+  }
+  forbid(s, "mission.path_file",
+         "belongs to missions of kind \"path\", this one is of kind \"goal\"");
+  forbid(s, "mission.closed", "belongs to missions of kind \"path\", this one is of kind \"goal\"");
+  if (s.mission.goal_deg && s.mission.goal_m) {
+    refuse(s, "mission.goal_deg", "given besides mission.goal_m, expected one of the two");
+  }
+  if (!s.mission.goal_deg) {
+    require_given(s, "mission.goal_m",
+                  "a mission of kind \"goal\" needs its place, [x, y] in metres");
+  }
+}
+
+void check(const Scenario& s) {
+  for (const ScenarioKey& key : scenario_keys()) {
+    if (key.required && !s.lines.contains(key.name)) {
+      throw InputError(s.file.string(), fmt::format("{} is missing, expected {} ({})", key.name,
+                                                    key.kind, key.meaning));
+    }
+  }
+  if (!(s.vehicle.turn_radius_m > s.map.cell_m)) {
+    refuse(s, "vehicle.turn_radius_m",
+           fmt::format("is {} m, expected more than map.cell_m, which is {} m",
+                       s.vehicle.turn_radius_m, s.map.cell_m));
+  }
+  check_mission(s);
+}
+
+void root_paths(Scenario& s) {
+  const fs::path folder = s.file.parent_path();
+  s.map.file = folder / s.map.file;
+  if (s.mission.path_file) s.mission.path_file = folder / *s.mission.path_file;
+}
+
+}  // namespace
+
+std::string Scenario::place_of(std::string_view key) const {
+  const auto line = lines.find(key);
+  if (line == lines.end()) return file.string();
+  return fmt::format("{}:{}", file.string(), line->second);
+}
+
+Scenario scenario_of_text(std::string_view text, const fs::path& file) {
+  Scenario scenario;
+  scenario.file = file;
+  scenario.sha256 = sha256_hex(std::as_bytes(std::span(text.data(), text.size())));
+  toml::table root;
+  try {
+    root = toml::parse(text, file.string());
+  } catch (const toml::parse_error& error) {
+    throw InputError(line_of(file, error.source()),
+                     fmt::format("is not TOML: {}", error.description()));
+  }
+  for (const auto& [key, node] : root) {
+    const std::string name(key.str());
+    const auto& keys = scenario_keys();
+    if (std::none_of(keys.begin(), keys.end(),
+                     [&](const ScenarioKey& k) { return k.table() == name; })) {
+      refuse_unknown(name, key.source(), file);
+    }
+    if (!node.is_table()) {
+      throw InputError(line_of(file, node.source()),
+                       fmt::format("{0}: expected a table, [{0}]", name));
+    }
+    take_table(*node.as_table(), name, scenario);
+  }
+  check(scenario);
+  root_paths(scenario);
+  return scenario;
+}
+
+Scenario read_scenario(const fs::path& file) {
+  const MappedFile mapped(file);
+  constexpr std::size_t largest = 1 << 20;
+  if (mapped.bytes().size() > largest) {
+    throw InputError(file.string(), "is larger than 1 MB, expected a scenario in TOML");
+  }
+  const std::string_view text(reinterpret_cast<const char*>(mapped.bytes().data()),
+                              mapped.bytes().size());
+  return scenario_of_text(text, file);
+}
+
+}  // namespace fairway

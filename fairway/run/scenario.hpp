@@ -1,0 +1,76 @@
+// A scenario: everything one run needs, from one TOML file (docs/scenario.md).
+//
+// Defaults live in the option structs of the stages and only there. Paths are relative to the
+// scenario's folder. Values are checked one by one and against each other; what only the map can
+// tell (a goal in an obstacle, say) comes later and finds its line with `place_of`.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fairway/field/field.hpp"
+#include "fairway/map/read_map.hpp"
+#include "fairway/vehicle/mission.hpp"
+#include "fairway/vehicle/vehicle.hpp"
+
+namespace fairway {
+
+enum class MissionKind { goal, path };
+
+/// The [mission] table; becomes a Mission once the map, hence the frame, is known.
+struct MissionRequest {
+  MissionKind kind = MissionKind::goal;
+  std::optional<Vec2> goal_m;             ///< in the grid's frame
+  std::optional<GeodeticPoint> goal_deg;  ///< instead, on maps in degrees
+  std::optional<double> goal_heading_rad;
+  std::optional<std::filesystem::path> path_file;
+  bool closed = false;
+  double delta_position_m = PathMission{}.delta_position_m;
+  double delta_heading_rad = PathMission{}.delta_heading_rad;
+};
+
+/// The [simulate] table.
+struct SimulateRequest {
+  std::vector<State> states;      ///< flights to record, draw and count
+  std::uint64_t random = 200;     ///< random safe-start flights to record and draw
+  std::uint64_t sample = 10'000;  ///< random safe-start flights behind the shares in the summary
+  std::uint64_t seed = 1;
+};
+
+enum class VerifyMethod { certified, bitmap };
+
+/// The [verify] table: read and checked, for the stage that is to come.
+struct VerifyRequest {
+  VerifyMethod method = VerifyMethod::certified;
+  double undecided_max = 0.005;
+  std::optional<double> time_limit_s;
+  std::optional<double> memory_limit_mb;
+};
+
+struct Scenario {
+  std::filesystem::path file;
+  std::string sha256;  ///< of the file
+  MapRequest map;
+  Vehicle vehicle;
+  MissionRequest mission;
+  FieldOptions plan;
+  SimulateRequest simulate;
+  VerifyRequest verify;
+  std::map<std::string, int, std::less<>> lines;  ///< line of every key that was given
+
+  /// "FILE:LINE" of a key such as "mission.goal_m", or "FILE" when the key was not given.
+  [[nodiscard]] std::string place_of(std::string_view key) const;
+};
+
+/// Throws InputError{FILE:LINE, KEY ... what is expected}.
+[[nodiscard]] Scenario read_scenario(const std::filesystem::path& file);
+
+/// The same for text already in memory; `file` names it and roots its relative paths.
+[[nodiscard]] Scenario scenario_of_text(std::string_view text, const std::filesystem::path& file);
+
+}  // namespace fairway

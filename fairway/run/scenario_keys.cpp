@@ -1,0 +1,278 @@
+#include "fairway/run/scenario_keys.hpp"
+
+#include <optional>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace fairway {
+namespace {
+
+using nlohmann::json;
+
+// How each kind of member is taken from a TOML value, and shown as JSON.
+void take(const TomlValue& v, double& x) { x = v.number(); }
+void take(const TomlValue& v, std::uint64_t& x) { x = v.whole_number(); }
+void take(const TomlValue& v, bool& x) { x = v.flag(); }
+void take(const TomlValue& v, Vec2& x) { x = v.pair(); }
+void take(const TomlValue& v, std::filesystem::path& x) {
+  x = v.text();
+  if (x.empty()) v.refuse("the name of a file");
+}
+void take(const TomlValue& v, GeodeticPoint& x) {
+  const Vec2 pair = v.pair();
+  if (pair.x < -90.0 || pair.x > 90.0) v.refuse("[latitude, longitude], latitude in [-90, 90]");
+  x = {pair.x, pair.y};
+}
+void take(const TomlValue& v, std::vector<State>& x) {
+  for (const auto& row : v.rows(3)) x.push_back({{row[0], row[1]}, Heading::from_rad(row[2])});
+}
+template <typename T>
+void take(const TomlValue& v, std::optional<T>& x) {
+  take(v, x.emplace());
+}
+
+json shown(double x) { return x; }
+json shown(std::uint64_t x) { return x; }
+json shown(bool x) { return x; }
+json shown(Vec2 x) { return {x.x, x.y}; }
+json shown(const GeodeticPoint& x) { return {x.latitude_deg, x.longitude_deg}; }
+json shown(const std::filesystem::path& x) { return x.empty() ? json() : json(x.string()); }
+json shown(const std::vector<State>& states) {
+  json rows = json::array();
+  for (const State& s : states) rows.push_back({s.position_m.x, s.position_m.y, s.heading.rad()});
+  return rows;
+}
+template <typename T>
+json shown(const std::optional<T>& x) {
+  return x ? shown(*x) : json();
+}
+
+/// A key for a member of Scenario, reached by `member`.
+template <typename Member>
+ScenarioKey key(std::string name, std::string kind, Range range, Member member,
+                std::string meaning) {
+  return {std::move(name),
+          std::move(kind),
+          range,
+          false,
+          std::move(meaning),
+          [member](const TomlValue& v, Scenario& s) { take(v, member(s)); },
+          [member](const Scenario& s) { return shown(member(s)); }};
+}
+
+template <typename Member>
+ScenarioKey number(std::string name, Range range, Member member, std::string meaning) {
+  return key(std::move(name), "number " + range.text(), range, member, std::move(meaning));
+}
+
+template <typename Member>
+ScenarioKey whole(std::string name, Range range, Member member, std::string meaning) {
+  return key(std::move(name), "whole number " + range.text(), range, member, std::move(meaning));
+}
+
+/// A key with one of a few names as its value.
+template <typename T, typename Member>
+ScenarioKey choice(std::string name, std::vector<std::pair<std::string, T>> choices, Member member,
+                   std::string meaning) {
+  std::string kind;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (i > 0) kind += i + 1 == choices.size() ? " or " : ", ";
+    kind += '"' + choices[i].first + '"';
+  }
+  const auto take_choice = [choices, member, kind](const TomlValue& v, Scenario& s) {
+    const std::string text = v.text();
+    for (const auto& [choice_name, value] : choices) {
+      if (choice_name == text) {
+        member(s) = value;
+        return;
+      }
+    }
+    v.refuse(kind);
+  };
+  const auto shown_choice = [choices, member](const Scenario& s) {
+    for (const auto& [choice_name, value] : choices) {
+      if (member(s) == value) return json(choice_name);
+    }
+    return json();
+  };
+  return {std::move(name), kind, Range{}, false, std::move(meaning), take_choice, shown_choice};
+}
+
+ScenarioKey required(ScenarioKey made) {
+  made.required = true;
+  return made;
+}
+
+constexpr Range any_finite{};
+constexpr Range positive{0.0, 1e9, true};
+constexpr Range not_negative{0.0, 1e9, false};
+constexpr Range share{0.0, 1.0, true};
+constexpr Range factor{0.0, 1000.0, true};
+constexpr Range width{0.0, 1000.0, false};
+constexpr Range metres{-1e9, 1e9, false};
+constexpr Range degrees{-180.0, 180.0, false};
+
+// Members of const and mutable scenarios alike.
+#define FAIRWAY_MEMBER(path) \
+  [](auto& s) -> auto& { return s.path; }
+
+std::vector<ScenarioKey> map_keys() {
+  return {
+      required(key("map.file", "file", any_finite, FAIRWAY_MEMBER(map.file),
+                   "ROS map_server .yaml, MovingAI .map, GeoJSON, QGroundControl .plan, ArduPilot "
+                   "fence, QGC waypoints, or an image (GeoTIFF; PNG, PGM, ... with a world file or "
+                   "`map.resolution_m`)")),
+      required(number("map.cell_m", positive, FAIRWAY_MEMBER(map.cell_m),
+                      "side of a plan cell, metres; less than the turning radius")),
+      number("map.resolution_m", positive, FAIRWAY_MEMBER(map.resolution_m),
+             "metres per pixel, only for maps without a scale of their own; their lower-left "
+             "corner is at (0, 0)"),
+      choice<std::optional<Inclusion>>("map.inclusion",
+                                       {{"all", Inclusion::all}, {"any", Inclusion::any}},
+                                       FAIRWAY_MEMBER(map.inclusion),
+                                       "several keep-in fences: stay in all of them, or in any; "
+                                       "required when there are several"),
+      choice<bool>("map.unknown", {{"obstacle", true}, {"free", false}},
+                   FAIRWAY_MEMBER(map.unknown_is_obstacle), "what unknown map cells are"),
+      choice<bool>("map.outside", {{"obstacle", true}, {"free", false}},
+                   FAIRWAY_MEMBER(map.outside_is_obstacle),
+                   "the world beyond the map: a ring of obstacle cells, or free to leave"),
+      number("map.footprint_radius_m", not_negative, FAIRWAY_MEMBER(map.footprint_radius_m),
+             "obstacles grow by this, metres"),
+      key("map.reference_deg", "[latitude, longitude]", degrees, FAIRWAY_MEMBER(map.reference),
+          "where metres are measured from on maps in degrees; without it the file's home, else the "
+          "middle of the map"),
+      number("map.altitude_m", metres, FAIRWAY_MEMBER(map.altitude_m),
+             "elevation maps: flight altitude; higher ground is an obstacle"),
+      number("map.margin_m", not_negative, FAIRWAY_MEMBER(map.margin_m),
+             "elevation maps: height to keep above the ground, metres"),
+      number("map.world_margin_m", not_negative, FAIRWAY_MEMBER(map.world_margin_m),
+             "free room around obstacles and mission when no keep-in fence bounds the world; "
+             "without it a tenth of the longer side, and at least ten cells"),
+  };
+}
+
+std::vector<ScenarioKey> vehicle_and_mission_keys() {
+  return {
+      required(number("vehicle.speed_mps", positive, FAIRWAY_MEMBER(vehicle.speed_mps),
+                      "constant speed, metres per second")),
+      required(number("vehicle.turn_radius_m", positive, FAIRWAY_MEMBER(vehicle.turn_radius_m),
+                      "smallest turning radius, metres; more than `map.cell_m`")),
+      required(choice<MissionKind>(
+          "mission.kind", {{"goal", MissionKind::goal}, {"path", MissionKind::path}},
+          FAIRWAY_MEMBER(mission.kind), "reach a place, or follow a path")),
+      key("mission.goal_m", "[x, y]", metres, FAIRWAY_MEMBER(mission.goal_m),
+          "goal missions: where to, metres in the map's frame"),
+      key("mission.goal_deg", "[latitude, longitude]", degrees, FAIRWAY_MEMBER(mission.goal_deg),
+          "goal missions on maps in degrees: instead of `mission.goal_m`"),
+      number("mission.goal_heading_rad", Range{-7.0, 7.0}, FAIRWAY_MEMBER(mission.goal_heading_rad),
+             "heading to arrive with, radians counter-clockwise from east; recorded for the "
+             "steering inside the goal disc"),
+      key("mission.path_file", "file", any_finite, FAIRWAY_MEMBER(mission.path_file),
+          "path missions: CSV with x_m,y_m, GeoJSON LineString, QGC waypoints or .plan"),
+      key("mission.closed", "true or false", any_finite, FAIRWAY_MEMBER(mission.closed),
+          "path missions: the last vertex joins the first"),
+      number("mission.delta_position_m", positive, FAIRWAY_MEMBER(mission.delta_position_m),
+             "path missions: closer than this to the path counts as on it (Eq. 5)"),
+      number("mission.delta_heading_rad", Range{0.0, pi, true},
+             FAIRWAY_MEMBER(mission.delta_heading_rad),
+             "path missions: heading within this of the path's counts as along it (Eq. 5)"),
+  };
+}
+
+std::vector<ScenarioKey> plan_keys() {
+  return {
+      number("plan.alpha", factor, FAIRWAY_MEMBER(plan.alpha),
+             "buffer width / turning radius (Eq. 3; the paper: at least 2)"),
+      number("plan.beta", factor, FAIRWAY_MEMBER(plan.beta),
+             "goal radius / turning radius (Eq. 4; the paper: at least 2)"),
+      choice<Metric>(
+          "plan.metric",
+          {{"euclidean", Metric::euclidean}, {"octile", Metric::octile}, {"paper", Metric::paper}},
+          FAIRWAY_MEMBER(plan.metric),
+          "how distances are measured: exactly, along eight directions, or by the "
+          "paper's Algorithms 1 and 2 to the letter"),
+      number("plan.sigma_cells", width, FAIRWAY_MEMBER(plan.sigma_cells),
+             "standard deviation of the Gaussian filter, cells (Eqs. 19-21); 0: no filter"),
+      number("plan.mu_path", share, FAIRWAY_MEMBER(plan.mu_path),
+             "how fast the field turns onto a path (Eqs. 11-14)"),
+      number("plan.sigma_path", width, FAIRWAY_MEMBER(plan.sigma_path),
+             "width of that transition / turning radius; 0: none"),
+      number("plan.mu_border", share, FAIRWAY_MEMBER(plan.mu_border),
+             "how fast the field turns away from a buffer (Eqs. 15-18)"),
+      number("plan.sigma_border", width, FAIRWAY_MEMBER(plan.sigma_border),
+             "width of that transition / turning radius; 0: none"),
+      choice<Filter>("plan.filter", {{"free_space", Filter::free_space}, {"paper", Filter::paper}},
+                     FAIRWAY_MEMBER(plan.filter),
+                     "what the filter averages: never through obstacles, or every cell as printed"),
+      choice<Blend>("plan.blend", {{"paper", Blend::paper}, {"continuous", Blend::continuous}},
+                    FAIRWAY_MEMBER(plan.blend),
+                    "how a transition begins: with a jump as printed (Eq. 16), or without"),
+  };
+}
+
+std::vector<ScenarioKey> simulate_and_verify_keys() {
+  return {
+      key("simulate.states", "[[x, y, heading], ...]", metres, FAIRWAY_MEMBER(simulate.states),
+          "flights to record and draw, metres and radians"),
+      whole("simulate.random", Range{0.0, 1e5}, FAIRWAY_MEMBER(simulate.random),
+            "further flights to record and draw, from random safe-start states"),
+      whole("simulate.sample", Range{0.0, 1e7}, FAIRWAY_MEMBER(simulate.sample),
+            "random safe-start flights behind the shares in the summary; the first of them are "
+            "those of `simulate.random`"),
+      whole("simulate.seed", Range{0.0, 9.0e15}, FAIRWAY_MEMBER(simulate.seed),
+            "of all random draws"),
+      choice<VerifyMethod>(
+          "verify.method",
+          {{"certified", VerifyMethod::certified}, {"bitmap", VerifyMethod::bitmap}},
+          FAIRWAY_MEMBER(verify.method), "for the verification to come: how to prove"),
+      number("verify.undecided_max", Range{0.0, 1.0}, FAIRWAY_MEMBER(verify.undecided_max),
+             "for the verification to come: stop refining once this share of the volume is left"),
+      number("verify.time_limit_s", positive, FAIRWAY_MEMBER(verify.time_limit_s),
+             "for the verification to come: stop after this time, seconds"),
+      number("verify.memory_limit_mb", positive, FAIRWAY_MEMBER(verify.memory_limit_mb),
+             "for the verification to come: stop before using more memory, megabytes"),
+  };
+}
+
+#undef FAIRWAY_MEMBER
+
+}  // namespace
+
+const std::vector<ScenarioKey>& scenario_keys() {
+  static const std::vector<ScenarioKey> all = [] {
+    std::vector<ScenarioKey> keys;
+    for (auto part :
+         {map_keys(), vehicle_and_mission_keys(), plan_keys(), simulate_and_verify_keys()}) {
+      for (ScenarioKey& one : part) keys.push_back(std::move(one));
+    }
+    return keys;
+  }();
+  return all;
+}
+
+std::string scenario_keys_markdown() {
+  std::string text = "| key | value | default | meaning |\n|---|---|---|---|\n";
+  const Scenario defaults;
+  for (const ScenarioKey& k : scenario_keys()) {
+    const json value = k.shown(defaults);
+    const std::string fallback = k.required        ? "required"
+                                 : value.is_null() ? "none"
+                                                   : "`" + value.dump() + "`";
+    text += fmt::format("| `{}` | {} | {} | {} |\n", k.name, k.kind, fallback, k.meaning);
+  }
+  return text;
+}
+
+json effective_values(const Scenario& scenario, std::string_view table) {
+  json values = json::object();
+  for (const ScenarioKey& k : scenario_keys()) {
+    if (k.table() == table) values[k.leaf()] = k.shown(scenario);
+  }
+  return values;
+}
+
+}  // namespace fairway

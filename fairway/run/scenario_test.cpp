@@ -1,0 +1,172 @@
+#include "fairway/run/scenario.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "fairway/base/error.hpp"
+#include "fairway/base/random.hpp"
+#include "fairway/run/scenario_keys.hpp"
+
+namespace fairway {
+namespace {
+
+const std::string whole = R"([map]
+file = "maps/campus.yaml"
+cell_m = 4
+unknown = "free"
+[vehicle]
+speed_mps = 10.0
+turn_radius_m = 20.0
+[mission]
+kind = "goal"
+goal_m = [120.0, 340.0]
+goal_heading_rad = 1.57
+[plan]
+metric = "octile"
+[simulate]
+states = [[10.0, 20, 0.0], [1, 2, 3]]
+seed = 7
+)";
+
+/// `whole` with the first `from` replaced.
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = whole;
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    (void)scenario_of_text(text, "dir/s.toml");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Scenarios, GiveWhatTheySayAndDefaultsForTheRest) {
+  const Scenario s = scenario_of_text(whole, "dir/s.toml");
+  EXPECT_EQ(s.map.file, "dir/maps/campus.yaml");
+  EXPECT_EQ(s.map.cell_m, 4.0);
+  EXPECT_FALSE(s.map.unknown_is_obstacle);
+  EXPECT_TRUE(s.map.outside_is_obstacle);
+  EXPECT_EQ(s.vehicle, (Vehicle{10.0, 20.0}));
+  EXPECT_EQ(s.mission.goal_m, (Vec2{120.0, 340.0}));
+  EXPECT_EQ(s.mission.goal_heading_rad, 1.57);
+  EXPECT_EQ(s.plan.metric, Metric::octile);
+  EXPECT_EQ(s.plan.alpha, FieldOptions{}.alpha);
+  EXPECT_EQ(s.plan.sigma_cells, FieldOptions{}.sigma_cells);
+  ASSERT_EQ(s.simulate.states.size(), 2U);
+  EXPECT_EQ(s.simulate.states[1], (State{{1, 2}, Heading::from_rad(3)}));
+  EXPECT_EQ(s.simulate.seed, 7U);
+  EXPECT_EQ(s.place_of("mission.goal_m"), "dir/s.toml:10");
+  EXPECT_EQ(s.place_of("plan.alpha"), "dir/s.toml");
+}
+
+TEST(Scenarios, AbsolutePathsStayAndPathMissionsNameTheirFile) {
+  const Scenario s = scenario_of_text(R"(
+    map = { file = "/m.map", cell_m = 1, resolution_m = 2 }
+    vehicle = { speed_mps = 1, turn_radius_m = 2 }
+    mission = { kind = "path", path_file = "line.csv", closed = true }
+  )",
+                                      "dir/s.toml");
+  EXPECT_EQ(s.map.file, "/m.map");
+  EXPECT_EQ(s.mission.path_file, "dir/line.csv");
+  EXPECT_TRUE(s.mission.closed);
+}
+
+TEST(Scenarios, RefusalsNameLineKeyAndWhatIsExpected) {
+  const struct {
+    std::string text;
+    const char* message;
+  } cases[] = {
+      {with("cell_m = 4", "cell_m = -4"),
+       "dir/s.toml:3: map.cell_m: expected a number in (0, 1e+09], found -4"},
+      {with("cell_m = 4", "cell_m = nan"), "dir/s.toml:3: map.cell_m: expected a number in"},
+      {with("cell_m = 4", "cell_m = inf"), "dir/s.toml:3: map.cell_m: expected a number in"},
+      {with("cell_m = 4", "cell_m = \"4\""), "dir/s.toml:3: map.cell_m: expected a number, found"},
+      {with("cell_m = 4", "cell_m = 20"),
+       "dir/s.toml:7: vehicle.turn_radius_m: is 20 m, expected more than map.cell_m, which is 20 "
+       "m"},
+      {with("cell_m = 4", "cell = 4"),
+       "dir/s.toml:3: map.cell: there is no such key; did you mean map.cell_m?"},
+      {with("metric", "alhpa"),
+       "dir/s.toml:13: plan.alhpa: there is no such key; did you mean plan.alpha?"},
+      {with("[plan]\nmetric", "[map2]\nmetric"),
+       "dir/s.toml:12: map2: there is no such key; did you mean map?"},
+      {with("seed = 7", "sigma_cells = 7"),
+       "dir/s.toml:16: simulate.sigma_cells: there is no such key; did you mean plan.sigma_cells?"},
+      {with("seed = 7", "zzzzzzzzzz = 7"),
+       "dir/s.toml:16: simulate.zzzzzzzzzz: there is no such key"},
+      {with("seed = 7", "seed = -1"), "dir/s.toml:16: simulate.seed: expected a whole number"},
+      {with("seed = 7", "seed = 1.5"), "dir/s.toml:16: simulate.seed: expected a whole number"},
+      {with("\"octile\"", "\"manhattan\""),
+       "dir/s.toml:13: plan.metric: expected \"euclidean\", \"octile\" or \"paper\", found"},
+      {with("[120.0, 340.0]", "[120.0]"),
+       "dir/s.toml:10: mission.goal_m: expected an array of two numbers, found"},
+      {with("[120.0, 340.0]", "[120.0, nan]"), "dir/s.toml:10: mission.goal_m: expected a number"},
+      {with("[1, 2, 3]", "[1, 2]"),
+       "dir/s.toml:15: simulate.states: expected an array of arrays of 3 numbers, found"},
+      {with("[[10.0, 20, 0.0], [1, 2, 3]]", "3"),
+       "dir/s.toml:15: simulate.states: expected an array"},
+      {with("goal_m = [120.0, 340.0]\n", ""), "dir/s.toml: mission.goal_m is missing"},
+      {with("kind = \"goal\"\n", ""), "dir/s.toml: mission.kind is missing, expected \"goal\" or"},
+      {with("file = \"maps/campus.yaml\"\n", ""), "dir/s.toml: map.file is missing"},
+      {with("maps/campus.yaml", ""), "dir/s.toml:2: map.file: expected the name of a file"},
+      {with("kind = \"goal\"", "kind = \"path\""), "dir/s.toml: mission.path_file is missing"},
+      {with("goal_heading_rad = 1.57", "path_file = \"x\""),
+       "dir/s.toml:11: mission.path_file: belongs to missions of kind \"path\""},
+      {with("goal_heading_rad = 1.57", "goal_deg = [1, 2]"),
+       "dir/s.toml:11: mission.goal_deg: given besides mission.goal_m"},
+      {with("goal_m = [120.0, 340.0]", "goal_deg = [91, 2]"),
+       "dir/s.toml:10: mission.goal_deg: expected"},
+      {with("goal_m = [120.0, 340.0]", "goal_m = [120.0, 340.0"), "dir/s.toml:11: is not TOML: "},
+      {with("seed = 7", "seed = 7\nseed = 8"), "dir/s.toml:17: is not TOML: "},
+      {"map = 3\n" + whole.substr(whole.find("[vehicle]")),
+       "dir/s.toml:1: map: expected a table, [map]"},
+      {"", "dir/s.toml: map.file is missing"},
+  };
+  for (const auto& c : cases) {
+    const std::string message = refusal(c.text);
+    EXPECT_TRUE(message.starts_with(c.message))
+        << "expected " << c.message << "\nfound " << message;
+  }
+}
+
+TEST(Scenarios, DamagedTextIsRefusedOrReadNeverWorse) {
+  Random random(3);
+  int accepted = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    std::string text = whole;
+    const auto changes = 1 + random.below(4);
+    for (std::uint64_t i = 0; i < changes; ++i) {
+      text[random.below(text.size())] = static_cast<char>(random.below(256));
+    }
+    accepted += refusal(text) == "accepted";
+  }
+  EXPECT_LT(accepted, 3000);
+}
+
+TEST(ScenarioKeys, EffectiveValuesReadBackGiveTheSameScenario) {
+  const Scenario s = scenario_of_text(whole, "dir/s.toml");
+  const auto plan = effective_values(s, "plan");
+  EXPECT_EQ(plan["metric"], "octile");
+  EXPECT_EQ(plan["alpha"], FieldOptions{}.alpha);
+  EXPECT_EQ(effective_values(s, "map")["unknown"], "free");
+  EXPECT_TRUE(effective_values(s, "map")["inclusion"].is_null());
+}
+
+TEST(ScenarioKeys, TheDocumentationHoldsTheTable) {
+  std::ifstream in(FAIRWAY_SOURCE_DIR "/docs/scenario.md");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_NE(text.find(scenario_keys_markdown()), std::string::npos)
+      << "docs/scenario.md should hold the output of `fairway --scenario-keys`:\n"
+      << scenario_keys_markdown();
+}
+
+}  // namespace
+}  // namespace fairway
