@@ -1,0 +1,35 @@
+// What every vector reader gives: places to keep out of and places to stay in, in metres.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fairway/base/vec2.hpp"
+#include "fairway/map/obstacle_map.hpp"
+
+namespace fairway {
+
+/// Rings without the repeated last vertex, of either orientation. A point is inside when it is
+/// within an odd number of rings: the outer one first, then its holes.
+struct FencePolygon {
+  std::vector<std::vector<Vec2>> rings_m;
+};
+
+struct FenceCircle {
+  Vec2 center_m;
+  double radius_m = 0.0;
+};
+
+struct FenceSet {
+  std::vector<FencePolygon> keep_out;
+  std::vector<FenceCircle> keep_out_circles;
+  std::vector<FencePolygon> keep_in;
+  std::vector<FenceCircle> keep_in_circles;
+  std::vector<Vec2> places_m;  ///< what the world must hold besides: mission items, drawn lines
+  std::optional<GeoReference> geo;
+  std::vector<InputFile> inputs;
+  std::vector<std::string> warnings;
+};
+
+}  // namespace fairway

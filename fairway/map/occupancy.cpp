@@ -1,0 +1,112 @@
+#include "fairway/map/occupancy.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace fairway {
+
+namespace {
+
+// Classes of all possible sums of a pixel's samples, found once; and how often each occurred.
+class OccupancyTable {
+ public:
+  OccupancyTable(const ImageFormat& format, const OccupancyRule& rule)
+      : averaged_(rule.mode == OccupancyRule::Mode::trinary ? format.channels() : format.colours) {
+    const int top = averaged_ * format.max_value;
+    classes_.resize(static_cast<std::size_t>(top) + 1);
+    for (int sum = 0; sum <= top; ++sum)
+      classes_[static_cast<std::size_t>(sum)] = class_of(sum, top, rule);
+    counts_.resize(classes_.size());
+    grey_205_ =
+        format.max_value == 255 ? 205 * format.colours + 255 * (averaged_ - format.colours) : -1;
+  }
+
+  int averaged() const { return averaged_; }
+
+  Pixel take(unsigned sum) {
+    ++counts_[sum];
+    return classes_[sum];
+  }
+
+  void warn(const OccupancyRule& rule, const std::string& image,
+            std::vector<std::string>& warnings) const {
+    if (rule.mode == OccupancyRule::Mode::trinary) {
+      if (grey_205_ < 0) return;
+      const auto at = static_cast<std::size_t>(grey_205_);
+      if (classes_[at] == Pixel::free && counts_[at] > 0)
+        warnings.push_back(
+            fmt::format("{}: {} pixels have the grey 205 that map savers write for unknown; with "
+                        "free_thresh {} "
+                        "they are read as free (0.196 keeps them unknown).",
+                        image, counts_[at], rule.free));
+      return;
+    }
+    std::uint64_t graded = 0;
+    for (std::size_t sum = 0; sum < counts_.size(); ++sum)
+      if (classes_[sum] == Pixel::unknown) graded += counts_[sum];
+    if (graded > 0)
+      warnings.push_back(fmt::format(
+          "{}: {} pixels are neither surely free nor surely occupied in mode {}; they count as "
+          "unknown.",
+          image, graded, rule.mode == OccupancyRule::Mode::raw ? "raw" : "scale"));
+  }
+
+ private:
+  static Pixel class_of(int sum, int top, const OccupancyRule& rule) {
+    if (rule.mode == OccupancyRule::Mode::raw) {
+      const double percent = std::round(255.0 * sum / top);
+      return percent == 0.0 ? Pixel::free : percent == 100.0 ? Pixel::obstacle : Pixel::unknown;
+    }
+    // One rounding: grey 205 gives the double nearest to 50 / 255.
+    const double occ = static_cast<double>(rule.negate ? sum : top - sum) / top;
+    if (occ > rule.occupied) return Pixel::obstacle;
+    if (occ < rule.free) return Pixel::free;
+    if (rule.mode == OccupancyRule::Mode::trinary) return Pixel::unknown;
+    const double percent = std::rint(100.0 * (occ - rule.free) / (rule.occupied - rule.free));
+    return percent <= 0.0 ? Pixel::free : percent >= 100.0 ? Pixel::obstacle : Pixel::unknown;
+  }
+
+  int averaged_;
+  int grey_205_ = -1;
+  std::vector<Pixel> classes_;
+  std::vector<std::uint64_t> counts_;
+};
+
+void classify_row(const ImageFormat& format, const OccupancyRule& rule,
+                  std::span<const std::uint16_t> samples, OccupancyTable& table, Pixel* out) {
+  const auto channels = static_cast<std::size_t>(format.channels());
+  const auto averaged = static_cast<std::size_t>(table.averaged());
+  const bool needs_opaque = rule.mode == OccupancyRule::Mode::scale && format.alpha;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(format.width); ++i) {
+    const std::uint16_t* pixel = samples.data() + i * channels;
+    unsigned sum = 0;
+    for (std::size_t c = 0; c < averaged; ++c) sum += pixel[c];
+    out[i] = table.take(sum);
+    if (needs_opaque && pixel[channels - 1] != format.max_value) out[i] = Pixel::unknown;
+    if (format.nodata && pixel[0] == *format.nodata) out[i] = Pixel::unknown;
+  }
+}
+
+}  // namespace
+
+SourceRaster read_occupancy(const std::filesystem::path& image, const OccupancyRule& rule,
+                            std::uint64_t max_pixels) {
+  SourceRaster raster;
+  std::optional<OccupancyTable> table;
+  read_image(image, max_pixels,
+             [&](const ImageFormat& format, int row, std::span<const std::uint16_t> samples) {
+               if (!table) {
+                 raster.width = format.width;
+                 raster.height = format.height;
+                 raster.pixels.resize(static_cast<std::size_t>(format.width) *
+                                      static_cast<std::size_t>(format.height));
+                 table.emplace(format, rule);
+               }
+               classify_row(format, rule, samples, *table, raster.row(row));
+             });
+  if (table) table->warn(rule, image.string(), raster.warnings);
+  return raster;
+}
+
+}  // namespace fairway

@@ -1,0 +1,102 @@
+#include "fairway/map/read_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "fairway/base/error.hpp"
+#include "fairway/map/image_rows.hpp"
+#include "fairway/map/map_sources.hpp"
+#include "fairway/map/rasterise.hpp"
+
+namespace fairway {
+
+namespace {
+
+enum class Kind { ros, moving_ai, image };
+
+std::string first_bytes(const std::filesystem::path& file) {
+  require_regular_file(file);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(
+      std::fopen(file.string().c_str(), "rb"), &std::fclose);
+  if (!stream) throw InputError(file.string(), "cannot be opened for reading");
+  std::string head(512, '\0');
+  head.resize(std::fread(head.data(), 1, head.size(), stream.get()));
+  if (head.empty()) throw InputError(file.string(), "is empty");
+  return head;
+}
+
+bool is_image(std::string_view head) {
+  using namespace std::string_view_literals;
+  return is_pnm(head) || head.starts_with("\x89PNG"sv) || head.starts_with("BM"sv) ||
+         head.starts_with("II*\0"sv) || head.starts_with("MM\0*"sv) ||
+         head.starts_with("II+\0"sv) || head.starts_with("MM\0+"sv) ||
+         head.starts_with("\xff\xd8\xff"sv);
+}
+
+Kind kind_of(const std::filesystem::path& file) {
+  const std::string head = first_bytes(file);
+  const std::string extension = lower(file.extension().string());
+  if (is_image(head)) return Kind::image;
+  if (extension == ".yaml" || extension == ".yml") return Kind::ros;
+  if (trimmed(head).starts_with("type ") || extension == ".map") return Kind::moving_ai;
+  throw InputError(file.string(),
+                   "is of no known kind, expected a ROS map .yaml, MovingAI .map, GeoJSON, "
+                   "QGroundControl .plan, ArduPilot fence, or a PGM, PNG, BMP, JPEG or TIFF image");
+}
+
+void require_range(const char* key, double value, bool zero_allowed) {
+  if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !zero_allowed))
+    throw InputError(key, fmt::format("is {}, expected a finite number {}", value,
+                                      zero_allowed ? "of at least 0" : "above 0"));
+}
+
+void check(const MapRequest& request) {
+  require_range("map.cell_m", request.cell_m, false);
+  require_range("map.footprint_radius_m", request.footprint_radius_m, true);
+  if (request.resolution_m) require_range("map.resolution_m", *request.resolution_m, false);
+}
+
+RasteriseOptions options_of(const MapRequest& request) {
+  return {request.cell_m, request.footprint_radius_m, request.unknown_is_obstacle,
+          request.outside_is_obstacle, request.max_cells};
+}
+
+}  // namespace
+
+double required_resolution_m(const MapRequest& request) {
+  if (!request.resolution_m)
+    throw InputError(request.file.string(),
+                     "has no scale of its own; map.resolution_m is missing (metres per pixel)");
+  return *request.resolution_m;
+}
+
+void require_agreeing_resolution(const MapRequest& request, double pixel_m) {
+  if (request.resolution_m && std::abs(*request.resolution_m - pixel_m) > 1e-6 * pixel_m)
+    throw InputError(request.file.string(),
+                     fmt::format("has pixels of {} m, but map.resolution_m is {}; leave it out",
+                                 pixel_m, *request.resolution_m));
+}
+
+ObstacleMap read_map(const MapRequest& request) {
+  check(request);
+  ObstacleMap map;
+  switch (kind_of(request.file)) {
+    case Kind::ros:
+      map = rasterise(read_ros_map(read_source(request.file), request), options_of(request));
+      break;
+    case Kind::moving_ai:
+      map = rasterise(read_moving_ai(read_source(request.file), request), options_of(request));
+      break;
+    case Kind::image:
+      throw InputError(request.file.string(), "bare images come next");
+  }
+  if (std::find(map.obstacle.begin(), map.obstacle.end(), 0) == map.obstacle.end())
+    map.warnings.push_back(request.file.string() + ": no cell of the map is free.");
+  return map;
+}
+
+}  // namespace fairway

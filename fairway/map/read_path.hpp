@@ -1,0 +1,24 @@
+// Reads the line a path mission follows: CSV, GeoJSON LineString, QGC WPL 110 or a .plan's mission.
+//
+// CSV: columns x_m and y_m by name when there is a header (a '#' line or plain), else the first
+// two; separated by commas, semicolons, tabs or blanks; further columns are ignored. Coordinates
+// are those of the grid of `frame`. Columns of latitude and longitude, WPL and .plan files are
+// degrees and need a map that has a geographic frame. GeoJSON is [lon, lat] on such a map, else
+// metres.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "fairway/base/vec2.hpp"
+#include "fairway/map/obstacle_map.hpp"
+
+namespace fairway {
+
+/// Vertices in the frame of `frame.grid`, metres; consecutive equal vertices are one, and with
+/// `closed` a last vertex equal to the first is left out. At least two distinct vertices, all
+/// finite, all on the grid; throws InputError naming the line or item that is not so.
+[[nodiscard]] std::vector<Vec2> read_path(const std::filesystem::path& file,
+                                          const ObstacleMap& frame, bool closed = false);
+
+}  // namespace fairway
