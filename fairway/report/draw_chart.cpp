@@ -1,6 +1,7 @@
 #include "fairway/report/draw_chart.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>

@@ -21,9 +21,9 @@ struct ChartSeries {
 };
 
 struct ChartOptions {
-  std::string title;
-  std::string x_label;
-  std::string y_label;
+  std::string title = {};
+  std::string x_label = {};
+  std::string y_label = {};
   bool y_from_zero = false;  ///< let the y axis start at 0 (distances)
   double width_pt = 420.0;
   double height_pt = 240.0;

@@ -17,10 +17,10 @@
 namespace fairway {
 
 struct FlightPictureOptions {
-  std::string title;
-  std::optional<Mission> mission;  ///< the goal point and heading, or the path, drawn below
-  std::vector<std::string> names;  ///< empty, or one per flight; equal names share a style
-  int most_drawn = 200;            ///< lines drawn; a legend line says when there are more
+  std::string title = {};
+  std::optional<Mission> mission = {};  ///< the goal point and heading, or the path, drawn below
+  std::vector<std::string> names = {};  ///< empty, or one per flight; equal names share a style
+  int most_drawn = 200;                 ///< lines drawn; a legend line says when there are more
   double frame_pt = 420.0;
   double pixels_per_pt = 2.0;
 };

@@ -16,15 +16,15 @@
 namespace fairway {
 
 struct PlanPictureOptions {
-  std::string title;
-  std::optional<Mission> mission;  ///< the goal point and heading, or the path, drawn on top
-  bool cost = true;                ///< shade the free cells by cost to go, with contours
-  bool streamlines = true;         ///< evenly spaced lines along the field
-  bool arrows = false;             ///< the commanded heading of every so many cells
-  int streamlines_across = 40;     ///< lines that fit side by side along the longer side, 1..200
-  int arrows_across = 40;          ///< arrows along the longer side, 1..200
-  double frame_pt = 420.0;         ///< longer side of the map, points (1/72 inch), 100..2000
-  double pixels_per_pt = 2.0;      ///< resolution of the PNG, 0.5..8
+  std::string title = {};
+  std::optional<Mission> mission = {};  ///< the goal point and heading, or the path, drawn on top
+  bool cost = true;                     ///< shade the free cells by cost to go, with contours
+  bool streamlines = true;              ///< evenly spaced lines along the field
+  bool arrows = false;                  ///< the commanded heading of every so many cells
+  int streamlines_across = 40;  ///< lines that fit side by side along the longer side, 1..200
+  int arrows_across = 40;       ///< arrows along the longer side, 1..200
+  double frame_pt = 420.0;      ///< longer side of the map, points (1/72 inch), 100..2000
+  double pixels_per_pt = 2.0;   ///< resolution of the PNG, 0.5..8
 };
 
 /// Any plan whose arrays have grid.size() entries, an empty grid too. Throws ContractViolation

@@ -27,6 +27,7 @@ constexpr double color_bar_room_pt = color_bar_height_pt + 34.0;
 constexpr double scale_bar_room_pt = 34.0;
 constexpr double longest_aspect = 5.0;
 constexpr int most_contour_samples = 500;
+constexpr int contours_wanted = 7;
 
 const Pen buffer_pen{palette::buffer_pattern, 0.5, {}};
 const Pen goal_pen{palette::goal_pattern, 0.8, {}};
@@ -83,7 +84,7 @@ std::vector<LegendEntry> region_entries(const Plan& plan, bool cost) {
     entries.push_back(hatched_entry("buffer", palette::buffer, buffer_pen, false, true));
   if (has(Region::obstacle)) entries.push_back(area_entry("obstacle", palette::obstacle));
   if (has(Region::goal))
-    entries.push_back(hatched_entry("goal", palette::goal, goal_pen, true, false));
+    entries.push_back(hatched_entry("goal cells", palette::goal, goal_pen, true, false));
   if (const auto cells =
           count_if_cell(plan, [&](std::size_t i) { return is_unreachable(plan, i); }))
     entries.push_back(
@@ -172,7 +173,7 @@ void MapPage::draw_contours() {
       const bool shaded = plan_.region[i] == Region::free || plan_.region[i] == Region::goal;
       samples.push_back(shaded ? plan_.cost_m[i] : std::numeric_limits<float>::quiet_NaN());
     }
-  for (const double level : ticks_between(0.0, largest_cost_m_, 10).values) {
+  for (const double level : ticks_between(0.0, largest_cost_m_, contours_wanted).values) {
     if (level <= 0.0) continue;
     DrawingPath path;
     for (const auto& line : contour_lines(nx, ny, samples, level))
@@ -193,7 +194,7 @@ double MapPage::draw_color_bar(Vec2 corner) {
   for (int i = 0; i < shades; ++i) raster.pixels.push_back(cost_ramp((shades - 0.5 - i) / shades));
   const Rect bar{corner.x, corner.y + 16.0, color_bar_width_pt, color_bar_height_pt};
   canvas_->image(raster, bar);
-  const Ticks ticks = ticks_between(0.0, largest_cost_m_, 10);
+  const Ticks ticks = ticks_between(0.0, largest_cost_m_, contours_wanted);
   const std::size_t every = ticks.values.size() > 12 ? 2 : 1;
   DrawingPath marks;
   for (std::size_t i = 0; i < ticks.values.size(); ++i) {

@@ -15,9 +15,9 @@
 namespace fairway {
 
 struct MapPageOptions {
-  std::string title;
+  std::string title = {};
   bool cost = true;  ///< shading, contour lines and a colour bar
-  std::optional<Mission> mission;
+  std::optional<Mission> mission = {};
   double frame_pt = 420.0;
   double pixels_per_pt = 2.0;
 };
