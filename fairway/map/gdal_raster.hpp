@@ -1,12 +1,12 @@
-// One raster file opened through GDAL, without network, sidecar files or output of its own.
-// For the readers' own sources: nothing of GDAL shows here.
+// One raster file opened through GDAL. For the readers' own sources: nothing of GDAL shows here.
 #pragma once
 
 #include <array>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
+
+#include "fairway/map/gdal_session.hpp"
 
 class GDALDataset;
 
@@ -22,15 +22,15 @@ class GdalRaster {
 
   GDALDataset& dataset() { return *dataset_; }
 
-  /// The six numbers of GDAL's affine transform (corner-based: PixelIsPoint is already shifted).
+  /// The six numbers of GDAL's affine transform (corner-based: PixelIsPoint is already shifted),
+  /// for files that carry one inside.
   std::optional<std::array<double, 6>> geotransform();
 
-  /// Throws InputError with what GDAL said last; `doing` completes "cannot be read: ...".
-  [[noreturn]] void fail(const std::string& doing) const;
+  /// Throws InputError: `what`, then what GDAL said last.
+  [[noreturn]] void fail(const std::string& what) const;
 
  private:
-  struct Session;  // error handler and options of this thread, undone at the end
-  std::unique_ptr<Session> session_;
+  GdalSession session_;
   std::filesystem::path file_;
   GDALDataset* dataset_ = nullptr;
 };

@@ -1,0 +1,32 @@
+// Points in degrees on a map that knows where on Earth it lies.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "fairway/base/vec2.hpp"
+#include "fairway/map/obstacle_map.hpp"
+#include "fairway/map/read_map.hpp"
+
+namespace fairway {
+
+/// True when the map came from degrees, or from a projected raster.
+[[nodiscard]] bool has_geographic_frame(const ObstacleMap& map);
+
+class FrameFromDegrees {
+ public:
+  /// Throws InputError{file, ...} when the map has no geographic frame or PROJ cannot convert.
+  FrameFromDegrees(const ObstacleMap& map, const std::filesystem::path& file);
+  ~FrameFromDegrees();
+  FrameFromDegrees(const FrameFromDegrees&) = delete;
+  FrameFromDegrees& operator=(const FrameFromDegrees&) = delete;
+
+  /// Coordinates of the map's grid, metres. Throws InputError{where, ...} where none exist.
+  [[nodiscard]] Vec2 point_m(const std::string& where, GeodeticPoint point) const;
+
+ private:
+  struct Conversion;
+  std::unique_ptr<Conversion> conversion_;
+};
+
+}  // namespace fairway

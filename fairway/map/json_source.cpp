@@ -1,0 +1,114 @@
+#include "fairway/map/json_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "fairway/base/error.hpp"
+#include "fairway/map/geodetic_fences.hpp"
+
+namespace fairway {
+
+namespace {
+
+constexpr int max_depth = 64;
+
+std::string kind_of(const nlohmann::json& value) {
+  if (value.is_null()) return "null";
+  if (value.is_string()) return "a text";
+  if (value.is_number()) return "a number";
+  if (value.is_boolean()) return "true or false";
+  return value.is_array() ? "a list" : "an object";
+}
+
+}  // namespace
+
+nlohmann::json parse_json(const SourceText& source) {
+  // One set of keys for each object that is open.
+  std::vector<std::set<std::string>> open;
+  const auto watch = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
+    using Event = nlohmann::json::parse_event_t;
+    if (depth > max_depth)
+      throw InputError(source.file.string(), fmt::format("is nested deeper than {}", max_depth));
+    if (event == Event::object_start) open.emplace_back();
+    if (event == Event::object_end) open.pop_back();
+    if (event == Event::key && !open.back().insert(parsed.get<std::string>()).second)
+      throw InputError(source.file.string(), fmt::format("the key {} occurs twice in one object",
+                                                         shown(parsed.get<std::string>())));
+    return true;
+  };
+  try {
+    return nlohmann::json::parse(source.text, watch);
+  } catch (const nlohmann::json::parse_error& e) {
+    const std::size_t end = std::min(e.byte, source.text.size());
+    const auto line = 1 + std::count(source.text.begin(),
+                                     source.text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+    std::string what = e.what();
+    const std::size_t from = what.find("syntax error");
+    if (from != std::string::npos) what = what.substr(from);
+    throw InputError(at_line(source.file, static_cast<std::size_t>(line)), "is no JSON: " + what);
+  } catch (const nlohmann::json::exception& e) {
+    throw InputError(source.file.string(), std::string("is no JSON: ") + e.what());
+  }
+}
+
+void JsonPlace::fail(const std::string& what) const { throw InputError(where_, what); }
+
+JsonPlace JsonPlace::at(const std::string& key) const {
+  if (!value_->is_object()) fail(fmt::format("is {}, expected an object", kind_of(*value_)));
+  const auto found = value_->find(key);
+  if (found == value_->end()) fail(fmt::format("the key {} is missing", shown(key)));
+  return {*found, where_ + (where_.ends_with(": ") ? "" : ".") + key};
+}
+
+std::size_t JsonPlace::size() const {
+  if (!value_->is_array()) fail(fmt::format("is {}, expected a list", kind_of(*value_)));
+  return value_->size();
+}
+
+JsonPlace JsonPlace::at(std::size_t index) const {
+  if (index >= size()) fail(fmt::format("has {} elements, expected more", size()));
+  return {(*value_)[index], fmt::format("{}[{}]", where_, index)};
+}
+
+std::string JsonPlace::text() const {
+  if (!value_->is_string()) fail(fmt::format("is {}, expected a text", kind_of(*value_)));
+  return value_->get<std::string>();
+}
+
+double JsonPlace::number() const {
+  if (!value_->is_number()) fail(fmt::format("is {}, expected a number", kind_of(*value_)));
+  const double number = value_->get<double>();
+  if (!std::isfinite(number)) fail("is not finite");
+  return number;
+}
+
+int JsonPlace::whole_number() const {
+  const double value = number();
+  if (std::abs(value) > 1e9 || value != std::floor(value))
+    fail(fmt::format("is {}, expected a whole number", value));
+  return static_cast<int>(value);
+}
+
+bool JsonPlace::boolean() const {
+  if (!value_->is_boolean()) fail(fmt::format("is {}, expected true or false", kind_of(*value_)));
+  return value_->get<bool>();
+}
+
+GeodeticPoint JsonPlace::latitude_longitude() const {
+  if (size() < 2) fail("is too short, expected [latitude, longitude]");
+  const GeodeticPoint point{at(std::size_t{0}).number(), at(1).number()};
+  require_geodetic(where_, point);
+  return point;
+}
+
+GeodeticPoint JsonPlace::longitude_latitude() const {
+  if (size() < 2) fail("is too short, expected [longitude, latitude]");
+  const GeodeticPoint point{at(1).number(), at(std::size_t{0}).number()};
+  require_geodetic(where_, point);
+  return point;
+}
+
+}  // namespace fairway

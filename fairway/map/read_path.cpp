@@ -1,0 +1,122 @@
+#include "fairway/map/read_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "fairway/base/error.hpp"
+#include "fairway/map/fence_sources.hpp"
+#include "fairway/map/frame_from_degrees.hpp"
+#include "fairway/map/path_vertex.hpp"
+
+namespace fairway {
+
+namespace {
+
+std::vector<PathVertex> from_mission(const SourceText& source, const ObstacleMap& frame,
+                                     const std::vector<MissionPlace>& places) {
+  const FrameFromDegrees to_frame(frame, source.file);
+  std::vector<PathVertex> vertices;
+  for (const MissionPlace& place : places)
+    vertices.push_back({place.where, to_frame.point_m(place.where, place.point)});
+  return vertices;
+}
+
+void find_lines(const JsonPlace& place, std::vector<JsonPlace>& lines) {
+  const std::string type = place.at("type").text();
+  if (type == "FeatureCollection") {
+    const JsonPlace features = place.at("features");
+    for (std::size_t i = 0; i < features.size(); ++i) find_lines(features.at(i), lines);
+  } else if (type == "Feature") {
+    const JsonPlace geometry = place.at("geometry");
+    if (!geometry.value().is_null()) find_lines(geometry, lines);
+  } else if (type == "LineString") {
+    lines.push_back(place.at("coordinates"));
+  }
+}
+
+std::vector<PathVertex> from_geojson(const SourceText& source, const nlohmann::json& json,
+                                     const ObstacleMap& frame) {
+  std::vector<JsonPlace> lines;
+  find_lines(JsonPlace(json, source.file.string() + ": "), lines);
+  if (lines.size() != 1)
+    throw InputError(source.file.string(),
+                     fmt::format("has {} LineStrings, expected one", lines.size()));
+  const JsonPlace& line = lines.front();
+  std::vector<PathVertex> vertices;
+  std::optional<FrameFromDegrees> to_frame;
+  if (has_geographic_frame(frame)) to_frame.emplace(frame, source.file);
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const JsonPlace position = line.at(i);
+    if (to_frame) {
+      vertices.push_back(
+          {position.where(), to_frame->point_m(position.where(), position.longitude_latitude())});
+      continue;
+    }
+    if (position.size() < 2) position.fail("is too short, expected [x_m, y_m]");
+    vertices.push_back(
+        {position.where(), {position.at(std::size_t{0}).number(), position.at(1).number()}});
+  }
+  return vertices;
+}
+
+std::vector<PathVertex> vertices_of(const std::filesystem::path& file, const ObstacleMap& frame) {
+  const SourceText source = read_source(file);
+  if (is_waypoint_file(source.text))
+    return from_mission(source, frame, read_waypoint_mission(source));
+  if (!trimmed(std::string_view(source.text).substr(0, 4096)).starts_with('{'))
+    return read_path_csv(source, frame);
+  const nlohmann::json json = parse_json(source);
+  if (is_qgc_plan(json)) return from_mission(source, frame, read_plan_mission(source, json));
+  return from_geojson(source, json, frame);
+}
+
+void require_on_map(const std::vector<PathVertex>& vertices, const Grid& grid) {
+  const double right_m = grid.x0_m + grid.width_m();
+  const double top_m = grid.y0_m + grid.height_m();
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Vec2 p = vertices[i].point_m;
+    if (p.x >= grid.x0_m && p.x <= right_m && p.y >= grid.y0_m && p.y <= top_m) continue;
+    throw InputError(
+        vertices[i].where,
+        fmt::format("vertex {} ({:.10g}, {:.10g}) lies outside the map, which covers x "
+                    "from {:.10g} to {:.10g} and y from {:.10g} to {:.10g} m",
+                    i, p.x, p.y, grid.x0_m, right_m, grid.y0_m, top_m));
+  }
+}
+
+// Degrees taken for metres shrink a path to a dot.
+void require_extent(const std::vector<Vec2>& vertices, const std::filesystem::path& file,
+                    double cell_m) {
+  const auto [left, right] = std::minmax_element(vertices.begin(), vertices.end(),
+                                                 [](Vec2 a, Vec2 b) { return a.x < b.x; });
+  const auto [low, high] = std::minmax_element(vertices.begin(), vertices.end(),
+                                               [](Vec2 a, Vec2 b) { return a.y < b.y; });
+  const double extent_m = std::max(right->x - left->x, high->y - low->y);
+  if (extent_m < cell_m)
+    throw InputError(file.string(),
+                     fmt::format("the path spans {:.3g} m, less than a cell of {} m; are these "
+                                 "degrees where metres belong?",
+                                 extent_m, cell_m));
+}
+
+}  // namespace
+
+std::vector<Vec2> read_path(const std::filesystem::path& file, const ObstacleMap& frame,
+                            bool closed) {
+  const std::vector<PathVertex> vertices = vertices_of(file, frame);
+  require_on_map(vertices, frame.grid);
+  std::vector<Vec2> path;
+  for (const PathVertex& vertex : vertices)
+    if (path.empty() || path.back() != vertex.point_m) path.push_back(vertex.point_m);
+  if (closed)
+    while (path.size() > 1 && path.back() == path.front()) path.pop_back();
+  if (path.size() < 2)
+    throw InputError(file.string(),
+                     fmt::format("has {} distinct vertices, a path has at least two", path.size()));
+  require_extent(path, file, frame.grid.cell_m);
+  return path;
+}
+
+}  // namespace fairway

@@ -1,0 +1,60 @@
+#include "fairway/map/world_file.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "fairway/base/error.hpp"
+#include "fairway/map/source_text.hpp"
+
+namespace fairway {
+
+namespace {
+
+std::vector<std::filesystem::path> candidates(const std::filesystem::path& image) {
+  const std::string extension = image.extension().string();  // with its dot
+  std::vector<std::string> endings;
+  if (extension.size() >= 3)
+    endings.push_back(std::string(".") + extension[1] + extension.back() + 'w');
+  if (!extension.empty()) endings.push_back(extension + 'w');
+  endings.emplace_back(".wld");
+  std::vector<std::filesystem::path> files;
+  for (const std::string& ending : endings) {
+    std::filesystem::path file = image;
+    files.push_back(file.replace_extension(ending));
+  }
+  return files;
+}
+
+WorldFile read_world_file(const std::filesystem::path& file) {
+  const SourceText source = read_source(file, 1 << 16);
+  double values[6];
+  std::size_t count = 0;
+  for (const Line& line : lines_of(source.text)) {
+    const std::string_view text = trimmed(line.text);
+    if (text.empty()) continue;
+    const auto number = parse_number(text);
+    if (!number || !std::isfinite(*number))
+      throw InputError(at_line(file, line.number),
+                       fmt::format("{} is no finite number", shown(text)));
+    if (count == 6)
+      throw InputError(at_line(file, line.number), "has more than the six numbers of a world file");
+    values[count++] = *number;
+  }
+  if (count != 6)
+    throw InputError(file.string(), fmt::format("has {} numbers, a world file has six", count));
+  // Lines are A, D, B, E, C, F; C and F name the centre of the upper-left pixel.
+  const auto [a, d, b, e, c, f] = values;
+  return {{c - 0.5 * a - 0.5 * b, a, b, f - 0.5 * d - 0.5 * e, d, e}, source.input};
+}
+
+}  // namespace
+
+std::optional<WorldFile> find_world_file(const std::filesystem::path& image) {
+  std::error_code ignored;
+  for (const auto& file : candidates(image))
+    if (std::filesystem::exists(file, ignored)) return read_world_file(file);
+  return std::nullopt;
+}
+
+}  // namespace fairway
