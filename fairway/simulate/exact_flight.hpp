@@ -101,6 +101,7 @@ class ExactFlights {
   Position locate(const State& start) const;
   Kind settle(Position& position, bool at_start) const;
   void choose_side(Position& position, std::ptrdiff_t beside, bool at_start) const;
+  void prefetch_ahead(const Position& position) const;
   Kind enter_next(Position& position, const CellExit& exit) const;
   FlightResult result_of(const FlightRun& run, double reached_m) const;
   template <bool passes_goals, typename Recorder>

@@ -1,6 +1,7 @@
 // The noun of simulation: one flight of a vehicle under a plan.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -14,10 +15,14 @@ enum class Outcome : std::uint8_t { reach, collide, leave, trapped };
 /// The name used in files and on screen.
 constexpr const char* name_of(Outcome outcome) {
   switch (outcome) {
-    case Outcome::reach: return "reach";
-    case Outcome::collide: return "collide";
-    case Outcome::leave: return "leave";
-    case Outcome::trapped: return "trapped";
+    case Outcome::reach:
+      return "reach";
+    case Outcome::collide:
+      return "collide";
+    case Outcome::leave:
+      return "leave";
+    case Outcome::trapped:
+      return "trapped";
   }
   return "";
 }
@@ -36,6 +41,20 @@ struct FlightSegment {
   double length_m = 0.0;
   double curvature_per_m = 0.0;
 };
+
+/// The state `along_m` after the start of a piece.
+inline State state_at(const FlightSegment& piece, double along_m) {
+  const Vec2 p = piece.start.position_m;
+  const Vec2 u = piece.start.heading.unit();
+  const double turned = along_m * piece.curvature_per_m;
+  // The chord of the arc: sin(turned / 2) / (turned / 2) of its length, halfway between headings.
+  const double half = 0.5 * turned;
+  const double chord_m = half == 0.0 ? along_m : along_m * (std::sin(half) / half);
+  const double c = std::cos(half);
+  const double s = std::sin(half);
+  const Vec2 middle{u.x * c - u.y * s, u.x * s + u.y * c};
+  return {p + chord_m * middle, Heading::from_rad(piece.start.heading.rad() + turned)};
+}
 
 struct Flight {
   State start;

@@ -110,9 +110,17 @@ inline Vec2 arc_move(Vec2 u, Vec2 c, double r) {
   return (r * std::abs(cross(u, c)) / (1.0 + dot(u, c))) * (u + c);
 }
 
+/// `p` with its coordinate across `side` put exactly on that side. Rounding may have carried the
+/// other one past a corner by an ulp of cell_m: there the exit is that corner.
+inline Vec2 on_side(Vec2 p, Side side, double cell_m) {
+  const bool vertical = side == Side::right || side == Side::left;
+  const double at = side == Side::right || side == Side::top ? cell_m : 0.0;
+  const Vec2 inside{std::clamp(p.x, 0.0, cell_m), std::clamp(p.y, 0.0, cell_m)};
+  return {vertical ? at : inside.x, vertical ? inside.y : at};
+}
+
 /// Straight from p along u to the first border. Compares gap_x / |u_x| with gap_y / |u_y| by
-/// cross-multiplying: no division by zero. Rounding may carry the coordinate along the border past
-/// the corner by an ulp of cell_m: there the exit is that corner.
+/// cross-multiplying: no division by zero, and one division in all.
 inline void exit_straight(Vec2 p, Vec2 u, double cell_m, CellExit& exit) {
   const double gap_x = u.x > 0.0 ? cell_m - p.x : p.x;
   const double gap_y = u.y > 0.0 ? cell_m - p.y : p.y;
@@ -121,62 +129,40 @@ inline void exit_straight(Vec2 p, Vec2 u, double cell_m, CellExit& exit) {
   const double to_vertical = gap_x * ay;
   const double to_horizontal = gap_y * ax;
   const bool vertical = to_vertical < to_horizontal || (to_vertical == to_horizontal && ax >= ay);
-  if (vertical) {
-    exit.straight_m = gap_x / ax;
-    exit.side = u.x > 0.0 ? Side::right : Side::left;
-    exit.state.position_m = {u.x > 0.0 ? cell_m : 0.0,
-                             std::clamp(p.y + exit.straight_m * u.y, 0.0, cell_m)};
-  } else {
-    exit.straight_m = gap_y / ay;
-    exit.side = u.y > 0.0 ? Side::top : Side::bottom;
-    exit.state.position_m = {std::clamp(p.x + exit.straight_m * u.x, 0.0, cell_m),
-                             u.y > 0.0 ? cell_m : 0.0};
-  }
+  exit.straight_m = (vertical ? gap_x : gap_y) / (vertical ? ax : ay);
+  const Side side_x = u.x > 0.0 ? Side::right : Side::left;
+  const Side side_y = u.y > 0.0 ? Side::top : Side::bottom;
+  exit.side = vertical ? side_x : side_y;
+  exit.state.position_m = on_side(p + exit.straight_m * u, exit.side, cell_m);
 }
 
 /// The symmetry of the square that makes every turn a left turn from a heading in [0, 90) degrees:
-/// mirror y for a right turn, then turn the world clockwise by `quarter` quarter turns.
+/// axes `ahead` and `above` with u between them, `above` being where the heading turns to.
 struct Canonical {
-  double mirror;  // +1 or -1
-  int quarter;
+  int ahead_side;
+  int turn;
+  Vec2 ahead;
+  Vec2 above;
 
-  Canonical(Vec2 u, int turn) : mirror(turn) {
-    const double uy = mirror * u.y;
-    quarter = u.x > 0.0 && uy >= 0.0 ? 0 : u.x <= 0.0 && uy > 0.0 ? 1 : u.x < 0.0 ? 2 : 3;
+  Canonical(Vec2 u, int turn_) : turn(turn_) {
+    // Signs of u.x and u.y pick the axis that u lies on or has just passed.
+    static constexpr std::array<std::array<std::int8_t, 9>, 2> sides{{
+        // y:  -      0       +      (x -, 0, + in each)
+        {2, 3, 3, 2, 0, 0, 1, 1, 0},  // turning left
+        {3, 3, 0, 2, 0, 0, 2, 1, 1},  // turning right
+    }};
+    const int column = (u.x > 0.0) - (u.x < 0.0) + 1;
+    const int row = (u.y > 0.0) - (u.y < 0.0) + 1;
+    ahead_side = sides[turn > 0 ? 0 : 1][static_cast<std::size_t>(3 * row + column)];
+    static constexpr std::array<double, 5> cosines{1.0, 0.0, -1.0, 0.0, 1.0};
+    const auto k = static_cast<std::size_t>(ahead_side);
+    ahead = {cosines[k], cosines[k + 1] * -1.0};
+    above = static_cast<double>(turn) * left_of(ahead);
   }
-  Vec2 into(Vec2 v) const {
-    v.y *= mirror;
-    switch (quarter) {
-      case 0:
-        return v;
-      case 1:
-        return {v.y, -v.x};
-      case 2:
-        return -v;
-      default:
-        return {-v.y, v.x};
-    }
-  }
-  Vec2 out_of(Vec2 v) const {
-    switch (quarter) {
-      case 0:
-        break;
-      case 1:
-        v = {-v.y, v.x};
-        break;
-      case 2:
-        v = -v;
-        break;
-      default:
-        v = {v.y, -v.x};
-    }
-    return {v.x, mirror * v.y};
-  }
-  /// The world's side that is side `s` (right, top, left) here.
-  Side side(int s) const {
-    const int w = (s + quarter) & 3;
-    return static_cast<Side>(mirror < 0.0 && (w & 1) != 0 ? w ^ 2 : w);
-  }
+  Vec2 into(Vec2 v) const { return {dot(v, ahead), dot(v, above)}; }
+  Vec2 out_of(Vec2 v) const { return v.x * ahead + v.y * above; }
+  /// The world's side that is side `s` (0 ahead, 1 above, 2 behind) here.
+  Side side(int s) const { return static_cast<Side>((ahead_side + s * turn) & 3); }
 };
 
 struct ArcExit {
@@ -249,23 +235,8 @@ inline void exit_turning(const CellState& s, const Direction& command, const Cel
   const double angle = 2.0 * std::asin(std::min(1.0, norm(arc.move) / (2.0 * r)));
   // One Newton step towards length 1 keeps long turns from drifting.
   const double scale = 1.5 - 0.5 * norm2(arc.heading);
-  Vec2 q = p + canonical.out_of(arc.move);
   exit.side = canonical.side(arc.side);
-  q = {std::clamp(q.x, 0.0, d), std::clamp(q.y, 0.0, d)};
-  switch (exit.side) {
-    case Side::right:
-      q.x = d;
-      break;
-    case Side::top:
-      q.y = d;
-      break;
-    case Side::left:
-      q.x = 0.0;
-      break;
-    case Side::bottom:
-      q.y = 0.0;
-      break;
-  }
+  const Vec2 q = on_side(p + canonical.out_of(arc.move), exit.side, d);
   exit.arc_m = r * angle;
   exit.path = CellPath::arc;
   exit.arc_end_m = q;

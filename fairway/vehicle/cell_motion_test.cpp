@@ -193,7 +193,7 @@ Draw draw_any(Random& random) {
 
 TEST(CellMotion, exits_where_the_exact_motion_does) {
   Random random(11);
-  for (int i = 0; i < 400000; ++i) {
+  for (int i = 0; i < 100000; ++i) {
     expect_exit(draw_any(random));
     if (HasFatalFailure()) return;
   }

@@ -1,0 +1,39 @@
+// Flights as text, CSV and GeoJSON (the contract's `simulate` command).
+//
+// Numbers in CSV are the shortest decimals that read back as the same double; a trapped flight has
+// `inf` for time and length. The writers give the whole text; base/atomic_file.hpp puts it in
+// place.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+
+#include "fairway/simulate/flight.hpp"
+
+namespace fairway {
+
+/// One line per start: `x_m,y_m,heading_rad,outcome,time_s,length_m`. Throws ContractViolation when
+/// the lengths differ.
+[[nodiscard]] std::string outcomes_csv(std::span<const State> starts,
+                                       std::span<const FlightResult> results);
+
+/// `flight,time_s,x_m,y_m,heading_rad,curvature_per_m`: a line at each end of every piece and at
+/// least every `step_m` between; flight counts from 0; the curvature is that of the piece.
+[[nodiscard]] std::string trajectories_csv(std::span<const Flight> flights, double speed_mps,
+                                           double step_m);
+
+struct LonLat {
+  double longitude_deg = 0.0;
+  double latitude_deg = 0.0;
+};
+/// The place on earth of a point of the map; empty: the map has none.
+using LonLatOf = std::function<LonLat(Vec2 position_m)>;
+
+/// A FeatureCollection (RFC 7946): per flight a LineString (a Point when it does not move) with the
+/// properties flight, outcome, time_s, length_m (null when trapped). Arcs become chords of at most
+/// `step_m`. Without `lon_lat_of` coordinates are metres and a member `note` says so.
+[[nodiscard]] std::string flights_geojson(std::span<const Flight> flights, double step_m,
+                                          const LonLatOf& lon_lat_of = {});
+
+}  // namespace fairway

@@ -1,0 +1,71 @@
+// What many flights have in common, and how one flight keeps to a path.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "fairway/plan/plan.hpp"
+#include "fairway/simulate/flight.hpp"
+#include "fairway/vehicle/mission.hpp"
+
+namespace fairway {
+
+/// How many flights ended how.
+struct OutcomeCounts {
+  std::array<std::size_t, 4> by_outcome{};  ///< in the order of Outcome
+
+  void add(Outcome outcome) { ++by_outcome[static_cast<std::size_t>(outcome)]; }
+  std::size_t of(Outcome outcome) const { return by_outcome[static_cast<std::size_t>(outcome)]; }
+  std::size_t total() const;
+  /// 0 when there are no flights.
+  double share(Outcome outcome) const;
+};
+
+[[nodiscard]] OutcomeCounts count_outcomes(std::span<const FlightResult> results);
+
+/// By the cell in which a flight starts. Starts outside the grid count in `all` alone.
+struct RegionCounts {
+  OutcomeCounts all;
+  OutcomeCounts safe_start;              ///< free cells
+  OutcomeCounts safe_start_finite_cost;  ///< of these, cells that can reach the goal
+  OutcomeCounts buffer;
+  OutcomeCounts goal;
+  OutcomeCounts obstacle;
+};
+
+/// `starts` and `results` are of one length; throws ContractViolation otherwise.
+[[nodiscard]] RegionCounts count_by_region(const Plan& plan, std::span<const State> starts,
+                                           std::span<const FlightResult> results);
+
+/// The point of a path nearest to another point.
+struct PathPoint {
+  Vec2 position_m;
+  Heading tangent;
+  double distance_m = 0.0;
+  double along_m = 0.0;  ///< from the first vertex
+};
+
+/// Throws ContractViolation when the path has fewer than two vertices.
+[[nodiscard]] PathPoint nearest_on_path(Vec2 point_m, const PathMission& path);
+
+/// Membership in the goal set of a path mission (paper 1, Eq. 5): some point of the path has x and
+/// y within delta_position_m and its tangent within delta_heading_rad, all strictly.
+[[nodiscard]] bool on_path(const State& state, const PathMission& path);
+
+struct PathSample {
+  double time_s = 0.0;
+  double length_m = 0.0;  ///< flown so far
+  State state;
+  PathPoint nearest;
+  double heading_error_rad = 0.0;  ///< tangent minus heading, (-pi, pi]
+  bool on_path = false;            ///< Eq. 5
+};
+
+/// Along a recorded flight, at least every `step_m`, and at both ends of every piece.
+[[nodiscard]] std::vector<PathSample> sample_along_path(const Flight& flight,
+                                                        const PathMission& path, double speed_mps,
+                                                        double step_m);
+
+}  // namespace fairway
