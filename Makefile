@@ -1,0 +1,43 @@
+# Thin wrappers over the CMake presets. Each sets up a bare Debian 12 first (tools/setup.sh).
+
+export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
+JOBS ?= $(shell nproc)
+
+.PHONY: help setup build demo test bench reproduce install clean
+
+help:
+	@echo "make demo       build, run the demonstration, say where to look"
+	@echo "make test       build and run every test"
+	@echo "make build      build/release/bin/fairway"
+	@echo "make bench      build and print the benchmark table"
+	@echo "make reproduce  redraw paper 1's figures on the project's own map"
+	@echo "make install    install to PREFIX (default /usr/local)"
+	@echo "make clean      remove build/ and out/"
+
+setup:
+	@tools/setup.sh packages.apt
+
+build: setup
+	cmake --preset release
+	cmake --build --preset release --parallel $(JOBS)
+
+demo: build
+	build/release/bin/fairway run demo/demo.toml -o out/demo --force
+
+test: build
+	ctest --preset release --parallel $(JOBS)
+
+bench: setup
+	@tools/setup.sh tools/packages-bench.apt
+	cmake --preset bench
+	cmake --build --preset bench --parallel $(JOBS)
+	cmake --build --preset bench --target run_bench
+
+reproduce: build
+	/usr/bin/python3 tools/reproduce.py build/release/bin/fairway out/reproduce
+
+install: build
+	cmake --install build/release --prefix $(or $(PREFIX),/usr/local)
+
+clean:
+	rm -rf build out

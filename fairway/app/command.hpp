@@ -1,0 +1,26 @@
+// The table of subcommands: each declares its options and says what it does with them.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "fairway/app/session.hpp"
+
+namespace fairway {
+
+/// Runs a subcommand once its options are parsed; returns an ExitCode.
+using Action = std::function<int(const Session&)>;
+
+struct Command {
+  const char* name;
+  const char* does;
+  Action (*declare)(CLI::App& options);
+};
+
+// One file each.
+Action declare_run(CLI::App& options);
+Action declare_plan(CLI::App& options);
+
+}  // namespace fairway

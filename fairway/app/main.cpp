@@ -1,0 +1,115 @@
+// fairway: a table of subcommands, the global options, and what errors become.
+#include <csignal>
+#include <exception>
+#include <new>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include "fairway/app/command.hpp"
+#include "fairway/base/atomic_file.hpp"
+#include "fairway/base/error.hpp"
+#include "fairway/run/scenario_keys.hpp"
+#include "fairway/run/version.hpp"
+
+namespace fairway {
+namespace {
+
+// To add a subcommand: a file with its declare function, and a line here.
+constexpr Command commands[] = {
+    {"run", "the main job: map, plan, flights, pictures; the folder gets every product",
+     declare_run},
+    {"plan", "the feedback plan alone", declare_plan},
+};
+
+/// Ctrl-C and friends must leave nothing half-written: they are taken by a thread of their own,
+/// which may do what a signal handler may not.
+void tidy_up_on_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int s : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, s);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::thread([signals] {
+    int caught = 0;
+    sigwait(&signals, &caught);
+    remove_unfinished();
+    ::_exit(128 + caught);
+  }).detach();
+}
+
+int fail(const Session& session, int code, const std::string& where, const std::string& message) {
+  fmt::print(stderr, "fairway: {}\n", message);
+  if (session.json) {
+    session.tell({{"error", message}, {"where", where}, {"exit_code", code}}, "");
+  }
+  return code;
+}
+
+int perform(const Action& action, const Session& session) {
+  std::optional<tbb::global_control> bound;
+  if (session.threads > 0) {
+    bound.emplace(tbb::global_control::max_allowed_parallelism,
+                  static_cast<std::size_t>(session.threads));
+  }
+  try {
+    return action(session);
+  } catch (const InputError& error) {
+    return fail(session, exit_input, error.where(), error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(session, exit_fault, "", "out of memory; larger cells need less");
+  } catch (const std::exception& error) {
+    return fail(session, exit_fault, "",
+                fmt::format("a fault of fairway itself, not of your input: {}", error.what()));
+  }
+}
+
+int main_with(int argc, char** argv) {
+  Session session;
+  CLI::App app("Verified feedback motion plans for vehicles with a minimum turning radius.",
+               "fairway");
+  app.set_version_flag("--version", program_version);
+  app.add_option("--threads", session.threads,
+                 "threads to use (default: all cores); results never depend on it")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  app.add_flag("--quiet", session.quiet, "no progress, no closing words");
+  app.add_flag("--json", session.json, "print one JSON object to stdout");
+  app.add_flag("--force", session.force, "replace products that exist");
+  bool show_keys = false;
+  app.add_flag("--scenario-keys", show_keys, "print every scenario key with its range and default");
+  app.require_subcommand(0, 1);
+  app.fallthrough();
+
+  std::vector<std::pair<CLI::App*, Action>> declared;
+  for (const Command& command : commands) {
+    CLI::App* options = app.add_subcommand(command.name, command.does);
+    declared.emplace_back(options, command.declare(*options));
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_done : exit_usage;
+  }
+  if (show_keys) {
+    fmt::print("{}", scenario_keys_markdown());
+    return exit_done;
+  }
+  for (const auto& [options, action] : declared) {
+    if (options->parsed()) return perform(action, session);
+  }
+  fmt::print(stderr, "{}", app.help());
+  return exit_usage;
+}
+
+}  // namespace
+}  // namespace fairway
+
+int main(int argc, char** argv) {
+  fairway::tidy_up_on_signals();
+  return fairway::main_with(argc, argv);
+}

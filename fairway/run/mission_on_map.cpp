@@ -1,0 +1,76 @@
+#include "fairway/run/mission_on_map.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "fairway/base/error.hpp"
+#include "fairway/map/read_path.hpp"
+#include "fairway/map/tangent_plane.hpp"
+
+namespace fairway {
+namespace {
+
+const char* place_key(const Scenario& scenario) {
+  if (scenario.mission.kind == MissionKind::path) return "mission.path_file";
+  return scenario.mission.goal_deg ? "mission.goal_deg" : "mission.goal_m";
+}
+
+Vec2 goal_on_map(const Scenario& scenario, const ObstacleMap& map) {
+  const MissionRequest& asked = scenario.mission;
+  if (!asked.goal_deg) return *asked.goal_m;
+  if (!map.geo) {
+    throw InputError(
+        scenario.place_of("mission.goal_deg"),
+        "mission.goal_deg: this map is not in degrees, expected mission.goal_m = [x, y] "
+        "in metres");
+  }
+  const TangentPlane plane({map.geo->latitude_deg, map.geo->longitude_deg});
+  const Vec2 goal_m = plane.to_plane_m(*asked.goal_deg);
+  if (!std::isfinite(goal_m.x) || !std::isfinite(goal_m.y) ||
+      norm(goal_m) > tangent_plane_limit_m) {
+    throw InputError(
+        scenario.place_of("mission.goal_deg"),
+        fmt::format("mission.goal_deg: is more than {:g} km from the map's reference "
+                    "point, latitude {} longitude {}",
+                    tangent_plane_limit_m / 1000.0, map.geo->latitude_deg, map.geo->longitude_deg));
+  }
+  return goal_m;
+}
+
+/// What most often stands behind a goal outside the map.
+std::string hint(const Scenario& scenario, const ObstacleMap& map) {
+  if (!map.geo || !scenario.mission.goal_m) return {};
+  return "; this map came in degrees and is planned in metres about its reference point: give "
+         "mission.goal_deg = [latitude, longitude]";
+}
+
+}  // namespace
+
+Mission mission_on_map(const Scenario& scenario, const ObstacleMap& map) {
+  const MissionRequest& asked = scenario.mission;
+  if (asked.kind == MissionKind::goal) {
+    const Vec2 goal_m = goal_on_map(scenario, map);
+    const Grid& g = map.grid;
+    const bool inside = goal_m.x >= g.x0_m && goal_m.x <= g.x0_m + g.width_m() &&
+                        goal_m.y >= g.y0_m && goal_m.y <= g.y0_m + g.height_m();
+    if (!inside) {
+      throw InputError(
+          scenario.place_of(place_key(scenario)),
+          fmt::format("{}: the goal ({:g}, {:g}) is outside the map, expected x in "
+                      "[{:g}, {:g}] and y in [{:g}, {:g}]{}",
+                      place_key(scenario), goal_m.x, goal_m.y, g.x0_m, g.x0_m + g.width_m(), g.y0_m,
+                      g.y0_m + g.height_m(), hint(scenario, map)));
+    }
+    return GoalMission{goal_m, asked.goal_heading_rad};
+  }
+  return PathMission{read_path(*asked.path_file, map, asked.closed), asked.closed,
+                     asked.delta_position_m, asked.delta_heading_rad};
+}
+
+void throw_refusal(const Scenario& scenario, const MissionRefusal& refusal) {
+  const char* key = place_key(scenario);
+  throw InputError(scenario.place_of(key), fmt::format("{}: {}", key, refusal.message));
+}
+
+}  // namespace fairway

@@ -1,0 +1,18 @@
+// The mission of a scenario, once the map and so the frame is known.
+#pragma once
+
+#include "fairway/map/obstacle_map.hpp"
+#include "fairway/run/scenario.hpp"
+#include "fairway/vehicle/mission.hpp"
+
+namespace fairway {
+
+/// Reads the path file, or lays the goal on the map's plane. Throws InputError naming the
+/// scenario's line, or the path file's.
+[[nodiscard]] Mission mission_on_map(const Scenario& scenario, const ObstacleMap& map);
+
+/// A refusal that is the input's fault (not Reason::unreachable) as an InputError at the key of the
+/// scenario that asked for it.
+[[noreturn]] void throw_refusal(const Scenario& scenario, const MissionRefusal& refusal);
+
+}  // namespace fairway

@@ -1,0 +1,173 @@
+#include "fairway/run/run.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "fairway/base/digest.hpp"
+#include "fairway/field/compute_field.hpp"
+#include "fairway/map/read_map.hpp"
+#include "fairway/plan/plan_file.hpp"
+#include "fairway/run/mission_on_map.hpp"
+#include "fairway/run/plan_record.hpp"
+#include "fairway/run/run_pictures.hpp"
+#include "fairway/run/scenario_flights.hpp"
+#include "fairway/run/stage_clock.hpp"
+#include "fairway/run/summary.hpp"
+#include "fairway/simulate/flight_files.hpp"
+
+namespace fairway {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* summary_name = "summary.json";
+
+/// Seconds that the stages after the map will take, from rates seen on one machine: no more than
+/// what a progress line needs.
+struct Estimate {
+  double field_s, plan_s, flights_s, pictures_s;
+  double from_field() const { return field_s + from_plan(); }
+  double from_plan() const { return plan_s + from_flights(); }
+  double from_flights() const { return flights_s + pictures_s; }
+};
+Estimate estimate(const Scenario& scenario, const Grid& grid) {
+  const auto cells = static_cast<double>(grid.size());
+  const auto flights =
+      static_cast<double>(std::max(scenario.simulate.random, scenario.simulate.sample));
+  return {60e-9 * cells, 20e-9 * cells, flights * 2.0 * (grid.nx + grid.ny) * 20e-9,
+          1.5 + 40e-9 * cells};
+}
+
+std::string plural(std::size_t n, const char* noun) {
+  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+}
+
+RunResult unreachable(const MissionRefusal& refusal) {
+  return {true, {{"unreachable", true}, {"message", refusal.message}}, refusal.message, {}};
+}
+
+std::string flight_words(const ScenarioFlights& flown) {
+  std::string words;
+  if (!flown.random_results().empty()) {
+    words += fmt::format("Of {}, {}. ", plural(flown.random_results().size(), "random safe start"),
+                         outcome_words(count_outcomes(flown.random_results())));
+  }
+  if (flown.given > 0) {
+    const OutcomeCounts counts = count_outcomes(flown.given_results());
+    words += fmt::format("Of {} in the scenario, {} reach. ", plural(flown.given, "state"),
+                         counts.of(Outcome::reach));
+  }
+  return words;
+}
+
+void add_flights(json& summary, const Scenario& scenario, const ScenarioFlights& flown) {
+  summary["random_flights"] = outcome_json(count_outcomes(flown.random_results()));
+  summary["random_flights"]["seed"] = scenario.simulate.seed;
+  summary["given_flights"] = outcome_json(count_outcomes(flown.given_results()));
+  summary["recorded_flights"] = flown.recorded.size();
+}
+
+/// map -> field -> plan, what both commands begin with.
+struct Planned {
+  ObstacleMap map;
+  Mission mission;
+  Plan plan;
+};
+
+std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& scenario, StageClock& clock) {
+  clock.begin("reading the map", 0.0);
+  ObstacleMap map = read_map(scenario.map);
+  Mission mission = mission_on_map(scenario, map);
+
+  clock.begin("computing the field", estimate(scenario, map.grid).from_field());
+  FieldOrRefusal answer = compute_field(map, scenario.vehicle, mission, scenario.plan);
+  if (auto* refusal = std::get_if<MissionRefusal>(&answer)) {
+    if (refusal->reason != MissionRefusal::Reason::unreachable) throw_refusal(scenario, *refusal);
+    return std::move(*refusal);
+  }
+  Plan plan = plan_of_field(std::move(std::get<Field>(answer)), scenario.vehicle,
+                            plan_record(scenario, map, mission));
+  return Planned{std::move(map), std::move(mission), std::move(plan)};
+}
+
+void write_flights(const ScenarioFlights& flown, const ObstacleMap& map, double speed_mps,
+                   const fs::path& place) {
+  const double step_m = map.grid.cell_m;
+  write_whole(place / "flights.csv", Existing::keep,
+              trajectories_csv(flown.recorded, speed_mps, step_m));
+  write_whole(place / "flights.geojson", Existing::keep,
+              flights_geojson(flown.recorded, step_m, lon_lat_of(map.geo)));
+  write_whole(place / "outcomes.csv", Existing::keep, outcomes_csv(flown.starts, flown.results));
+}
+
+json product_digests(const fs::path& folder) {
+  json digests = json::object();
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    digests[entry.path().filename().string()] = sha256_file(entry.path());
+  }
+  return digests;
+}
+
+}  // namespace
+
+RunResult run(const Scenario& scenario, const fs::path& folder, Existing existing,
+              const Progress& progress) {
+  AtomicFolder products(folder, existing, summary_name);
+  const fs::path& place = products.temporary_path();
+  StageClock clock(progress);
+
+  auto answer = plan_scenario(scenario, clock);
+  if (const auto* refusal = std::get_if<MissionRefusal>(&answer)) return unreachable(*refusal);
+  const auto& [map, mission, plan] = std::get<Planned>(answer);
+  const Estimate left = estimate(scenario, map.grid);
+
+  clock.begin("writing the plan", left.from_plan());
+  write_plan(plan, place / "plan.safetensors", Existing::keep);
+
+  clock.begin("flying", left.from_flights());
+  const ScenarioFlights flown = fly_scenario(scenario, plan, mission, clock, left.pictures_s);
+  write_flights(flown, map, plan.vehicle.speed_mps, place);
+
+  clock.begin("drawing", left.pictures_s);
+  write_run_pictures(plan, mission, flown, scenario.file.stem().string(), place);
+  clock.end();
+
+  RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
+  add_flights(result.summary, scenario, flown);
+  result.summary["products"] = product_digests(place);
+  add_cost(result.summary, clock);
+  write_whole(place / summary_name, Existing::keep, result.summary.dump(2) + "\n");
+  products.commit();
+  result.paragraph = fmt::format(
+      "{} {}Flights are evidence, not a proof. {}\nLook at {}, {} and {}.", plan_words(plan),
+      flight_words(flown), cost_words(result.summary), (folder / "plan.svg").string(),
+      (folder / "flights.svg").string(), (folder / summary_name).string());
+  return result;
+}
+
+RunResult run_plan_only(const Scenario& scenario, const fs::path& file, Existing existing,
+                        const Progress& progress) {
+  require_writable_place(file, existing);
+  StageClock clock(progress);
+
+  auto answer = plan_scenario(scenario, clock);
+  if (const auto* refusal = std::get_if<MissionRefusal>(&answer)) return unreachable(*refusal);
+  const auto& [map, mission, plan] = std::get<Planned>(answer);
+
+  clock.begin("writing the plan", estimate(scenario, map.grid).plan_s);
+  write_plan(plan, file, existing);
+  clock.end();
+
+  RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
+  result.summary["products"] = {{file.filename().string(), sha256_file(file)}};
+  add_cost(result.summary, clock);
+  result.paragraph = fmt::format("{} {}\nThe plan is {}.", plan_words(plan),
+                                 cost_words(result.summary), file.string());
+  return result;
+}
+
+}  // namespace fairway

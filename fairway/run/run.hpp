@@ -1,0 +1,33 @@
+// THE main flow: from a scenario to a folder with every product.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "fairway/base/atomic_file.hpp"
+#include "fairway/run/progress.hpp"
+#include "fairway/run/scenario.hpp"
+
+namespace fairway {
+
+struct RunResult {
+  bool unreachable = false;  ///< the answer is no: nothing was written, `paragraph` says why
+  nlohmann::json summary;    ///< docs/formats.md
+  std::string paragraph;     ///< what came out, in words
+  std::vector<std::string> warnings;
+};
+
+/// map -> field -> plan -> flights -> pictures -> summary.json, all in `folder`, which appears
+/// whole or not at all. Products do not depend on threads, but for the times in summary.json.
+/// Throws InputError for bad input, a mission the map does not allow, or a place that is taken.
+[[nodiscard]] RunResult run(const Scenario& scenario, const std::filesystem::path& folder,
+                            Existing existing, const Progress& progress);
+
+/// map -> field -> plan alone, into one file.
+[[nodiscard]] RunResult run_plan_only(const Scenario& scenario, const std::filesystem::path& file,
+                                      Existing existing, const Progress& progress);
+
+}  // namespace fairway

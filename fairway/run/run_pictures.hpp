@@ -1,0 +1,17 @@
+// The pictures of a run: plan, flights, headings and, for paths, distances.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "fairway/plan/plan.hpp"
+#include "fairway/run/scenario_flights.hpp"
+#include "fairway/vehicle/mission.hpp"
+
+namespace fairway {
+
+/// Writes NAME.svg and NAME.png into `folder` for every picture.
+void write_run_pictures(const Plan& plan, const Mission& mission, const ScenarioFlights& flown,
+                        const std::string& title, const std::filesystem::path& folder);
+
+}  // namespace fairway

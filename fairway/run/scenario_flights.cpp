@@ -1,0 +1,78 @@
+#include "fairway/run/scenario_flights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "fairway/base/error.hpp"
+#include "fairway/simulate/exact_flight.hpp"
+#include "fairway/simulate/start_states.hpp"
+
+namespace fairway {
+namespace {
+
+void require_on_grid(const Scenario& scenario, const Grid& grid) {
+  for (const State& s : scenario.simulate.states) {
+    if (grid.contains(grid.cell_of(s.position_m))) continue;
+    throw InputError(
+        scenario.place_of("simulate.states"),
+        fmt::format("simulate.states: ({:g}, {:g}) is outside the map, expected x in [{:g}, {:g}] "
+                    "and y in [{:g}, {:g}]",
+                    s.position_m.x, s.position_m.y, grid.x0_m, grid.x0_m + grid.width_m(),
+                    grid.y0_m, grid.y0_m + grid.height_m()));
+  }
+}
+
+double length_m(const PathMission& path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.vertices_m.size(); ++i) {
+    length += norm(path.vertices_m[i] - path.vertices_m[i - 1]);
+  }
+  if (path.closed) length += norm(path.vertices_m.front() - path.vertices_m.back());
+  return length;
+}
+
+Flight recorded(const ExactFlights& flights, const Plan& plan, const Mission& mission,
+                const State& start) {
+  const auto* path = std::get_if<PathMission>(&mission);
+  if (path == nullptr) return flights.record(start);
+  const float cost_m = plan.cost_m[plan.grid.index(plan.grid.cell_of(start.position_m))];
+  const double approach_m = std::isfinite(cost_m) ? static_cast<double>(cost_m) : 0.0;
+  return flights.follow(start, approach_m + length_m(*path));
+}
+
+}  // namespace
+
+ScenarioFlights fly_scenario(const Scenario& scenario, const Plan& plan, const Mission& mission,
+                             const StageClock& clock, double after_s) {
+  require_on_grid(scenario, plan.grid);
+  const SimulateRequest& asked = scenario.simulate;
+  ScenarioFlights flown;
+  flown.given = asked.states.size();
+  flown.starts = asked.states;
+  const std::size_t random = std::max(asked.random, asked.sample);
+  for (const State& s : random_states(plan, StartRegion::safe_start, random, asked.seed)) {
+    flown.starts.push_back(s);
+  }
+
+  const ExactFlights flights(plan);
+  constexpr std::size_t batch = 1000;
+  const std::span<const State> starts(flown.starts);
+  while (flown.results.size() < starts.size()) {
+    const std::size_t done = flown.results.size();
+    for (const FlightResult& result :
+         flights.fly_all(starts.subspan(done, std::min(batch, starts.size() - done)))) {
+      flown.results.push_back(result);
+    }
+    const double per_flight_s = clock.seconds() / static_cast<double>(flown.results.size());
+    clock.tell(per_flight_s * static_cast<double>(starts.size() - flown.results.size()) + after_s);
+  }
+  const std::size_t to_record = std::min(flown.given + asked.random, starts.size());
+  for (const State& start : starts.first(to_record)) {
+    flown.recorded.push_back(recorded(flights, plan, mission, start));
+  }
+  return flown;
+}
+
+}  // namespace fairway

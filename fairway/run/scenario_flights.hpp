@@ -1,0 +1,33 @@
+// The flights a scenario asks for, and the pictures and charts of them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "fairway/plan/plan.hpp"
+#include "fairway/run/scenario.hpp"
+#include "fairway/run/stage_clock.hpp"
+#include "fairway/simulate/flight.hpp"
+#include "fairway/vehicle/mission.hpp"
+
+namespace fairway {
+
+struct ScenarioFlights {
+  std::size_t given = 0;              ///< how many of the starts stand in the scenario
+  std::vector<State> starts;          ///< given, then random
+  std::vector<FlightResult> results;  ///< one per start
+  std::vector<Flight> recorded;       ///< the given ones, then the first `simulate.random`
+
+  std::span<const FlightResult> given_results() const { return std::span(results).first(given); }
+  std::span<const FlightResult> random_results() const { return std::span(results).subspan(given); }
+};
+
+/// Flies max(simulate.random, simulate.sample) random safe starts and the given ones. Flights of
+/// path missions are recorded beyond their first goal cell, along the path. Throws InputError at
+/// simulate.states when one lies outside the grid. `after_s`: what the run will take afterwards.
+[[nodiscard]] ScenarioFlights fly_scenario(const Scenario& scenario, const Plan& plan,
+                                           const Mission& mission, const StageClock& clock,
+                                           double after_s);
+
+}  // namespace fairway

@@ -1,0 +1,54 @@
+// Wall time per stage, and what is told about progress.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "fairway/run/progress.hpp"
+
+namespace fairway {
+
+class StageClock {
+ public:
+  explicit StageClock(const Progress& progress) : progress_(progress) {}
+
+  /// Ends the stage before, begins this one. `left_s`: estimate for it and all that follow.
+  void begin(const std::string& stage, double left_s) {
+    end();
+    stage_ = stage;
+    begin_ = Clock::now();
+    tell(left_s);
+  }
+  void tell(double left_s) const {
+    if (progress_) progress_(stage_, left_s);
+  }
+  /// Of the stage that is under way.
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+  void end() {
+    if (!stage_.empty()) stages_.emplace_back(std::exchange(stage_, {}), seconds());
+  }
+
+  double total_s() const {
+    double sum = 0.0;
+    for (const auto& [stage, seconds] : stages_) sum += seconds;
+    return sum;
+  }
+  nlohmann::json json() const {
+    nlohmann::json by_stage = nlohmann::json::object();
+    for (const auto& [stage, seconds] : stages_) by_stage[stage] = seconds;
+    return by_stage;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  const Progress& progress_;
+  std::string stage_;
+  Clock::time_point begin_;
+  std::vector<std::pair<std::string, double>> stages_;
+};
+
+}  // namespace fairway

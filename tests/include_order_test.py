@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""The house keeps its order: which file may include which (ARCHITECTURE.md).
+
+Usage: include_order_test.py SOURCE_DIR. Prints every include that breaks a rule; exit 1 if any.
+"""
+import pathlib
+import re
+import sys
+
+STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "report", "run", "app"]
+TOOLBOXES = {"base", "vehicle"}
+JOINERS = {"run", "app"}
+NOUNS = {
+    "map": {"obstacle_map.hpp", "region.hpp"},
+    "field": {"field.hpp"},
+    "plan": {"plan.hpp"},
+    "simulate": {"flight.hpp"},
+    "report": {"picture.hpp"},
+}
+# Libraries that must stay out of the core, and the folders that may name them.
+OUTSIDE = [
+    (re.compile(r"(gdal|ogr|cpl_|proj\.h|proj/)"), {"map"}),
+    (re.compile(r"yaml-cpp"), {"map"}),
+    (re.compile(r"toml"), {"run"}),
+    (re.compile(r"cairo"), {"report"}),
+    (re.compile(r"CLI/|CLI11"), {"app"}),
+    (re.compile(r"openssl"), {"base"}),
+]
+INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]')
+
+
+def violation(stage, is_test, is_header, quoted, target):
+    if not quoted:
+        for library, folders in OUTSIDE:
+            if library.match(target) and stage not in folders:
+                return f"{target} belongs to {', '.join(sorted(folders))} alone"
+        if stage == "map" and is_header and target.startswith(("gdal", "ogr", "yaml", "cpl_")):
+            return None if "gdal_" in target else "readers keep their libraries out of map headers"
+        return None
+    parts = pathlib.PurePosixPath(target).parts
+    if len(parts) != 3 or parts[0] != "fairway" or parts[1] not in STAGES:
+        return f'project headers are included as "fairway/STAGE/name.hpp", not "{target}"'
+    other, name = parts[1], parts[2]
+    if other == stage:
+        return None
+    if STAGES.index(other) > STAGES.index(stage):
+        return f"{other} comes after {stage}"
+    if other in TOOLBOXES or stage in JOINERS or is_test:
+        return None
+    if name not in NOUNS.get(other, set()):
+        return f"{target} is a verb of {other}; a stage includes the nouns of earlier stages"
+    return None
+
+
+def main():
+    root = pathlib.Path(sys.argv[1])
+    files = sorted(p for p in (root / "fairway").rglob("*") if p.suffix in {".hpp", ".cpp"})
+    found = []
+    for path in files:
+        stage = path.relative_to(root / "fairway").parts[0]
+        if stage not in STAGES:
+            found.append(f"{path}: {stage} is not among the stages {' '.join(STAGES)}")
+            continue
+        for number, line in enumerate(path.read_text().splitlines(), start=1):
+            match = INCLUDE.match(line)
+            if not match:
+                continue
+            is_test = path.stem.endswith("_test")
+            problem = violation(stage, is_test, path.suffix == ".hpp", match[1] == '"', match[2])
+            if problem:
+                found.append(f"{path}:{number}: {problem}")
+    for stage, names in NOUNS.items():
+        for name in names:
+            if not (root / "fairway" / stage / name).is_file():
+                found.append(f"the noun fairway/{stage}/{name} is not there")
+    order = (root / "fairway" / "CMakeLists.txt").read_text()
+    if re.findall(r"add_subdirectory\((\w+)\)", order) != STAGES:
+        found.append("fairway/CMakeLists.txt lists the stages in another order")
+    documented = re.findall(r"^\| `(\w+)/` \|", (root / "ARCHITECTURE.md").read_text(), re.M)
+    if documented != STAGES:
+        found.append("ARCHITECTURE.md lists the stages in another order")
+    print("\n".join(found) if found else f"{len(files)} files keep the order")
+    return 1 if found or len(files) < 20 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
