@@ -129,6 +129,7 @@ Picture draw_flights(const Plan& plan, std::span<const Flight> flights,
   MapPage page(plan,
                {options.title, false, options.mission, options.frame_pt, options.pixels_per_pt},
                std::move(entries));
+  page.mark_mission();
   for (std::size_t k = 0; k < bundles.size(); ++k) draw_bundle(page, bundles[k], drawn[k]);
   return page.finish();
 }

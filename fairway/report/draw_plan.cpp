@@ -114,6 +114,7 @@ Picture draw_plan(const Plan& plan, const PlanPictureOptions& options) {
       std::move(entries));
   if (options.streamlines) draw_streamlines(page, plan, options.streamlines_across);
   if (options.arrows) draw_arrows(page, plan, options.arrows_across);
+  page.mark_mission();
   return page.finish();
 }
 

@@ -227,8 +227,11 @@ void MapPage::draw_side_column() {
   canvas_->text(tick_label(length_m, length_m) + " m", {side_x_pt_, at + 14.0});
 }
 
-Picture MapPage::finish() {
+void MapPage::mark_mission() {
   if (options_.mission) draw_mission(*canvas_, frame_, *options_.mission);
+}
+
+Picture MapPage::finish() {
   draw_axes(*canvas_, frame_, false);
   draw_side_column();
   if (!options_.title.empty()) {

@@ -1,0 +1,71 @@
+// fairway-reproduce DEMO_FOLDER OUT_FOLDER: redraws Figs. 3 to 8 of paper 1 on the project's own
+// map and prints what can be measured on them. Twice: to the letter of the paper (metric, filter
+// and blend "paper"), and with the project's defaults.
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "fairway/base/atomic_file.hpp"
+#include "fairway/base/error.hpp"
+#include "reproduce/figures.hpp"
+#include "reproduce/tables.hpp"
+
+namespace {
+
+struct Setting {
+  const char* folder;
+  const char* title;
+  fairway::FieldOptions options;
+};
+
+int reproduce(const std::filesystem::path& demo, const std::filesystem::path& out) {
+  using namespace fairway;
+  FieldOptions letter;
+  letter.metric = Metric::paper;
+  letter.filter = Filter::paper;
+  letter.blend = Blend::paper;
+  const std::array<Setting, 2> settings{
+      {{"paper", "To the letter of the paper", letter},
+       {"default", "With the defaults (euclidean metric)", FieldOptions{}}}};
+  std::string text;
+  nlohmann::json numbers;
+  for (const Setting& setting : settings) {
+    const auto done = reproduce::reproduce_figures(demo, setting.options);
+    const auto folder = out / setting.folder;
+    std::filesystem::create_directories(folder);
+    for (const auto& [name, picture] : done.pictures) {
+      write_whole(folder / (name + ".svg"), Existing::replace, picture.svg);
+      write_whole(folder / (name + ".png"), Existing::replace, picture.png);
+    }
+    const std::string tables = reproduce::tables_of(done);
+    fmt::print("## {}\n\n{}\n", setting.title, tables);
+    text += fmt::format("## {}\n\n{}\n", setting.title, tables);
+    numbers[setting.folder] = reproduce::numbers_of(done);
+  }
+  write_whole(out / "measures.md", Existing::replace, text);
+  write_whole(out / "measures.json", Existing::replace, numbers.dump(2) + "\n");
+  fmt::print("Figures and tables are in {}\n", out.string());
+  return 0;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count != 3) {
+    fmt::print(stderr, "usage: fairway-reproduce DEMO_FOLDER OUT_FOLDER\n");
+    return 64;
+  }
+  try {
+    return reproduce(words[1], words[2]);
+  } catch (const fairway::InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 65;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "fairway-reproduce: {}\n", error.what());
+    return 70;
+  }
+}
