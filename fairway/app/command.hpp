@@ -22,5 +22,6 @@ struct Command {
 // One file each.
 Action declare_run(CLI::App& options);
 Action declare_plan(CLI::App& options);
+Action declare_simulate(CLI::App& options);
 
 }  // namespace fairway

@@ -25,6 +25,8 @@ constexpr Command commands[] = {
     {"run", "the main job: map, plan, flights, pictures; the folder gets every product",
      declare_run},
     {"plan", "the feedback plan alone", declare_plan},
+    {"simulate", "flights under a plan: exact, or by a sampled control law in noise and wind",
+     declare_simulate},
 };
 
 /// Ctrl-C and friends must leave nothing half-written: they are taken by a thread of their own,
