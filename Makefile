@@ -34,7 +34,7 @@ bench: setup
 	cmake --build --preset bench --target run_bench
 
 reproduce: build
-	/usr/bin/python3 tools/reproduce.py build/release/bin/fairway out/reproduce
+	build/release/bin/fairway-reproduce demo out/reproduce
 
 install: build
 	cmake --install build/release --prefix $(or $(PREFIX),/usr/local)
