@@ -11,11 +11,6 @@
 namespace fairway {
 namespace {
 
-const char* place_key(const Scenario& scenario) {
-  if (scenario.mission.kind == MissionKind::path) return "mission.path_file";
-  return scenario.mission.goal_deg ? "mission.goal_deg" : "mission.goal_m";
-}
-
 Vec2 goal_on_map(const Scenario& scenario, const ObstacleMap& map) {
   const MissionRequest& asked = scenario.mission;
   if (!asked.goal_deg) return *asked.goal_m;
@@ -46,6 +41,11 @@ std::string hint(const Scenario& scenario, const ObstacleMap& map) {
 }
 
 }  // namespace
+
+const char* place_key(const Scenario& scenario) {
+  if (scenario.mission.kind == MissionKind::path) return "mission.path_file";
+  return scenario.mission.goal_deg ? "mission.goal_deg" : "mission.goal_m";
+}
 
 Mission mission_on_map(const Scenario& scenario, const ObstacleMap& map) {
   const MissionRequest& asked = scenario.mission;

@@ -11,6 +11,9 @@ namespace fairway {
 /// scenario's line, or the path file's.
 [[nodiscard]] Mission mission_on_map(const Scenario& scenario, const ObstacleMap& map);
 
+/// The key of the scenario that says where to: "mission.goal_m", ...
+[[nodiscard]] const char* place_key(const Scenario& scenario);
+
 /// A refusal that is the input's fault (not Reason::unreachable) as an InputError at the key of the
 /// scenario that asked for it.
 [[noreturn]] void throw_refusal(const Scenario& scenario, const MissionRefusal& refusal);

@@ -46,8 +46,12 @@ std::string plural(std::size_t n, const char* noun) {
   return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
 }
 
-RunResult unreachable(const MissionRefusal& refusal) {
-  return {true, {{"unreachable", true}, {"message", refusal.message}}, refusal.message, {}};
+RunResult unreachable(const Scenario& scenario, const MissionRefusal& refusal) {
+  const char* key = place_key(scenario);
+  return {true,
+          {{"unreachable", true}, {"message", refusal.message}},
+          fmt::format("{}: {}: {}", scenario.place_of(key), key, refusal.message),
+          {}};
 }
 
 std::string flight_words(const ScenarioFlights& flown) {
@@ -121,7 +125,8 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   StageClock clock(progress);
 
   auto answer = plan_scenario(scenario, clock);
-  if (const auto* refusal = std::get_if<MissionRefusal>(&answer)) return unreachable(*refusal);
+  if (const auto* refusal = std::get_if<MissionRefusal>(&answer))
+    return unreachable(scenario, *refusal);
   const auto& [map, mission, plan] = std::get<Planned>(answer);
   const Estimate left = estimate(scenario, map.grid);
 
@@ -155,7 +160,8 @@ RunResult run_plan_only(const Scenario& scenario, const fs::path& file, Existing
   StageClock clock(progress);
 
   auto answer = plan_scenario(scenario, clock);
-  if (const auto* refusal = std::get_if<MissionRefusal>(&answer)) return unreachable(*refusal);
+  if (const auto* refusal = std::get_if<MissionRefusal>(&answer))
+    return unreachable(scenario, *refusal);
   const auto& [map, mission, plan] = std::get<Planned>(answer);
 
   clock.begin("writing the plan", estimate(scenario, map.grid).plan_s);

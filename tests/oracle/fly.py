@@ -14,6 +14,9 @@ All flights advance together, one cell per step, in numpy.
 --compare reads `x_m,y_m,heading_rad,outcome,time_s,length_m`, prints how many outcomes agree and
 the largest relative difference of times among them; --command lets the program fly the states and
 compares. Exit code 1 when fewer than 99.99 % agree or a time differs by more than 1e-6.
+A flight that weaves along a border (arcs out of and back into the same side, in two cells in turn)
+repeats itself shifted until a corner is near; such repeats are added up at once (--no-leaps: not).
+
 Ties (headings along a border, exact corners) are not this program's business: random states.
 """
 
@@ -83,7 +86,10 @@ def side_angles(x, y, h, turn, d, r):
 
 
 def cross_cell(x, y, h, psi, d, r):
-    """One cell for many flights: exit x, y, h, side (0 right, 1 top, 2 left, 3 bottom), length."""
+    """One cell for many flights.
+
+    Exit x, y, h, side (0 right, 1 top, 2 left, 3 bottom), length, whether (all but) an arc alone.
+    """
     difference = psi - h
     turn_by = np.where(np.isnan(psi), 0.0, wrapped(difference))
     turn_by = np.where(np.abs(difference) == math.pi, math.pi, turn_by)
@@ -117,10 +123,27 @@ def cross_cell(x, y, h, psi, d, r):
         after,
         side,
         r * turned + straight,
+        straight < 1e-3 * r * turned,
     )
 
 
-def fly(plan, states, length_limit=None):
+def leap(x, y, h, vertical, hop, weaves, d, r):
+    """Moves weaving flights (in place) by pairs of hops to near the next corner; length flown."""
+    along = np.where(vertical, y, x)
+    across = np.abs(np.where(vertical, np.cos(h), np.sin(h)))
+    upwards = np.where(vertical, np.sin(h), np.cos(h)) > 0.0
+    pair = 4.0 * r * across
+    rest = np.where(upwards, d - along, along)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        pairs = np.floor(rest / pair) - 3.0
+    pairs = np.where(weaves & (pair < d / 20.0) & (pair > 1e-10 * d) & (pairs > 0.0), pairs, 0.0)
+    moved = along + np.where(upwards, pairs, -pairs) * pair
+    x[:] = np.where(vertical, x, moved)
+    y[:] = np.where(vertical, moved, y)
+    return pairs * 2.0 * hop
+
+
+def fly(plan, states, length_limit=None, leaps=True):
     """Outcomes (indices into OUTCOMES) and lengths of flights from states [n, 3]."""
     n = len(states)
     d, r = plan.cell, plan.radius
@@ -144,6 +167,7 @@ def fly(plan, states, length_limit=None):
     x, y, h = gx - ix * d, gy - iy * d, states[inside, 2].copy()
     ix, iy = ix + 1, iy + 1
     flown = np.zeros(len(flight))
+    hops = np.zeros(len(flight), int)
     kept = (ix, iy, x, y, h, np.full(len(flight), np.inf))
     renew, step = 1, 0
     while len(flight):
@@ -167,19 +191,28 @@ def fly(plan, states, length_limit=None):
             )
             length[done] = flown[ended]
             on = ~over
-            flight, ix, iy, x, y, h, flown = (a[on] for a in (flight, ix, iy, x, y, h, flown))
+            flight, ix, iy, x, y, h, flown, hops = (
+                a[on] for a in (flight, ix, iy, x, y, h, flown, hops)
+            )
             kept = tuple(a[on] for a in kept)
             continue
         if step == renew:  # Brent: keep the state after 1, 2, 4, ... cells
             kept = (ix, iy, x, y, h, flown.copy())
             renew *= 2
         step += 1
-        x, y, h, side, more = cross_cell(x, y, h, heading[iy, ix], d, r)
+        was_x, was_y = x, y
+        x, y, h, side, more, arc_alone = cross_cell(x, y, h, heading[iy, ix], d, r)
         flown = flown + more
+        vertical = (side == 0) | (side == 2)
+        x = np.select([side == 0, side == 2], [d, 0.0], x)
+        y = np.select([side == 1, side == 3], [d, 0.0], y)
+        hops = np.where(arc_alone & np.where(vertical, x == was_x, y == was_y), hops + 1, 0)
         x = np.select([side == 0, side == 2], [0.0, d], x)
         y = np.select([side == 1, side == 3], [0.0, d], y)
         ix = ix + (side == 0) - (side == 2)
         iy = iy + (side == 1) - (side == 3)
+        if leaps and (hops >= 2).any():
+            flown += leap(x, y, h, vertical, more, hops >= 2, d, r)
     return outcome, length
 
 
@@ -240,6 +273,7 @@ def main():
     parser.add_argument("--write-states")
     parser.add_argument("--outcomes")
     parser.add_argument("--compare")
+    parser.add_argument("--no-leaps", action="store_true")
     parser.add_argument("--command", help="the fairway program: fly the states with it and compare")
     options = parser.parse_args()
     plan = Plan(options.plan)
@@ -254,7 +288,7 @@ def main():
         write_states(options.write_states, states)
 
     begin = time.monotonic()
-    outcome, length = fly(plan, states)
+    outcome, length = fly(plan, states, leaps=not options.no_leaps)
     print(f"flown in {time.monotonic() - begin:.1f} s", file=sys.stderr)
     if options.outcomes:
         with open(options.outcomes, "w") as file:

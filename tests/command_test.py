@@ -1,0 +1,361 @@
+#!/usr/bin/env python3
+"""The command as a user meets it: exit codes, messages, products.
+
+Usage: command_test.py FAIRWAY SOURCE_DIR [unittest arguments]
+"""
+import csv
+import hashlib
+import json
+import math
+import os
+import pathlib
+import resource
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import numpy as np
+
+FAIRWAY = SOURCE = None
+
+SCENARIO = """[map]
+file = "map.pgm"
+resolution_m = 1.0
+cell_m = 2.0
+[vehicle]
+speed_mps = 10.0
+turn_radius_m = 4.0
+[mission]
+kind = "goal"
+goal_m = {goal}
+[simulate]
+random = 20
+sample = 100
+"""
+
+
+def write_map(path, walled=None, room=12):
+    """An empty world of 120 x 90 m, free (255), with walls 2 m thick around `walled` if given."""
+    image = np.full((90, 120), 255, np.uint8)
+    if walled:
+        x, y = walled
+        row = 90 - y  # image rows run from the top
+        wall = room + 2
+        image[row - wall:row + wall, x - wall:x + wall] = 0
+        image[row - room:row + room, x - room:x + room] = 255
+    path.write_bytes(b"P5\n120 90\n255\n" + image.tobytes())
+
+
+def read_safetensors(path):
+    """The layout in a dozen lines of numpy, as any user's script would read it."""
+    data = path.read_bytes()
+    (length,) = struct.unpack("<Q", data[:8])
+    header = json.loads(data[8:8 + length])
+    record = json.loads(header.pop("__metadata__")["fairway"])
+    types = {"F32": "<f4", "I8": "<i1"}
+    arrays = {}
+    for name, entry in header.items():
+        begin, end = entry["data_offsets"]
+        raw = data[8 + length + begin:8 + length + end]
+        arrays[name] = np.frombuffer(raw, types[entry["dtype"]]).reshape(entry["shape"])
+    return record, arrays, length
+
+
+class Command(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="fairway-command-"))
+        write_map(self.folder / "map.pgm")
+        self.scenario("s.toml")
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def scenario(self, name, goal="[90.0, 45.0]", more=""):
+        (self.folder / name).write_text(SCENARIO.format(goal=goal) + more)
+
+    def run_command(self, *arguments, **options):
+        return subprocess.run([FAIRWAY, *map(str, arguments)], cwd=self.folder, text=True,
+                              stdin=subprocess.DEVNULL, capture_output=True, **options)
+
+    def expect(self, code, *arguments, **options):
+        done = self.run_command(*arguments, **options)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def names(self):
+        return sorted(p.name for p in self.folder.iterdir())
+
+    def plan(self):
+        self.expect(0, "plan", "s.toml", "-o", "p.safetensors")
+        return self.folder / "p.safetensors"
+
+
+class Run(Command):
+    def test_leaves_every_product_and_says_where_to_look(self):
+        done = self.expect(0, "run", "s.toml")
+        folder = self.folder / "s-out"
+        products = {"plan.safetensors", "flights.csv", "flights.geojson", "outcomes.csv", "plan.svg",
+                    "plan.png", "flights.svg", "flights.png", "headings.svg", "headings.png",
+                    "summary.json"}
+        self.assertEqual({p.name for p in folder.iterdir()}, products)
+        self.assertIn("s-out/plan.svg", done.stdout)
+        self.assertIn("s-out/summary.json", done.stdout)
+        self.assertEqual(done.stderr, "")  # no progress without a terminal
+        summary = json.loads((folder / "summary.json").read_text())
+        self.assertEqual(summary["cells"], [62, 47])
+        self.assertEqual(sum(summary["region_cells"].values()), 62 * 47)
+        self.assertEqual(summary["random_flights"]["count"], 100)
+        self.assertEqual(summary["recorded_flights"], 20)
+        self.assertEqual(set(summary["products"]), products - {"summary.json"})
+        for name, digest in summary["products"].items():
+            self.assertEqual(hashlib.sha256((folder / name).read_bytes()).hexdigest(), digest)
+        for entry in summary["inputs"]:
+            content = (self.folder / entry["path"]).read_bytes()
+            self.assertEqual(hashlib.sha256(content).hexdigest(), entry["sha256"])
+        with open(folder / "outcomes.csv") as lines:
+            rows = list(csv.DictReader(lines))
+        self.assertEqual(len(rows), 100)
+        reached = sum(row["outcome"] == "reach" for row in rows)
+        self.assertEqual(reached, summary["random_flights"]["outcomes"]["reach"])
+        self.assertEqual(len(json.loads((folder / "flights.geojson").read_text())["features"]), 20)
+
+    def test_products_do_not_depend_on_threads(self):
+        summaries = []
+        for threads in (1, 2, 5):
+            self.expect(0, "--threads", threads, "run", "s.toml", "-o", f"out{threads}")
+            summaries.append(json.loads((self.folder / f"out{threads}/summary.json").read_text()))
+        for summary in summaries:
+            self.assertEqual(len(summary["products"]), 10)
+            for key in ("wall_s", "stage_wall_s", "peak_rss_bytes", "threads"):
+                del summary[key]
+            self.assertEqual(summary, summaries[0])  # digests of all products among them
+
+    def test_a_path_mission_also_gets_its_distance_chart(self):
+        (self.folder / "line.csv").write_text("x_m,y_m\n20,45\n60,45\n100,60\n")
+        text = SCENARIO.replace('kind = "goal"\ngoal_m = {goal}',
+                                'kind = "path"\npath_file = "line.csv"')
+        (self.folder / "path.toml").write_text(text)
+        self.expect(0, "run", "path.toml", "-o", "out")
+        self.assertTrue((self.folder / "out/distance.svg").is_file())
+        inputs = json.loads((self.folder / "out/summary.json").read_text())["inputs"]
+        self.assertIn("line.csv", [entry["path"] for entry in inputs])
+
+    def test_existing_products_are_kept_unless_forced(self):
+        self.expect(0, "run", "s.toml", "-o", "out")
+        (self.folder / "out/notes.txt").write_text("mine")
+        (self.folder / "out/plan.svg").write_text("edited")
+        refused = self.expect(65, "run", "s.toml", "-o", "out")
+        self.assertIn("--force", refused.stderr)
+        self.assertEqual((self.folder / "out/plan.svg").read_text(), "edited")
+        self.expect(0, "run", "s.toml", "-o", "out", "--force")
+        self.assertIn("<svg", (self.folder / "out/plan.svg").read_text())
+        self.assertEqual((self.folder / "out/notes.txt").read_text(), "mine")
+        self.assertEqual(self.names(), ["map.pgm", "out", "s.toml"])
+
+    def test_an_unreachable_goal_is_a_no_that_leaves_nothing(self):
+        write_map(self.folder / "map.pgm", walled=(60, 46), room=4)  # the goal fills the room
+        self.scenario("s.toml", goal="[60.0, 46.0]", more="[plan]\nalpha = 0.5\nbeta = 0.8\n")
+        done = self.expect(1, "run", "s.toml", "-o", "out")
+        self.assertRegex(done.stdout, "^s.toml:10: mission.goal_m: .*reach")
+        self.assertEqual(self.names(), ["map.pgm", "s.toml"])
+        done = self.expect(1, "plan", "s.toml", "-o", "p", "--json")
+        self.assertTrue(json.loads(done.stdout)["unreachable"])
+
+    def test_a_mission_the_map_does_not_allow_names_the_line(self):
+        write_map(self.folder / "map.pgm", walled=(60, 45))
+        for goal, word in (("[60.0, 58.0]", "obstacle"), ("[60.0, 63.0]", "lacks"),
+                           ("[500.0, 45.0]", "outside the map")):
+            self.scenario("s.toml", goal=goal)
+            done = self.expect(65, "run", "s.toml", "-o", "out")
+            self.assertTrue(done.stderr.startswith("fairway: s.toml:10: mission.goal_m: "),
+                            done.stderr)
+            self.assertIn(word, done.stderr)
+            self.assertEqual(self.names(), ["map.pgm", "s.toml"])
+
+    def test_states_outside_the_map_name_the_line(self):
+        text = (self.folder / "s.toml").read_text() + "states = [[500, 1, 0]]\n"
+        (self.folder / "s.toml").write_text(text)
+        done = self.expect(65, "run", "s.toml")
+        self.assertIn("s.toml:14: simulate.states: (500, 1) is outside the map", done.stderr)
+        self.assertEqual(self.names(), ["map.pgm", "s.toml"])
+
+    def test_a_signal_leaves_nothing_behind(self):
+        more = (self.folder / "s.toml").read_text().replace("sample = 100", "sample = 10000000")
+        (self.folder / "s.toml").write_text(more)
+        process = subprocess.Popen([FAIRWAY, "run", "s.toml", "-o", "out"], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        deadline = time.monotonic() + 60
+        while not list(self.folder.glob(".out.partial-*/plan.safetensors")):
+            self.assertIsNone(process.poll(), "ended before it could be interrupted")
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.01)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(60), 128 + signal.SIGTERM)
+        self.assertEqual(self.names(), ["map.pgm", "s.toml"])
+
+    def test_a_full_disk_leaves_nothing_behind(self):
+        def small_files():  # writes beyond 8 kB fail, as on a full disk
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (8192, 8192))
+        done = self.expect(65, "run", "s.toml", "-o", "out", preexec_fn=small_files,
+                           restore_signals=False)
+        self.assertIn("cannot be written", done.stderr)
+        self.assertEqual(self.names(), ["map.pgm", "s.toml"])
+
+
+class Plan(Command):
+    def test_the_file_reads_as_plain_safetensors(self):
+        record, arrays, length = read_safetensors(self.plan())
+        self.assertEqual(length % 8, 0)
+        self.assertEqual({n: (a.dtype.str, a.shape) for n, a in arrays.items()},
+                         {"heading_rad": ("<f4", (47, 62)), "cost_m": ("<f4", (47, 62)),
+                          "region": ("|i1", (47, 62))})
+        self.assertEqual(record["format_version"], 1)
+        self.assertEqual(record["cell_m"], 2.0)
+        self.assertEqual(record["origin_m"], [-2.0, -2.0])
+        self.assertEqual(record["vehicle"], {"speed_mps": 10.0, "turn_radius_m": 4.0})
+        self.assertEqual(record["mission"]["goal_m"], [90.0, 45.0])
+        self.assertEqual(record["options"]["plan"]["metric"], "euclidean")
+        for name, array in arrays.items():
+            self.assertEqual(hashlib.sha256(array.tobytes()).hexdigest(), record["sha256"][name])
+        heading = arrays["heading_rad"].astype(float)
+        has_command = ~np.isnan(heading)
+        self.assertTrue((np.abs(heading[has_command]) < math.pi).all())
+        self.assertTrue(has_command[np.isfinite(arrays["cost_m"]) & (arrays["region"] != 1)].all())
+        self.assertTrue((arrays["region"][0] == 1).all())  # the ring: outside = "obstacle"
+        # Row 0 is the lowest: the goal cells lie about (90, 45), to the right of the middle.
+        iy, ix = np.nonzero(arrays["region"] == 2)
+        self.assertAlmostEqual(-2 + 2 * (ix.mean() + 0.5), 90, delta=1)
+        self.assertAlmostEqual(-2 + 2 * (iy.mean() + 0.5), 45, delta=1)
+        # Left of the goal the command is east.
+        self.assertLess(abs(heading[23, 15]), 0.2)
+
+    def test_the_bytes_depend_on_nothing_else(self):
+        first = self.plan().read_bytes()
+        self.expect(0, "plan", "s.toml", "-o", "p.safetensors", "--force", "--threads", 1)
+        self.assertEqual((self.folder / "p.safetensors").read_bytes(), first)
+        elsewhere = self.folder / "elsewhere"
+        elsewhere.mkdir()
+        shutil.copy(self.folder / "map.pgm", elsewhere)
+        shutil.copy(self.folder / "s.toml", elsewhere)
+        self.expect(0, "plan", elsewhere / "s.toml", "-o", "q.safetensors")
+        self.assertEqual((self.folder / "q.safetensors").read_bytes(), first)
+
+    def test_an_existing_plan_is_kept_unless_forced(self):
+        (self.folder / "p.safetensors").write_text("precious")
+        done = self.expect(65, "plan", "s.toml", "-o", "p.safetensors")
+        self.assertIn("p.safetensors: exists already", done.stderr)
+        self.assertEqual((self.folder / "p.safetensors").read_text(), "precious")
+
+    def test_json_is_one_object_and_words_stay_away(self):
+        done = self.expect(0, "plan", "s.toml", "-o", "p", "--json")
+        self.assertEqual(json.loads(done.stdout)["cells"], [62, 47])
+        self.assertEqual(self.expect(0, "plan", "s.toml", "-o", "q", "--quiet").stdout, "")
+        failed = self.expect(65, "plan", "none.toml", "-o", "r", "--json")
+        self.assertEqual(json.loads(failed.stdout)["exit_code"], 65)
+
+
+class Simulate(Command):
+    def test_flies_states_from_everywhere_and_writes_all_files(self):
+        plan = self.plan()
+        (self.folder / "states.csv").write_text("x_m,y_m,heading_rad\n20,20,1.5\n30,60,90deg\n")
+        self.expect(0, "simulate", plan, "--state", "20,45,180deg", "--state", "25,45,-0.5",
+                    "--states", "states.csv", "--random", 6, "--seed", 3, "--csv", "t.csv",
+                    "--outcomes", "o.csv", "--geojson", "t.geojson")
+        with open(self.folder / "o.csv") as lines:
+            rows = list(csv.DictReader(lines))
+        self.assertEqual(list(rows[0]), ["x_m", "y_m", "heading_rad", "outcome", "time_s", "length_m"])
+        self.assertEqual(len(rows), 10)
+        self.assertAlmostEqual(float(rows[0]["heading_rad"]), math.pi)
+        self.assertAlmostEqual(float(rows[3]["heading_rad"]), math.pi / 2)
+        for row in rows[:4]:
+            self.assertEqual(row["outcome"], "reach")
+            self.assertAlmostEqual(float(row["length_m"]), 10 * float(row["time_s"]), places=6)
+            # No shorter than the way to the goal disc (beta r = 8 m), a cell less exact.
+            way = math.dist((float(row["x_m"]), float(row["y_m"])), (90, 45)) - 8
+            self.assertGreaterEqual(float(row["length_m"]), way - 1e-6)
+        with open(self.folder / "t.csv") as lines:
+            flights = {row["flight"] for row in csv.DictReader(lines)}
+        self.assertEqual(flights, {str(i) for i in range(10)})
+
+    def test_outcomes_can_go_to_stdout(self):
+        done = self.expect(0, "simulate", self.plan(), "--state", "20,45,0", "--outcomes", "-")
+        self.assertEqual(done.stdout.splitlines()[0], "x_m,y_m,heading_rad,outcome,time_s,length_m")
+        self.assertEqual(len(done.stdout.splitlines()), 2)
+
+    def test_random_starts_do_not_depend_on_threads_or_on_how_many(self):
+        plan = self.plan()
+        for law in ("exact", "proportional"):
+            some = self.expect(0, "simulate", plan, "--random", 50, "--law", law, "--outcomes", "-",
+                               "--threads", 1).stdout
+            more = self.expect(0, "simulate", plan, "--random", 2500, "--law", law, "--outcomes", "-",
+                               "--threads", 2).stdout
+            self.assertTrue(more.startswith(some))
+
+    def test_a_damaged_plan_is_refused(self):
+        plan = self.plan()
+        data = bytearray(plan.read_bytes())
+        data[-40] ^= 1
+        plan.write_bytes(data)
+        done = self.expect(65, "simulate", plan, "--random", 1)
+        self.assertIn("sha256", done.stderr)
+
+    def test_wrong_input_is_told_apart_from_wrong_usage(self):
+        plan = self.plan()
+        self.assertIn("3", self.expect(65, "simulate", plan, "--state", "1,2").stderr)
+        self.expect(65, "simulate", plan, "--states", "none.csv")
+        self.expect(65, "simulate", plan, "--state", "nan,0,0")
+        self.expect(64, "simulate", plan)
+        self.expect(64, "simulate", plan, "--random", "x")
+        self.expect(64, "simulate", plan, "--random", 1, "--wind", "1,2")
+        self.expect(64, "simulate", plan, "--random", 1, "--law", "magic")
+        self.expect(65, "simulate", plan, "--random", 1, "--outcomes", "none/o.csv")
+
+
+class Usage(Command):
+    def test_exit_codes(self):
+        self.expect(0, "--help")
+        self.expect(0, "run", "--help")
+        self.assertRegex(self.expect(0, "--version").stdout, r"^fairway \d+\.\d+\.\d+\n$")
+        self.assertIn("`map.cell_m`", self.expect(0, "--scenario-keys").stdout)
+        self.expect(64)
+        self.expect(64, "frobnicate")
+        self.expect(64, "run")
+        self.expect(64, "plan", "s.toml")
+        self.expect(64, "run", "s.toml", "--no-such-option")
+        self.expect(64, "--threads", "0", "run", "s.toml")
+        self.expect(65, "run", "none.toml")
+        self.expect(65, "run", ".")
+
+    def test_scenario_faults_name_file_line_and_key(self):
+        for old, new, expected in (
+                ("cell_m = 2.0", "cell_m = 4.0", "s.toml:7: vehicle.turn_radius_m: is 4 m, expected "
+                 "more than map.cell_m, which is 4 m"),
+                ("cell_m = 2.0", "cel_m = 2.0",
+                 "s.toml:4: map.cel_m: there is no such key; did you mean map.cell_m?"),
+                ("map.pgm", "none.pgm", "none.pgm"),
+                ("speed_mps = 10.0", "speed_mps = inf", "s.toml:6: vehicle.speed_mps: expected")):
+            self.scenario("s.toml")
+            text = (self.folder / "s.toml").read_text()
+            self.assertIn(old, text)
+            (self.folder / "s.toml").write_text(text.replace(old, new))
+            done = self.expect(65, "run", "s.toml", "-o", "out")
+            self.assertIn(expected, done.stderr)
+            self.assertEqual(self.names(), ["map.pgm", "s.toml"])
+
+    def test_the_demonstration_runs(self):
+        scenario = os.path.join(SOURCE, "demo", "demo.toml")
+        done = self.expect(0, "run", scenario, "-o", "demo")
+        summary = json.loads((self.folder / "demo/summary.json").read_text())
+        self.assertGreater(summary["random_flights"]["share"]["reach"], 0.99)
+        self.assertIn("demo/plan.svg", done.stdout)
+
+
+if __name__ == "__main__":
+    FAIRWAY, SOURCE = (os.path.abspath(path) for path in sys.argv[1:3])
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
