@@ -39,7 +39,7 @@ class WaveBarrier {
       return;
     }
     for (int spins = 0; phase_.load(std::memory_order_acquire) == phase; ++spins) {
-      if (spins > 4000) std::this_thread::yield();
+      if (spins > 200) std::this_thread::yield();
     }
   }
 
@@ -241,7 +241,9 @@ std::vector<float> eikonal_distance(std::span<const std::uint8_t> inside, int nx
     }
   });
   std::vector<CellList> starts = sorted_starts(sources, nx, stride, u);
-  WaveFront(u, stride, std::move(starts), tbb::this_task_arena::max_concurrency()).run();
+  // Waves of a small grid are too short to share.
+  const int threads = inside.size() < 500'000 ? 1 : tbb::this_task_arena::max_concurrency();
+  WaveFront(u, stride, std::move(starts), threads).run();
 
   // Cut off the rim in place: every row moves towards the front of the array.
   for (std::size_t iy = 0; iy < rows; ++iy) {
