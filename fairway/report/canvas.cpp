@@ -1,5 +1,8 @@
 #include "fairway/report/canvas.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "fairway/base/error.hpp"
 #include "fairway/report/cairo_page.hpp"
 #include "fairway/report/svg_page.hpp"
@@ -38,6 +41,26 @@ std::string printable(std::string_view text) {
     text.remove_prefix(length == 0 ? 1 : length);
   }
   return clean;
+}
+
+/// Not every viewer heeds the wish for sharp pixels (librsvg blurs), so each becomes a block of so
+/// many that a blur from one to the next is a third of a point wide at most. PNG keeps the blocks
+/// small.
+Raster with_blocks(const Raster& raster, const Rect& place) {
+  constexpr double pixels_per_pt = 3.0;
+  const int kx =
+      std::max(1, static_cast<int>(std::ceil(pixels_per_pt * place.width / raster.width)));
+  const int ky =
+      std::max(1, static_cast<int>(std::ceil(pixels_per_pt * place.height / raster.height)));
+  Raster large{raster.width * kx, raster.height * ky, {}};
+  large.pixels.reserve(static_cast<std::size_t>(large.width) *
+                       static_cast<std::size_t>(large.height));
+  for (int row = 0; row < large.height; ++row)
+    for (int column = 0; column < large.width; ++column)
+      large.pixels.push_back(raster.pixels[static_cast<std::size_t>(row / ky) *
+                                               static_cast<std::size_t>(raster.width) +
+                                           static_cast<std::size_t>(column / kx)]);
+  return large;
 }
 
 }  // namespace
@@ -86,7 +109,8 @@ void Canvas::image(const Raster& raster, const Rect& place) {
   require(raster.pixels.size() ==
               static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height),
           "a raster has width * height pixels");
-  svg_->image(raster.width, raster.height, png_of(raster), place);
+  const Raster blocks = with_blocks(raster, place);
+  svg_->image(blocks.width, blocks.height, png_of(blocks), place);
   cairo_->image(raster, place);
 }
 

@@ -164,7 +164,7 @@ void SvgPage::image(int width, int height, const std::string& png, const Rect& p
   body_ += fmt::format(
       "<image width=\"{0}\" height=\"{1}\" preserveAspectRatio=\"none\" "
       "transform=\"matrix({2:.6g} 0 0 {3:.6g} {4} {5})\" "
-      "style=\"image-rendering:optimizeSpeed;image-rendering:pixelated\" "
+      "style=\"image-rendering:pixelated\" "
       "xlink:href=\"data:image/png;base64,{6}\"/>\n",
       width, height, place.width / width, place.height / height, number(place.x), number(place.y),
       base64(png));

@@ -35,6 +35,8 @@ Ticks ticks_between(double low, double high, int wanted) {
 }
 
 std::string tick_label(double value, double step) {
+  const bool digits_would_run_on = step >= 1e7 || step <= 1e-7 || std::abs(value) >= 1e12;
+  if (digits_would_run_on) return fmt::format("{:.4g}", value);
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9);
   std::string label = fmt::format("{:.{}f}", value, decimals);
   if (label.find_first_not_of("-0.") == std::string::npos && label.front() == '-')

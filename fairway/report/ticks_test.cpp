@@ -44,6 +44,8 @@ TEST(Ticks, LabelsHaveTheDecimalsTheStepNeedsAndNoMinusZero) {
   EXPECT_EQ(tick_label(-0.0, 0.5), "0.0");
   EXPECT_EQ(tick_label(-0.02, 0.02), "-0.02");
   EXPECT_EQ(tick_label(1234567.0, 1.0), "1234567");
+  EXPECT_EQ(tick_label(2e300, 1e300), "2e+300");
+  EXPECT_EQ(tick_label(3e-9, 1e-9), "3e-09");
 }
 
 TEST(Ticks, TheRoundLengthBelowIsTheLargestThatFits) {
