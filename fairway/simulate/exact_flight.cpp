@@ -229,6 +229,44 @@ ExactFlights::Kind ExactFlights::enter_next(Position& position, const CellExit& 
   return at(position.place).kind;
 }
 
+/// Whether the vehicle left by the side it came in by, on an arc: a hop. It mirrors the heading at
+/// the border and moves 2 r |normal component| along it. A hop back to the command itself ends in a
+/// straight line that only rounding makes longer than 0.
+bool ExactFlights::is_hop(const Position& from, const CellExit& exit) const {
+  if (!(exit.straight_m < 1e-3 * exit.arc_m) || exit.is_touch() || exit.on_corner(grid_.cell_m))
+    return false;
+  const bool vertical = exit.side == Side::right || exit.side == Side::left;
+  const Vec2 p = from.state.position_m;
+  const Vec2 q = exit.state.position_m;
+  return vertical ? p.x == q.x : p.y == q.y;
+}
+
+/// After a hop in each of the two cells of a border, both repeat, moved along the border, until its
+/// end is near: nothing in a cell changes along its border but the distance to the next one. The
+/// commands on both sides only ever narrow such a weave, so it can take a million hops to pass one
+/// cell. Here they are one leap, which is the same motion. Lengths are 0 when there is none.
+ExactFlights::Leap ExactFlights::leap(Position& position, Side border) const {
+  const double d = grid_.cell_m;
+  const double r = vehicle_.turn_radius_m;
+  const bool vertical = border == Side::right || border == Side::left;
+  const Vec2 u = position.state.heading.unit;
+  const double sine = std::abs(vertical ? u.x : u.y);
+  const double pair_m = 4.0 * r * sine;
+  if (pair_m > d / 16.0) return {};
+  double& along = vertical ? position.state.position_m.y : position.state.position_m.x;
+  const bool upwards = (vertical ? u.y : u.x) > 0.0;
+  const double rest_m = upwards ? d - along : along;
+  if (pair_m < 1e-12 * d) {
+    // Hops below the resolution of a position would stand still: on to the corner.
+    along = upwards ? d : 0.0;
+    return {rest_m, rest_m};
+  }
+  const double pairs = std::floor(rest_m / pair_m) - 2.0;
+  if (pairs < 4.0) return {};
+  along += upwards ? pairs * pair_m : -pairs * pair_m;
+  return {pairs * pair_m, pairs * 4.0 * r * std::asin(sine)};
+}
+
 template <bool passes_goals, typename Recorder>
 FlightRun ExactFlights::fly_through(const State& start, const FlightLimits& limits,
                                     Recorder& recorder) const {
@@ -236,6 +274,7 @@ FlightRun ExactFlights::fly_through(const State& start, const FlightLimits& limi
   CycleWatch watch(shape.cell_m, shape.turn_radius_m);
   FlightRun run;
   double reached_m = infinity;
+  int hops = 0;
   Position position = locate(start);
   Kind kind = settle(position, true);
   for (;;) {
@@ -264,7 +303,18 @@ FlightRun ExactFlights::fly_through(const State& start, const FlightLimits& limi
     recorder.add(position, exit, run.flown_m);
     run.flown_m += exit.length_m();
     ++run.crossings;
+    hops = is_hop(position, exit) ? hops + 1 : 0;
     kind = enter_next(position, exit);
+    if (hops >= 2) [[unlikely]] {
+      const Position before = position;
+      const Leap leapt = leap(position, exit.side);
+      if (leapt.flown_m > 0.0) {
+        recorder.add_leap(before, leapt.along_m, run.flown_m);
+        run.flown_m += leapt.flown_m;
+        hops = 0;
+        kind = settle(position, false);
+      }
+    }
   }
   run.result = result_of(run, reached_m);
   return run;
@@ -299,6 +349,14 @@ class ExactFlights::PieceRecorder {
     append(corner + from.state.position_m, from.state.heading, curvature, exit.arc_m, flown_m);
     append(corner + exit.arc_end_m, exit.state.heading, 0.0, exit.straight_m, flown_m + exit.arc_m);
   }
+  /// A weave too fine to draw, as a straight line along its border.
+  void add_leap(const Position& from, double length_m, double flown_m) {
+    const Vec2 u = from.state.heading.unit;
+    const double along_rad =
+        std::abs(u.x) > std::abs(u.y) ? (u.x > 0.0 ? 0.0 : pi) : (u.y > 0.0 ? pi / 2 : -pi / 2);
+    const Direction along{{}, along_rad};
+    append(flights_.corner_of(from.place) + from.state.position_m, along, 0.0, length_m, flown_m);
+  }
   std::vector<FlightSegment> take() { return std::move(segments_); }
 
  private:
@@ -328,6 +386,7 @@ Vec2 ExactFlights::corner_of(std::size_t place) const {
 FlightRun ExactFlights::run(const State& start, FlightLimits limits) const {
   struct {
     void add(const Position&, const CellExit&, double) {}
+    void add_leap(const Position&, double, double) {}
   } nothing;
   return fly_through<false>(start, with_defaults(limits, grid_, vehicle_.turn_radius_m), nothing);
 }

@@ -46,8 +46,8 @@ enum class EndedBy : std::uint8_t {
 struct FlightRun {
   FlightResult result;
   EndedBy ended_by = EndedBy::goal;
-  std::uint64_t crossings = 0;
-  double flown_m = 0.0;  ///< finite, also when trapped
+  std::uint64_t crossings = 0;  ///< cells flown through one by one (not those of a leap, see .cpp)
+  double flown_m = 0.0;         ///< finite, also when trapped
 };
 
 class ExactFlights {
@@ -62,8 +62,9 @@ class ExactFlights {
   /// The same, with what it took.
   [[nodiscard]] FlightRun run(const State& start, FlightLimits limits = {}) const;
 
-  /// The same with its pieces, arcs and straight lines joined over cells. A trapped flight's pieces
-  /// end where the trap was recognised.
+  /// The same with its pieces, arcs and straight lines joined over cells. A weave of many hops
+  /// along one border, never farther from it than r / 8000, is one straight piece. A trapped
+  /// flight's pieces end where the trap was recognised.
   [[nodiscard]] Flight record(const State& start, FlightLimits limits = {}) const;
 
   /// For path missions: goal cells do not end the flight. It goes on for `length_m`, or to an
@@ -90,6 +91,10 @@ class ExactFlights {
     Kind kind;
   };
   struct Position;  // a cell and the state in it
+  struct Leap {
+    double along_m = 0.0;  // over a border
+    double flown_m = 0.0;
+  };
   class CycleWatch;
   class PieceRecorder;
 
@@ -103,6 +108,8 @@ class ExactFlights {
   void choose_side(Position& position, std::ptrdiff_t beside, bool at_start) const;
   void prefetch_ahead(const Position& position) const;
   Kind enter_next(Position& position, const CellExit& exit) const;
+  bool is_hop(const Position& from, const CellExit& exit) const;
+  Leap leap(Position& position, Side border) const;
   FlightResult result_of(const FlightRun& run, double reached_m) const;
   template <bool passes_goals, typename Recorder>
   FlightRun fly_through(const State& start, const FlightLimits& limits, Recorder& recorder) const;

@@ -127,7 +127,7 @@ def cross_cell(x, y, h, psi, d, r):
     )
 
 
-def leap(x, y, h, vertical, hop, weaves, d, r):
+def leap(x, y, h, vertical, weaves, d, r):
     """Moves weaving flights (in place) by pairs of hops to near the next corner; length flown."""
     along = np.where(vertical, y, x)
     across = np.abs(np.where(vertical, np.cos(h), np.sin(h)))
@@ -140,7 +140,7 @@ def leap(x, y, h, vertical, hop, weaves, d, r):
     moved = along + np.where(upwards, pairs, -pairs) * pair
     x[:] = np.where(vertical, x, moved)
     y[:] = np.where(vertical, moved, y)
-    return pairs * 2.0 * hop
+    return pairs * 4.0 * r * np.arcsin(across)
 
 
 def fly(plan, states, length_limit=None, leaps=True):
@@ -212,7 +212,7 @@ def fly(plan, states, length_limit=None, leaps=True):
         ix = ix + (side == 0) - (side == 2)
         iy = iy + (side == 1) - (side == 3)
         if leaps and (hops >= 2).any():
-            flown += leap(x, y, h, vertical, more, hops >= 2, d, r)
+            flown += leap(x, y, h, vertical, hops >= 2, d, r)
     return outcome, length
 
 
