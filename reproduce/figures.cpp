@@ -1,17 +1,16 @@
 #include "reproduce/figures.hpp"
 
 #include <array>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "fairway/base/random.hpp"
 #include "fairway/report/draw_chart.hpp"
 #include "fairway/report/draw_flights.hpp"
 #include "fairway/report/draw_plan.hpp"
 #include "fairway/report/flight_series.hpp"
 #include "fairway/simulate/exact_flight.hpp"
+#include "fairway/simulate/start_states.hpp"
 #include "reproduce/world.hpp"
 
 namespace fairway::reproduce {
@@ -26,7 +25,7 @@ constexpr std::array<std::array<double, 2>, 3> cell_and_sigma{{{2, 16}, {4, 8}, 
 constexpr double window_s = 4.0;         // two radii of flight
 constexpr double corner_reach_m = 60.0;  // three radii
 constexpr double look_m = 0.5;
-constexpr int random_starts = 500;
+constexpr std::size_t random_starts = 2000;
 constexpr std::uint64_t seed = 1;
 
 /// A curve of a figure: its legend name, its cells and its sigma.
@@ -50,23 +49,6 @@ std::vector<Curve> curves_by_cell() {
   return curves;
 }
 
-/// The same states for every curve: safe start with a finite cost on the coarsest grid.
-std::vector<State> safe_starts(const Plan& plan) {
-  std::vector<std::size_t> safe;
-  for (std::size_t i = 0; i < plan.grid.size(); ++i)
-    if (plan.region[i] == Region::free && std::isfinite(plan.cost_m[i])) safe.push_back(i);
-  if (safe.empty()) throw std::runtime_error("the map has no safe start");
-  std::vector<State> starts;
-  for (int i = 0; i < random_starts; ++i) {
-    Random random = Random::stream(seed, static_cast<std::uint64_t>(i));
-    const Vec2 corner = plan.grid.corner(plan.grid.cell_at(safe[random.below(safe.size())]));
-    const Vec2 at{corner.x + random.uniform(0.0, plan.grid.cell_m),
-                  corner.y + random.uniform(0.0, plan.grid.cell_m)};
-    starts.push_back({at, Heading::from_rad(random.uniform(-pi, pi))});
-  }
-  return starts;
-}
-
 struct GoalCurves {
   Plan plan;  ///< of the figures' resolution, to draw upon
   std::vector<Flight> flights;
@@ -79,7 +61,9 @@ GoalCurves fly_to_goal(const std::filesystem::path& scenario, const std::vector<
   GoalCurves out;
   const World coarse = world_of(scenario, cell_of_figures_m);
   out.plan = plan_in(coarse, options);
-  const std::vector<State> starts = safe_starts(out.plan);
+  // The same states for every curve: safe start on the coarsest grid.
+  const std::vector<State> starts =
+      random_states(out.plan, StartRegion::safe_start, random_starts, seed);
   for (const Curve& curve : curves) {
     const World world = world_of(scenario, curve.cell_m);
     options.sigma_cells = curve.sigma_cells;
@@ -104,7 +88,7 @@ GoalCurves fly_to_goal(const std::filesystem::path& scenario, const std::vector<
       for (double* mean : {&row.mean_turning_rad, &row.mean_reversals, &row.mean_rms_rate_radps,
                            &row.mean_largest_rate_radps})
         *mean /= reached;
-    row.reached_share = reached / random_starts;
+    row.reached_share = reached / static_cast<double>(starts.size());
     out.rows.push_back(std::move(row));
   }
   return out;

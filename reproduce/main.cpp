@@ -24,7 +24,11 @@ struct Setting {
 
 int reproduce(const std::filesystem::path& demo, const std::filesystem::path& out) {
   using namespace fairway;
-  FieldOptions letter;
+  FieldOptions letter;  // what the paper leaves open lies in the middle of its ranges
+  letter.alpha = 2.0;
+  letter.beta = 2.0;
+  letter.mu_path = letter.mu_border = 0.5;
+  letter.sigma_path = letter.sigma_border = 1.5;
   letter.metric = Metric::paper;
   letter.filter = Filter::paper;
   letter.blend = Blend::paper;

@@ -5,6 +5,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/report/flight_series.hpp"
+#include "fairway/simulate/flight_statistics.hpp"
 
 namespace fairway::reproduce {
 namespace {
@@ -18,13 +19,6 @@ double value_at(const ChartSeries& series, double t) {
   const double t0 = series.x[i - 1];
   const double t1 = series.x[i];
   return series.y[i - 1] + (series.y[i] - series.y[i - 1]) * (t - t0) / (t1 - t0);
-}
-
-Vec2 end_of(const FlightSegment& piece, double s_m) {
-  const double half = 0.5 * piece.curvature_per_m * s_m;
-  const double chord_m = half == 0.0 ? s_m : s_m * std::sin(half) / half;
-  return piece.start.position_m +
-         chord_m * Heading::from_rad(piece.start.heading.rad() + half).unit();
 }
 
 }  // namespace
@@ -71,25 +65,24 @@ PathMeasures path_measures(const Flight& flight, double speed_mps, const PathMis
   double length_m = 0.0;
   double straight_sum = 0.0;
   double straight_length_m = 0.0;
-  for (const FlightSegment& piece : flight.segments) {
-    const double steps = std::max(1.0, std::ceil(piece.length_m / step_m));
-    const double part_m = piece.length_m / steps;
-    for (double k = 0.5; k < steps; k += 1.0) {  // the middle of each part stands for it
-      const Vec2 p = end_of(piece, k * part_m);
-      const double off_m = distance_to_path_m(p, path);
-      sum += off_m * part_m;
-      length_m += part_m;
-      measures.max_m = std::max(measures.max_m, off_m);
-      bool at_corner = false;
-      for (std::size_t c = 0; c < corners.size(); ++c) {
-        if (norm(p - corners[c]) > corner_reach_m) continue;
-        at_corner = true;
-        measures.corner_m[c] = std::max(measures.corner_m[c], off_m);
-      }
-      if (at_corner) continue;
-      straight_sum += off_m * part_m;
-      straight_length_m += part_m;
+  PathSample last;
+  for (const PathSample& sample : sample_along_path(flight, path, speed_mps, step_m)) {
+    const double off_m = sample.nearest.distance_m;
+    measures.max_m = std::max(measures.max_m, off_m);
+    bool at_corner = false;
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      if (norm(sample.state.position_m - corners[c]) > corner_reach_m) continue;
+      at_corner = true;
+      measures.corner_m[c] = std::max(measures.corner_m[c], off_m);
     }
+    const double part_m = sample.length_m - last.length_m;  // trapezoids from sample to sample
+    const double area = 0.5 * (off_m + last.nearest.distance_m) * part_m;
+    last = sample;
+    sum += area;
+    length_m += part_m;
+    if (at_corner) continue;
+    straight_sum += area;
+    straight_length_m += part_m;
   }
   if (length_m > 0.0) measures.mean_m = sum / length_m;
   if (straight_length_m > 0.0) measures.mean_of_straights_m = straight_sum / straight_length_m;
