@@ -36,11 +36,11 @@ struct FieldOptions {
   double alpha = 2.0;  ///< buffer width / turn radius, > 0 (the paper: >= 2)
   double beta = 2.0;   ///< goal radius / turn radius, > 0 (the paper: >= 2)
   Metric metric = Metric::euclidean;
-  double sigma_cells = 4.0;   ///< standard deviation of the Gaussian filter, >= 0; 0: no filter
+  double sigma_cells = 1.0;   ///< standard deviation of the Gaussian filter, >= 0; 0: no filter
   double mu_path = 0.5;       ///< speed of the rotation near a path, (0, 1]
   double sigma_path = 1.5;    ///< width of the transition at a path / turn radius, >= 0; 0: none
   double mu_border = 0.5;     ///< the same at the buffer's border
-  double sigma_border = 1.5;  ///< the same at the buffer's border
+  double sigma_border = 0.5;  ///< the same at the buffer's border
   Filter filter = Filter::free_space;
   Blend blend = Blend::paper;
 };
