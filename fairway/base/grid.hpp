@@ -29,9 +29,7 @@ struct Grid {
   constexpr std::size_t size() const {
     return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
   }
-  constexpr bool contains(Cell c) const {
-    return c.ix >= 0 && c.ix < nx && c.iy >= 0 && c.iy < ny;
-  }
+  constexpr bool contains(Cell c) const { return c.ix >= 0 && c.ix < nx && c.iy >= 0 && c.iy < ny; }
   constexpr std::size_t index(Cell c) const {
     return static_cast<std::size_t>(c.iy) * static_cast<std::size_t>(nx) +
            static_cast<std::size_t>(c.ix);

@@ -20,9 +20,8 @@ void for_ranges(std::size_t count, std::size_t grain, const Body& body) {
 /// The same over rows of a grid, as ints.
 template <typename Body>
 void for_rows(int rows, const Body& body) {
-  for_ranges(static_cast<std::size_t>(std::max(rows, 0)), 16, [&](std::size_t a, std::size_t b) {
-    body(static_cast<int>(a), static_cast<int>(b));
-  });
+  for_ranges(static_cast<std::size_t>(std::max(rows, 0)), 16,
+             [&](std::size_t a, std::size_t b) { body(static_cast<int>(a), static_cast<int>(b)); });
 }
 
 }  // namespace fairway

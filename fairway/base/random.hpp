@@ -49,7 +49,8 @@ class Random {
     const std::uint64_t threshold = (0 - n) % n;
     for (;;) {
       const auto wide = static_cast<unsigned __int128>(bits()) * n;
-      if (static_cast<std::uint64_t>(wide) >= threshold) return static_cast<std::uint64_t>(wide >> 64);
+      if (static_cast<std::uint64_t>(wide) >= threshold)
+        return static_cast<std::uint64_t>(wide >> 64);
     }
   }
   /// Standard normal (Marsaglia's polar method, one value kept).

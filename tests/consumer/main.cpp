@@ -17,10 +17,12 @@ int main(int, char** argv) {
   auto* field = std::get_if<fairway::Field>(&result);
   if (field == nullptr) return 1;
 
-  const fairway::Plan plan{field->grid, vehicle, field->heading_rad, field->region, field->cost_m, "{}"};
+  const fairway::Plan plan{field->grid,   vehicle,       field->heading_rad,
+                           field->region, field->cost_m, "{}"};
   fairway::write_plan(plan, argv[1], fairway::Existing::replace);
   const fairway::Plan back = fairway::read_plan(argv[1]);
-  const auto flight = fairway::ExactFlights(back).fly({{8.0, 8.0}, fairway::Heading::from_rad(3.0)});
+  const auto flight =
+      fairway::ExactFlights(back).fly({{8.0, 8.0}, fairway::Heading::from_rad(3.0)});
   std::printf("%s after %.3f m\n", fairway::name_of(flight.outcome), flight.length_m);
   return flight.outcome == fairway::Outcome::reach ? 0 : 1;
 }
