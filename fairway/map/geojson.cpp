@@ -38,11 +38,19 @@ class GeoJsonReader {
     if (geometry.value().is_null()) return;
     const JsonPlace properties =
         feature.has("properties") ? feature.at("properties") : JsonPlace(null_, feature.where());
-    if (is_low(properties)) {
-      ++low_areas;
-      return;
-    }
+    const bool low = is_low(properties);
+    const std::size_t polygons_before = fences.polygons.size();
+    const std::size_t circles_before = fences.circles.size();
     read_geometry(geometry, &properties);
+    if (!low) return;
+    ++low_areas;
+    for (std::size_t i = polygons_before; i < fences.polygons.size(); ++i)
+      for (const GeodeticRing& ring : fences.polygons[i].rings)
+        fences.places.insert(fences.places.end(), ring.points.begin(), ring.points.end());
+    for (std::size_t i = circles_before; i < fences.circles.size(); ++i)
+      fences.places.push_back(fences.circles[i].center);
+    fences.polygons.resize(polygons_before);
+    fences.circles.resize(circles_before);
   }
 
   // Heights in metres above what altitude_m is measured from; unknown heights stay obstacles.
