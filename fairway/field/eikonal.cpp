@@ -8,6 +8,7 @@
 #include <limits>
 #include <thread>
 
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include "fairway/base/error.hpp"
@@ -215,6 +216,14 @@ std::vector<CellList> sorted_starts(std::span<const EikonalSource> sources, int 
   return starts;
 }
 
+// The arena does not know of a bound on the whole process (--threads), so both are asked.
+int allowed_threads() {
+  const std::size_t bound =
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  return static_cast<int>(
+      std::min(bound, static_cast<std::size_t>(tbb::this_task_arena::max_concurrency())));
+}
+
 }  // namespace
 
 std::vector<float> eikonal_distance(std::span<const std::uint8_t> inside, int nx, int ny,
@@ -242,7 +251,7 @@ std::vector<float> eikonal_distance(std::span<const std::uint8_t> inside, int nx
   });
   std::vector<CellList> starts = sorted_starts(sources, nx, stride, u);
   // Waves of a small grid are too short to share.
-  const int threads = inside.size() < 500'000 ? 1 : tbb::this_task_arena::max_concurrency();
+  const int threads = inside.size() < 500'000 ? 1 : allowed_threads();
   WaveFront(u, stride, std::move(starts), threads).run();
 
   // Cut off the rim in place: every row moves towards the front of the array.
