@@ -36,6 +36,8 @@ void check(const ObstacleMap& map, const Vehicle& vehicle, const Mission& missio
   require(not_negative(options.sigma_cells) && not_negative(options.sigma_path) &&
               not_negative(options.sigma_border),
           "compute_field: sigma >= 0");
+  require(options.axis_capture_rad >= 0.0 && options.axis_capture_rad <= 0.1,
+          "compute_field: 0 <= axis_capture_rad <= 0.1");
   require(positive(options.mu_path) && options.mu_path <= 1.0 && positive(options.mu_border) &&
               options.mu_border <= 1.0,
           "compute_field: 0 < mu <= 1");
@@ -60,9 +62,15 @@ void smooth(VectorField& field, const ObstacleMap& map, const FieldOptions& opti
   }
 }
 
+double captured_by_axis(double angle_rad, double capture_rad) {
+  const double axis_rad = std::round(angle_rad / (pi / 2)) * (pi / 2);
+  return std::fabs(angle_rad - axis_rad) <= capture_rad ? axis_rad : angle_rad;
+}
+
 // Directions become headings. Where the filter's mean nearly vanished it has no direction of its
 // own: such a cell keeps the direction it had before the filter, and is counted.
-void set_headings(Field& out, const VectorField& smoothed, const VectorField& before) {
+void set_headings(Field& out, const VectorField& smoothed, const VectorField& before,
+                  double capture_rad) {
   constexpr float vanishing = 1e-4F;
   const auto rows = static_cast<std::size_t>(out.grid.ny);
   const auto columns = static_cast<std::size_t>(out.grid.nx);
@@ -81,7 +89,7 @@ void set_headings(Field& out, const VectorField& smoothed, const VectorField& be
           x = before.x[i];
           y = before.y[i];
         }
-        out.heading_rad[i] = Heading::stored(std::atan2(y, x));
+        out.heading_rad[i] = Heading::stored(captured_by_axis(std::atan2(y, x), capture_rad));
       }
     }
   });
@@ -122,7 +130,8 @@ FieldOrRefusal compute_field(const ObstacleMap& map, const Vehicle& vehicle, con
   out.cost_m = std::move(cost);
   for (float& c : out.cost_m) c *= static_cast<float>(grid.cell_m);
   out.heading_rad.resize(grid.size());
-  set_headings(out, smoothed, turned);
+  set_headings(out, smoothed, turned,
+               options.metric == Metric::paper ? 0.0 : options.axis_capture_rad);
   if (!goal_is_reached_from_elsewhere(out)) {
     return MissionRefusal{MissionRefusal::Reason::unreachable,
                           "no safe-start cell outside the goal can reach it", 0.0};

@@ -42,7 +42,11 @@ struct FieldOptions {
   double mu_border = 0.5;     ///< the same at the buffer's border
   double sigma_border = 0.5;  ///< the same at the buffer's border
   Filter filter = Filter::free_space;
-  Blend blend = Blend::paper;
+  Blend blend = Blend::continuous;
+  /// Commands this close to a grid axis are put on it, [0, 0.1]; Metric::paper never does. Where
+  /// commands on both sides of a border oppose each other at an angle d to it, the vehicle weaves
+  /// along the border in hops of 2 r sin d: without this, in millions of them.
+  double axis_capture_rad = 0.02;
 };
 
 /// The product. Arrays are [iy][ix] over `grid`.
