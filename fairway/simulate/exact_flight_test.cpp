@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <vector>
 
+#include <tbb/global_control.h>
+
+#include "fairway/base/error.hpp"
 #include "fairway/base/random.hpp"
 
 namespace fairway {
@@ -50,6 +55,303 @@ TEST(ExactFlight, never_reaches_in_a_circular_vortex) {
   EXPECT_EQ(run.result.outcome, Outcome::trapped);
   EXPECT_EQ(run.ended_by, EndedBy::repeating_state);
   EXPECT_EQ(run.result.length_m, std::numeric_limits<double>::infinity());
+}
+
+Plan uniform_plan(float heading_rad) {
+  return plan_of(32, 32, 2.0, 5.0, [=](Vec2) { return heading_rad; });
+}
+
+void set_region(Plan& plan, Cell cell, Region region) {
+  plan.region[plan.grid.index(cell)] = region;
+}
+
+/// Headings that vary smoothly, towards a goal disc in the middle.
+Plan smooth_plan(bool mirrored = false) {
+  Plan plan = plan_of(64, 64, 2.0, 5.0, [=](Vec2 p) {
+    if (mirrored) p.y = 128.0 - p.y;
+    const double to_middle = std::atan2(64.0 - p.y, 64.0 - p.x);
+    const float h = Heading::stored(to_middle + 0.7 * std::sin(p.x / 9.0) * std::cos(p.y / 7.0));
+    return mirrored ? -h : h;
+  });
+  for (std::size_t i = 0; i < plan.grid.size(); ++i) {
+    if (norm(plan.grid.center(plan.grid.cell_at(i)) - Vec2{64.0, 64.0}) < 9.0) {
+      plan.region[i] = Region::goal;
+    }
+  }
+  return plan;
+}
+
+std::vector<State> random_starts(std::size_t count, double side_m, std::uint64_t seed) {
+  std::vector<State> starts;
+  Random random(seed);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = random.uniform(0.0, side_m);
+    const double y = random.uniform(0.0, side_m);
+    starts.push_back(state(x, y, random.uniform(-pi, pi)));
+  }
+  return starts;
+}
+
+TEST(ExactFlight, ends_at_once_where_it_starts_outside_in_an_obstacle_or_in_the_goal) {
+  Plan plan = uniform_plan(0.0F);
+  set_region(plan, {10, 10}, Region::obstacle);
+  set_region(plan, {11, 10}, Region::goal);
+  set_region(plan, {20, 20}, Region::goal);
+  const ExactFlights flights(plan);
+  const auto expect_at_once = [&](const State& start, Outcome outcome) {
+    const FlightResult result = flights.fly(start);
+    EXPECT_EQ(result.outcome, outcome);
+    EXPECT_EQ(result.time_s, 0.0);
+    EXPECT_EQ(result.length_m, 0.0);
+  };
+  expect_at_once(state(-1.0, 5.0, 0.0), Outcome::leave);
+  expect_at_once(state(5.0, 64.1, 0.0), Outcome::leave);
+  expect_at_once(state(64.0, 5.0, 0.0), Outcome::leave);  // on the edge, outwards
+  expect_at_once(state(0.0, 5.0, pi), Outcome::leave);
+  expect_at_once(state(0.0, 0.0, -pi / 2), Outcome::leave);
+  expect_at_once(state(21.0, 21.0, 1.0), Outcome::collide);     // inside
+  expect_at_once(state(20.0, 21.0, pi), Outcome::collide);      // on its border, heading away
+  expect_at_once(state(22.0, 22.0, pi / 4), Outcome::collide);  // at its corner, heading away
+  expect_at_once(state(22.0, 21.0, 0.0), Outcome::collide);     // also where a goal cell begins
+  expect_at_once(state(41.0, 41.0, 1.0), Outcome::reach);
+  expect_at_once(state(40.0, 41.0, 0.0), Outcome::reach);  // on its border, heading in
+  expect_at_once(state(41.0, 40.0, 0.0), Outcome::reach);  // along it: belongs to both
+}
+
+TEST(ExactFlight, stays_inside_when_it_starts_on_the_edge_heading_in_or_along) {
+  const ExactFlights flights(uniform_plan(0.0F));
+  EXPECT_EQ(flights.fly(state(0.0, 5.0, 0.0)).length_m, 64.0);
+  EXPECT_EQ(flights.fly(state(4.0, 0.0, 0.0)).length_m, 60.0);
+  EXPECT_EQ(flights.fly(state(4.0, 64.0, 0.0)).length_m, 60.0);
+}
+
+TEST(ExactFlight, collides_with_the_touch_of_a_corner) {
+  // Straight up the diagonal, no commands: between two obstacle cells that share a corner, and past
+  // a single one.
+  for (const bool both : {true, false}) {
+    Plan plan = plan_of(32, 32, 2.0, 5.0, [](Vec2) { return no_command; });
+    set_region(plan, {10, 9}, Region::obstacle);
+    if (both) set_region(plan, {9, 10}, Region::obstacle);
+    const ExactFlights flights(plan);
+    const FlightResult result = flights.fly(state(20.0, 30.0, -pi / 2));  // along its left border
+    EXPECT_EQ(result.outcome, Outcome::collide);
+    EXPECT_EQ(result.length_m, both ? 8.0 : 10.0);
+    const FlightResult between = flights.fly(state(10.0, 10.0, pi / 4));
+    EXPECT_EQ(between.outcome, Outcome::collide);
+    EXPECT_NEAR(between.length_m, 10.0 * std::sqrt(2.0), 1e-12);
+  }
+}
+
+TEST(ExactFlight, leaves_from_a_source) {
+  const ExactFlights flights(plan_of(32, 32, 2.0, 5.0, [](Vec2 p) {
+    return Heading::stored(std::atan2(p.y - 32.0, p.x - 32.0));
+  }));
+  for (const State& start : random_starts(500, 64.0, 21)) {
+    EXPECT_EQ(flights.fly(start).outcome, Outcome::leave);
+  }
+}
+
+/// Below y = 32 steer up by `angle`, above it down: the vehicle weaves along y = 32.
+Plan weave_plan(double angle) {
+  return plan_of(32, 32, 2.0, 5.0,
+                 [=](Vec2 p) { return static_cast<float>(p.y < 32.0 ? angle : -angle); });
+}
+
+/// From (0, 32) at heading `a`, the weave's hops are arcs of turn 2 a; the last one is cut.
+double weave_length_m(double a, double width_m, double r) {
+  const double hop_m = 2.0 * r * std::sin(a);
+  const double hops = std::floor(width_m / hop_m);
+  const double rest = width_m - hops * hop_m;
+  return hops * 2.0 * r * a + r * (a - std::asin(std::sin(a) - rest / r));
+}
+
+TEST(ExactFlight, weaves_between_opposing_half_planes_in_closed_form) {
+  const ExactFlights flights(weave_plan(0.5));
+  for (const double a : {0.4, 0.1, 0.01, 1e-3, 1e-5}) {
+    const FlightRun run = flights.run(state(0.0, 32.0, a));
+    EXPECT_EQ(run.result.outcome, Outcome::leave) << a;
+    EXPECT_NEAR(run.result.length_m, weave_length_m(a, 64.0, 5.0), 1e-8) << a;
+  }
+}
+
+TEST(ExactFlight, passes_the_finest_weaves_in_no_more_steps_than_cells_need) {
+  const ExactFlights flights(weave_plan(0.5));
+  for (const double a : {1e-6, 1e-9, 1e-12, 1e-15, 1e-18, 0.0}) {
+    const FlightRun run = flights.run(state(0.0, 32.0, a), {0.0, 10000});
+    EXPECT_EQ(run.result.outcome, Outcome::leave) << a;
+    EXPECT_NEAR(run.result.length_m, 64.0, 1e-9) << a;
+  }
+}
+
+/// Cell by cell without leaps, from a cell's inside or its left side to the right edge of the grid.
+double length_hop_by_hop_m(const Plan& plan, Cell cell, CellState now) {
+  const double d = plan.grid.cell_m;
+  double length_m = 0.0;
+  while (plan.grid.contains(cell)) {
+    const auto rad = static_cast<double>(plan.heading_rad[plan.grid.index(cell)]);
+    const CellExit exit =
+        cross_cell(now, Direction::of(Heading::from_rad(rad)), {d, plan.vehicle.turn_radius_m});
+    length_m += exit.length_m();
+    now = exit.state;
+    if (exit.side == Side::right || exit.side == Side::left) {
+      cell.ix += exit.side == Side::right ? 1 : -1;
+      now.position_m.x = d - now.position_m.x;
+    } else {
+      cell.iy += exit.side == Side::top ? 1 : -1;
+      now.position_m.y = d - now.position_m.y;
+    }
+  }
+  return length_m;
+}
+
+TEST(ExactFlight, narrows_a_weave_to_ever_smaller_commands_without_losing_length) {
+  for (const double shrinking : {0.5, 1e-2, 1e-4, 1e-6}) {
+    const Plan plan = plan_of(32, 32, 2.0, 5.0, [=](Vec2 p) {
+      const double angle = 0.004 * std::pow(1.0 - shrinking, p.x / 2.0);
+      return static_cast<float>(p.y < 32.0 ? angle : -angle);
+    });
+    const FlightRun run = ExactFlights(plan).run(state(0.0, 32.0, 0.3), {0.0, 1000000});
+    EXPECT_EQ(run.result.outcome, Outcome::leave);
+    const double hops_m =
+        length_hop_by_hop_m(plan, {0, 16}, {{0.0, 0.0}, Direction::of(Heading::from_rad(0.3))});
+    EXPECT_NEAR(run.result.length_m, hops_m, 1e-9) << shrinking;
+  }
+}
+
+TEST(ExactFlight, slides_along_a_border_whose_cells_both_turn_towards_it) {
+  const ExactFlights flights(weave_plan(0.5));
+  EXPECT_EQ(flights.fly(state(0.0, 32.0, 0.0)).length_m, 64.0);
+  // Both turn away from it: it takes the cell on its left.
+  const ExactFlights apart(weave_plan(-0.5));
+  const Flight flight = apart.record(state(0.0, 32.0, 0.0));
+  EXPECT_GT(flight.segments.front().curvature_per_m, 0.0);
+}
+
+TEST(ExactFlight, turns_left_when_the_command_is_exactly_opposite) {
+  const ExactFlights flights(uniform_plan(0.0F));
+  const Flight flight = flights.record(state(32.0, 31.0, pi));
+  EXPECT_GT(flight.segments.front().curvature_per_m, 0.0);
+  EXPECT_NEAR(flight.segments.front().length_m, 5.0 * pi, 1e-12);
+  EXPECT_NEAR(flight.segments.back().start.position_m.y, 21.0, 1e-12);
+}
+
+TEST(ExactFlight, changes_its_length_continuously_with_the_start) {
+  Plan plan = uniform_plan(0.3F);
+  const ExactFlights flights(plan);
+  Random random(22);
+  for (int i = 0; i < 2000; ++i) {
+    // Away from the opposite heading and from the grid's edge, where the length jumps.
+    const double h = 0.3 + random.uniform(-3.0, 3.0);
+    const State start = state(random.uniform(20.0, 40.0), random.uniform(20.0, 40.0), h);
+    const State near =
+        state(start.position_m.x + random.uniform(-1e-9, 1e-9),
+              start.position_m.y + random.uniform(-1e-9, 1e-9), h + random.uniform(-1e-9, 1e-9));
+    EXPECT_NEAR(flights.fly(start).length_m, flights.fly(near).length_m, 1e-6);
+  }
+}
+
+TEST(ExactFlight, flies_the_mirrored_plan_as_the_mirror_image) {
+  const ExactFlights flights(smooth_plan());
+  const ExactFlights mirrored(smooth_plan(true));
+  for (const State& start : random_starts(2000, 128.0, 23)) {
+    const FlightResult a = flights.fly(start);
+    const FlightResult b =
+        mirrored.fly(state(start.position_m.x, 128.0 - start.position_m.y, -start.heading.rad()));
+    ASSERT_EQ(a.outcome, b.outcome);
+    ASSERT_NEAR(a.length_m, b.length_m, 1e-8);
+  }
+}
+
+TEST(ExactFlight, agrees_with_small_steps_of_the_differential_equation) {
+  const Plan plan = smooth_plan();
+  const ExactFlights flights(plan);
+  constexpr double step_m = 2e-4;
+  constexpr double until_m = 25.0;
+  std::vector<double> off_m;
+  for (const State& start : random_starts(60, 128.0, 24)) {
+    const Flight flight = flights.follow(start, until_m);
+    Vec2 p = start.position_m;
+    double h = start.heading.rad();
+    double flown_m = 0.0;
+    for (; flown_m < until_m; flown_m += step_m) {
+      const Cell cell = plan.grid.cell_of(p);
+      if (!plan.grid.contains(cell)) break;
+      const double command = static_cast<double>(plan.heading_rad[plan.grid.index(cell)]);
+      const double error = std::remainder(command - h, two_pi);
+      h += std::copysign(std::min(std::abs(error), step_m / 5.0), error);
+      p = p + step_m * Vec2{std::cos(h), std::sin(h)};
+    }
+    const FlightSegment& last = flight.segments.back();
+    off_m.push_back(norm(state_at(last, last.length_m).position_m - p));
+  }
+  std::sort(off_m.begin(), off_m.end());
+  // The steps' own error; a start beside a watershed (an opposite command) may part from it.
+  EXPECT_LT(off_m[54], 0.02);
+  EXPECT_LT(off_m[30], 2e-3);
+}
+
+TEST(ExactFlight, records_pieces_that_join_end_to_end_and_add_up) {
+  const ExactFlights flights(smooth_plan());
+  for (const State& start : random_starts(300, 128.0, 25)) {
+    const Flight flight = flights.record(start);
+    double flown_m = 0.0;
+    for (std::size_t i = 0; i < flight.segments.size(); ++i) {
+      const FlightSegment& piece = flight.segments[i];
+      ASSERT_NEAR(piece.time_s * 10.0, flown_m, 1e-9);
+      ASSERT_LE(std::abs(piece.curvature_per_m), 1.0 / 5.0);
+      flown_m += piece.length_m;
+      if (i + 1 == flight.segments.size()) break;
+      const State end = state_at(piece, piece.length_m);
+      const State next = flight.segments[i + 1].start;
+      ASSERT_NEAR(norm(end.position_m - next.position_m), 0.0, 1e-3);  // a leap is drawn straight
+      ASSERT_NEAR(end.heading.turn_to(next.heading), 0.0, 0.05);
+    }
+    if (std::isfinite(flight.result.length_m)) {
+      ASSERT_NEAR(flown_m, flight.result.length_m, 1e-5 * flown_m);
+    }
+    ASSERT_EQ(flight.result.length_m, flights.fly(start).length_m);
+  }
+}
+
+TEST(ExactFlight, follows_on_through_goal_cells_for_the_length_asked) {
+  Plan plan = uniform_plan(0.0F);
+  set_region(plan, {10, 10}, Region::goal);
+  const Flight flight = ExactFlights(plan).follow(state(5.0, 21.0, 0.0), 40.0);
+  EXPECT_EQ(flight.result.outcome, Outcome::reach);
+  EXPECT_EQ(flight.result.length_m, 15.0);
+  ASSERT_EQ(flight.segments.size(), 1U);
+  EXPECT_EQ(flight.segments.front().length_m, 40.0);
+}
+
+TEST(ExactFlight, tells_a_repeating_state_from_a_limit) {
+  // A command that turns with the vehicle can never be met: a full circle, again and again.
+  const ExactFlights circling(plan_of(64, 64, 2.0, 5.0, [](Vec2 p) {
+    return Heading::stored(std::atan2(p.y - 64.0, p.x - 64.0) + pi / 2 + 0.3);
+  }));
+  const State start = state(80.0, 64.0, pi / 2);
+  EXPECT_EQ(circling.run(start).ended_by, EndedBy::repeating_state);
+  EXPECT_EQ(circling.run(start, {50.0, 0}).ended_by, EndedBy::length_limit);
+  EXPECT_EQ(circling.run(start, {0.0, 7}).ended_by, EndedBy::crossing_limit);
+  EXPECT_EQ(circling.run(start, {0.0, 7}).result.outcome, Outcome::trapped);
+}
+
+TEST(ExactFlight, gives_the_same_results_on_any_number_of_threads) {
+  const ExactFlights flights(smooth_plan());
+  const std::vector<State> starts = random_starts(2000, 128.0, 26);
+  const std::vector<FlightResult> together = flights.fly_all(starts);
+  std::vector<FlightResult> alone;
+  {
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    alone = flights.fly_all(starts);
+  }
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    ASSERT_EQ(together[i].outcome, alone[i].outcome);
+    ASSERT_EQ(together[i].length_m, alone[i].length_m);
+  }
+}
+
+TEST(ExactFlight, refuses_cells_not_smaller_than_the_turning_radius) {
+  EXPECT_THROW(ExactFlights(plan_of(4, 4, 5.0, 5.0, [](Vec2) { return 0.0F; })), ContractViolation);
 }
 
 }  // namespace

@@ -1,0 +1,78 @@
+#include "fairway/simulate/state_files.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fairway/base/error.hpp"
+
+namespace fairway {
+namespace {
+
+using ::testing::HasSubstr;
+
+State state(double x, double y, double heading_rad) {
+  return {{x, y}, Heading::from_rad(heading_rad)};
+}
+
+std::string refusal_of(std::string_view text) {
+  try {
+    (void)states_of_csv(text, "s.csv");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(StateFiles, reads_three_columns_with_and_without_a_header) {
+  const std::vector<State> expected{state(1.5, -2.0, 0.5), state(3.0, 4e2, -1.0)};
+  EXPECT_EQ(states_of_csv("1.5,-2,0.5\n3,4e2,-1\n", "s.csv"), expected);
+  EXPECT_EQ(states_of_csv("x_m,y_m,heading_rad\n1.5,-2,0.5\n3,4e2,-1", "s.csv"), expected);
+  EXPECT_EQ(states_of_csv("\xef\xbb\xbfx_m, y_m, heading_rad\r\n\r\n 1.5, -2, 0.5 \r\n# no\r\n"
+                          "+3,4e2,-1\r\n",
+                          "s.csv"),
+            expected);
+}
+
+TEST(StateFiles, finds_the_columns_of_an_outcomes_file_by_name) {
+  const auto states =
+      states_of_csv("outcome,heading_rad,y_m,x_m\nreach,0.5,-2,1.5\ncollide,-1,400,3\n", "s.csv");
+  EXPECT_EQ(states, (std::vector<State>{state(1.5, -2.0, 0.5), state(3.0, 400.0, -1.0)}));
+}
+
+TEST(StateFiles, reads_degrees_and_wraps) {
+  const auto states = states_of_csv("0,0,90deg\n0,0,-90 deg\n0,0,180deg\n0,0,540deg\n0,0,7\n", "s");
+  EXPECT_EQ(states[0].heading.rad(), pi / 2);
+  EXPECT_EQ(states[1].heading.rad(), -pi / 2);
+  EXPECT_EQ(states[2].heading.rad(), pi);
+  EXPECT_EQ(states[3].heading.rad(), pi);
+  EXPECT_DOUBLE_EQ(states[4].heading.rad(), 7.0 - two_pi);
+}
+
+TEST(StateFiles, says_where_and_what_is_wrong) {
+  EXPECT_THAT(refusal_of("1,2,3\n1,2\n"), HasSubstr("s.csv:2: 2 fields: expected 3"));
+  EXPECT_THAT(refusal_of("1,2,3\n\n1,two,3\n"), HasSubstr("s.csv:3: y_m is 'two': expected"));
+  EXPECT_THAT(refusal_of("1,2,nan\n"), HasSubstr("s.csv:1: heading_rad is 'nan': expected"));
+  EXPECT_THAT(refusal_of("1,inf,0\n"), HasSubstr("s.csv:1: y_m is 'inf'"));
+  EXPECT_THAT(refusal_of("1,2,1rad\n"), HasSubstr("heading_rad is '1rad'"));
+  EXPECT_THAT(refusal_of("1,2,deg\n"), HasSubstr("heading_rad is 'deg'"));
+  EXPECT_THAT(refusal_of("1,2,3x\n"), HasSubstr("s.csv:1"));
+  EXPECT_THAT(refusal_of("1,2,1e999\n"), HasSubstr("s.csv:1"));
+  EXPECT_THAT(refusal_of("x_m,y_m\n1,2\n"), HasSubstr("s.csv:1: no column heading_rad"));
+  EXPECT_THAT(refusal_of("x_m,y_m,x_m,heading_rad\n"), HasSubstr("x_m appears twice"));
+  EXPECT_THAT(refusal_of("1,2,3\nx_m,y_m,heading_rad\n"), HasSubstr("s.csv:2: x_m is 'x_m'"));
+  EXPECT_THAT(refusal_of(""), HasSubstr("s.csv: no states"));
+  EXPECT_THAT(refusal_of("x_m,y_m,heading_rad\n"), HasSubstr("s.csv: no states"));
+}
+
+TEST(StateFiles, refuses_a_file_that_is_not_there) {
+  EXPECT_THROW((void)read_states("no/such/states.csv"), InputError);
+  EXPECT_THROW((void)read_states("."), InputError);
+}
+
+TEST(StateFiles, reads_one_state_of_the_command_line) {
+  EXPECT_EQ(state_of_text("10, 20, 90deg", "--state"), state(10.0, 20.0, pi / 2));
+  EXPECT_THROW((void)state_of_text("10,20", "--state"), InputError);
+}
+
+}  // namespace
+}  // namespace fairway
