@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
@@ -16,10 +17,10 @@ namespace {
 using Reason = MissionRefusal::Reason;
 
 // The largest squared distance, in cells, that is still buffer. The added 1e-9 keeps a distance of
-// exactly alpha * r inside when the quotient is rounded down.
+// exactly alpha * r inside when the quotient is rounded down. Below the mark for "no obstacle".
 double buffer_limit_cells2(const Grid& grid, const Vehicle& vehicle, const FieldOptions& options) {
   const double cells = options.alpha * vehicle.turn_radius_m / grid.cell_m;
-  return cells * cells * (1.0 + 1e-9);
+  return std::min(cells * cells * (1.0 + 1e-9), no_feature_distance - 1.0);
 }
 
 void mark_buffer_euclidean(CompleteMap& complete, double limit_cells2) {
@@ -43,8 +44,9 @@ void mark_buffer_paper(CompleteMap& complete, const ObstacleMap& map, const Vehi
     not_obstacle[i] = map.obstacle[i] == 0 ? 1 : 0;
     if (map.obstacle[i] != 0) obstacles.push_back(static_cast<std::uint32_t>(i));
   }
-  const auto sweeps =
-      static_cast<int>(std::ceil(options.alpha * vehicle.turn_radius_m / g.cell_m - 1e-9));
+  // At least one sweep, and no more than the map can take: 0 would mean "until nothing changes".
+  const double width_cells = std::ceil(options.alpha * vehicle.turn_radius_m / g.cell_m - 1e-9);
+  const auto sweeps = static_cast<int>(std::clamp(width_cells, 1.0, 1.0 * std::max(g.nx, g.ny)));
   const std::vector<float> number =
       paper_wavefront(not_obstacle, g.nx, g.ny, obstacles, 1.0F, sweeps);
   for (std::size_t i = 0; i < g.size(); ++i) {
@@ -65,12 +67,23 @@ std::optional<Vec2> nearest_place_that_fits(const Grid& grid, const std::vector<
   for (std::size_t i = 0; i < taken.size(); ++i) taken[i] = region[i] != Region::free ? 1 : 0;
   std::vector<std::int32_t> d2(grid.size());
   distance_transform(taken, grid.nx, grid.ny, {d2, {}});
-  const double needed_cells = radius_m / grid.cell_m + 0.5;
+  // A little wider than the disc, so that the place still fits once its digits are printed.
+  const double wide_m = radius_m + 1e-3 * grid.cell_m;
+  const double wide_cells2 = (wide_m / grid.cell_m) * (wide_m / grid.cell_m);
+  const auto fits = [&](std::size_t i, Vec2 p) {
+    // A taken cell at (dx, dy) lies in the disc if (|dx| + 1/2)^2 + (|dy| + 1/2)^2 <= R^2; the
+    // left side is d^2 + |dx| + |dy| + 1/2, and |dx| + |dy| is between d and sqrt(2) d.
+    const double d = std::sqrt(static_cast<double>(d2[i]));
+    if (d2[i] == 0 || d * d + std::numbers::sqrt2 * d + 0.5 <= wide_cells2) return false;
+    if (d * d + d + 0.5 > wide_cells2) return true;
+    const std::vector<std::uint32_t> cells = cells_inside_disc(grid, p, wide_m);
+    return std::all_of(cells.begin(), cells.end(), [&](std::uint32_t c) { return taken[c] == 0; });
+  };
   std::optional<Vec2> best;
   for (std::size_t i = 0; i < d2.size(); ++i) {
-    if (d2[i] <= needed_cells * needed_cells) continue;
     const Vec2 p = grid.center(grid.cell_at(i));
-    if (!best || norm2(p - goal_m) < norm2(*best - goal_m)) best = p;
+    if (best && norm2(p - goal_m) >= norm2(*best - goal_m)) continue;
+    if (fits(i, p)) best = p;
   }
   return best;
 }
@@ -107,8 +120,8 @@ std::optional<MissionRefusal> place_goal(CompleteMap& complete, const Grid& grid
         y <= grid.y0_m + grid.height_m())) {
     return refusal(
         Reason::outside_map,
-        fmt::format("the goal [{:.6g}, {:.6g}] lies outside the map, which covers x {:.6g} "
-                    "to {:.6g} m and y {:.6g} to {:.6g} m",
+        fmt::format("the goal [{:.12g}, {:.12g}] lies outside the map, which covers x {:.12g} "
+                    "to {:.12g} m and y {:.12g} to {:.12g} m",
                     x, y, grid.x0_m, grid.x0_m + grid.width_m(), grid.y0_m,
                     grid.y0_m + grid.height_m()));
   }
@@ -117,19 +130,20 @@ std::optional<MissionRefusal> place_goal(CompleteMap& complete, const Grid& grid
   complete.goal_cells = cells_inside_disc(grid, goal.goal_m, radius);
   const auto next_try = [&]() -> std::string {
     const auto fits = nearest_place_that_fits(grid, complete.region, goal.goal_m, radius);
-    if (!fits) return "no place on this map fits such a goal: reduce alpha, beta or turn_radius_m";
-    return fmt::format("the nearest goal that fits is [{:.6g}, {:.6g}]", fits->x, fits->y);
+    if (!fits)
+      return "such a goal fits about no cell of this map: reduce alpha, beta or turn_radius_m";
+    return fmt::format("the nearest goal that fits is [{:.12g}, {:.12g}]", fits->x, fits->y);
   };
   if (complete.region[grid.index(cell)] == Region::obstacle) {
     return refusal(
         Reason::in_obstacle,
-        fmt::format("the goal [{:.6g}, {:.6g}] lies in an obstacle; {}", x, y, next_try()));
+        fmt::format("the goal [{:.12g}, {:.12g}] lies in an obstacle; {}", x, y, next_try()));
   }
   if (complete.goal_cells.empty()) {
     return refusal(
         Reason::goal_too_small,
         fmt::format("no cell lies wholly inside the goal disc of radius beta * "
-                    "turn_radius_m = {:.6g} m about [{:.6g}, {:.6g}]: cells are {:.6g} m "
+                    "turn_radius_m = {:.6g} m about [{:.12g}, {:.12g}]: cells are {:.6g} m "
                     "wide; enlarge beta or reduce cell_m",
                     radius, x, y, grid.cell_m));
   }
@@ -141,8 +155,8 @@ std::optional<MissionRefusal> place_goal(CompleteMap& complete, const Grid& grid
   const double lacks = std::max(needed - clearance, 0.0);
   return refusal(
       Reason::in_buffer,
-      fmt::format("the goal disc (radius beta * turn_radius_m = {:.6g} m about [{:.6g}, "
-                  "{:.6g}]) reaches into the buffer: it comes within {:.6g} m of an "
+      fmt::format("the goal disc (radius beta * turn_radius_m = {:.6g} m about [{:.12g}, "
+                  "{:.12g}]) reaches into the buffer: it comes within {:.6g} m of an "
                   "obstacle, and must stay farther than alpha * turn_radius_m = {:.6g} m "
                   "away, so it lacks {:.6g} m (Assumption 1); {}",
                   radius, x, y, clearance, needed, lacks, next_try()),
@@ -159,7 +173,7 @@ std::optional<MissionRefusal> place_path(CompleteMap& complete, const Grid& grid
       continue;
     }
     return refusal(Reason::outside_map,
-                   fmt::format("vertex {} of the path, [{:.6g}, {:.6g}], lies outside the map",
+                   fmt::format("vertex {} of the path, [{:.12g}, {:.12g}], lies outside the map",
                                k + 1, p.x, p.y));
   }
   complete.path_cells = cells_on_path(grid, path);
@@ -172,13 +186,13 @@ std::optional<MissionRefusal> place_path(CompleteMap& complete, const Grid& grid
   if (clearance == 0.0) {
     return refusal(
         Reason::in_obstacle,
-        fmt::format("the path crosses an obstacle near [{:.6g}, {:.6g}]", where.x, where.y));
+        fmt::format("the path crosses an obstacle near [{:.12g}, {:.12g}]", where.x, where.y));
   }
   const double needed = options.alpha * vehicle.turn_radius_m;
   const double lacks = std::max(needed - clearance, 0.0);
   return refusal(
       Reason::in_buffer,
-      fmt::format("the path enters the buffer near [{:.6g}, {:.6g}]: it comes within {:.6g} m "
+      fmt::format("the path enters the buffer near [{:.12g}, {:.12g}]: it comes within {:.6g} m "
                   "of an obstacle, and must stay farther than alpha * turn_radius_m = "
                   "{:.6g} m away, so it lacks {:.6g} m (Assumption 1); alpha below {:.4g} "
                   "would do",
