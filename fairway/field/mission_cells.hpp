@@ -13,11 +13,11 @@ namespace fairway {
 [[nodiscard]] std::vector<std::uint32_t> cells_inside_disc(const Grid& grid, Vec2 center_m,
                                                            double radius_m);
 
-/// One cell that a path crosses, and the path at the point nearest to the cell's centre.
+/// One cell that a path crosses, and of the pieces that cross it the nearest to the cell's centre.
 struct PathCell {
   std::uint32_t index = 0;
-  Vec2 tangent;             ///< unit vector along the path
-  double distance_m = 0.0;  ///< from the cell's centre to the path
+  Vec2 tangent;             ///< unit vector along that piece
+  double distance_m = 0.0;  ///< from the cell's centre to that piece
 };
 
 /// All cells of the grid that the polyline touches, ascending by index, each once. Cells met only
