@@ -1,0 +1,12 @@
+// One libFuzzer program a reader; FAIRWAY_FUZZ_READER names it.
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "fuzz/read_bytes.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  fairway::feed(FAIRWAY_FUZZ_READER, {reinterpret_cast<const char*>(bytes), size});
+  return 0;
+}
