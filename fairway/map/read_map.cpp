@@ -91,16 +91,22 @@ ObstacleMap rasterise_fences(const GeodeticFences& fences, const MapRequest& req
                    request.world_margin_m);
 }
 
+void require_no_altitude(const MapRequest& request) {
+  if (request.altitude_m)
+    throw InputError("map.altitude_m", "has no meaning for " + request.file.string() +
+                                           ", only for elevation rasters and GeoJSON heights");
+}
+
 GeodeticFences read_json_fences(const MapRequest& request) {
   const SourceText source = read_source(request.file);
   const nlohmann::json json = parse_json(source);
-  return is_qgc_plan(json) ? read_qgc_plan(source, json) : read_geojson(source, json, request);
+  if (!is_qgc_plan(json)) return read_geojson(source, json, request);
+  require_no_altitude(request);
+  return read_qgc_plan(source, json);
 }
 
 ObstacleMap read_kind(Kind kind, const MapRequest& request) {
-  if (request.altitude_m && kind != Kind::image && kind != Kind::json)
-    throw InputError("map.altitude_m", "has no meaning for " + request.file.string() +
-                                           ", only for elevation rasters and GeoJSON heights");
+  if (kind != Kind::image && kind != Kind::json) require_no_altitude(request);
   switch (kind) {
     case Kind::ros:
       return rasterise(read_ros_map(read_source(request.file), request), options_of(request));

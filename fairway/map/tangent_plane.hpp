@@ -7,7 +7,7 @@
 //   2. Across a radius the plane is too wide by the factor s / m, with m the reduced length of the
 //      geodesic (on a sphere of radius E: s/E / sin(s/E), about 1 + s^2 / (6 E^2)). Every line
 //      between two points of a disc about the reference of radius s is therefore at most
-//      2 s (s / m - 1) too long. Derived; 2.6e-6 m for 1 km, 2.6e-3 m for 10 km, 2.6 m for 100 km.
+//      2 s (s / m - 1) too long. Derived; 8.2e-6 m for 1 km, 8.2e-3 m for 10 km, 8.2 m for 100 km.
 // Source: C. F. F. Karney, Algorithms for geodesics, 2013, in PROJ's geodesic.h.
 #pragma once
 
