@@ -16,7 +16,6 @@ namespace {
 using testing::has_layer;
 using testing::has_text;
 using testing::read_png;
-using testing::read_svg;
 
 const Grid grid{40, 30, 1000.0, -200.0, 8.0};
 const Cell rock{10, 20};
