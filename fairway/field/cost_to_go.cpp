@@ -4,6 +4,7 @@
 
 #include "fairway/base/parallel.hpp"
 #include "fairway/field/eikonal.hpp"
+#include "fairway/field/mission_cells.hpp"
 #include "fairway/field/octile.hpp"
 
 namespace fairway {
@@ -19,7 +20,10 @@ std::vector<std::uint8_t> safe_start(const CompleteMap& complete) {
   return inside;
 }
 
-// Exact distances where the mission says them: the disc sees its own centre, a path cell its path.
+// Exact distances where the mission says them: the disc sees its own centre, a path's cells and
+// their neighbours their path. Without the neighbours, a cell just beside the path would count the
+// way to the centre of a path cell first, up to a cell too far, and the field beside a slanted path
+// would waver with it.
 std::vector<EikonalSource> exact_sources(const Grid& grid, const CompleteMap& complete,
                                          const Mission& mission) {
   std::vector<EikonalSource> sources;
@@ -29,7 +33,7 @@ std::vector<EikonalSource> exact_sources(const Grid& grid, const CompleteMap& co
       sources.push_back({i, static_cast<float>(distance_m / grid.cell_m)});
     }
   } else {
-    for (const PathCell& cell : complete.path_cells) {
+    for (const PathCell& cell : cells_near_path(grid, std::get<PathMission>(mission))) {
       sources.push_back({cell.index, static_cast<float>(cell.distance_m / grid.cell_m)});
     }
   }

@@ -69,6 +69,32 @@ void visit_cells(const Grid& g, const Segment& s, const Visit& visit) {
   }
 }
 
+// Cells up to `beside` cells away from those that a piece crosses, each with the nearest piece.
+std::vector<PathCell> nearest_pieces(const Grid& grid, const PathMission& path, int beside) {
+  std::vector<PathCell> cells;
+  for (const Segment& s : segments_of(path)) {
+    const Vec2 tangent = (1.0 / s.length_m) * (s.to - s.from);
+    visit_cells(grid, s, [&](Cell crossed) {
+      for (int dy = -beside; dy <= beside; ++dy) {
+        for (int dx = -beside; dx <= beside; ++dx) {
+          const Cell c{crossed.ix + dx, crossed.iy + dy};
+          if (!grid.contains(c)) continue;
+          cells.push_back(
+              {static_cast<std::uint32_t>(grid.index(c)), tangent, distance_to(s, grid.center(c))});
+        }
+      }
+    });
+  }
+  // Of the pieces that come to a cell the nearest to its centre gives the tangent; of equally near
+  // ones the first along the path (the sort is stable).
+  std::stable_sort(cells.begin(), cells.end(), [](const PathCell& a, const PathCell& b) {
+    return a.index != b.index ? a.index < b.index : a.distance_m < b.distance_m;
+  });
+  const auto same = [](const PathCell& a, const PathCell& b) { return a.index == b.index; };
+  cells.erase(std::unique(cells.begin(), cells.end(), same), cells.end());
+  return cells;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> cells_inside_disc(const Grid& grid, Vec2 center_m, double radius_m) {
@@ -94,21 +120,11 @@ std::vector<std::uint32_t> cells_inside_disc(const Grid& grid, Vec2 center_m, do
 }
 
 std::vector<PathCell> cells_on_path(const Grid& grid, const PathMission& path) {
-  std::vector<PathCell> cells;
-  for (const Segment& s : segments_of(path)) {
-    visit_cells(grid, s, [&](Cell c) {
-      cells.push_back({static_cast<std::uint32_t>(grid.index(c)),
-                       (1.0 / s.length_m) * (s.to - s.from), distance_to(s, grid.center(c))});
-    });
-  }
-  // Of the segments that cross a cell the nearest to its centre gives the tangent; of equally near
-  // ones the first along the path (the sort is stable).
-  std::stable_sort(cells.begin(), cells.end(), [](const PathCell& a, const PathCell& b) {
-    return a.index != b.index ? a.index < b.index : a.distance_m < b.distance_m;
-  });
-  const auto same = [](const PathCell& a, const PathCell& b) { return a.index == b.index; };
-  cells.erase(std::unique(cells.begin(), cells.end(), same), cells.end());
-  return cells;
+  return nearest_pieces(grid, path, 0);
+}
+
+std::vector<PathCell> cells_near_path(const Grid& grid, const PathMission& path) {
+  return nearest_pieces(grid, path, 1);
 }
 
 PathPoint nearest_on_path(const PathMission& path, Vec2 p) {

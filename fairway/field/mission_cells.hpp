@@ -24,6 +24,10 @@ struct PathCell {
 /// at a corner or along a side count: the set is connected by sides and corners.
 [[nodiscard]] std::vector<PathCell> cells_on_path(const Grid& grid, const PathMission& path);
 
+/// The same with all their neighbours, each with the nearest of the pieces that cross the cell or a
+/// neighbour of it. The distances to the path of cells on both of its sides.
+[[nodiscard]] std::vector<PathCell> cells_near_path(const Grid& grid, const PathMission& path);
+
 /// The point of the polyline nearest to `p`; of several the first along the path.
 struct PathPoint {
   double distance_m = 0.0;
