@@ -1,0 +1,22 @@
+// Cost-to-go problems for both solvers: distances through free cells from a disc about a goal.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fairway/base/grid.hpp"
+
+namespace fairway::bench {
+
+struct DistanceProblem {
+  std::vector<std::uint8_t> blocked;  ///< [iy][ix], not zero: obstacle
+  int nx = 0;
+  int ny = 0;
+  Cell goal;
+  double radius_cells = 5.0;  ///< inside it distances are given, exact
+};
+
+/// What eikonal_distance makes of it: cells, [iy][ix], +inf where there is no way.
+[[nodiscard]] std::vector<float> eikonal_answer(const DistanceProblem& problem);
+
+}  // namespace fairway::bench

@@ -1,0 +1,36 @@
+// OpenCV, a peer on the same arrays. Without it (opencv_absent.cpp) nothing is answered.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace fairway::bench {
+
+class OpenCv {
+ public:
+  /// `threads` bounds OpenCV's own threads.
+  explicit OpenCv(int threads);
+  ~OpenCv();
+  OpenCv(const OpenCv&) = delete;
+  OpenCv& operator=(const OpenCv&) = delete;
+
+  [[nodiscard]] static bool is_there();
+
+  /// Exact Euclidean distances to the nearest cell of `feature` that is not zero
+  /// (distanceTransform, DIST_L2, DIST_MASK_PRECISE), [iy][ix], in cells. place_features() first.
+  void place_features(std::span<const std::uint8_t> feature, int nx, int ny);
+  void distance_transform();
+  [[nodiscard]] std::span<const float> distances() const;
+
+  /// GaussianBlur of an image of two floats a pixel, kernels of 2 half_width + 1.
+  void place_vectors(std::span<const float> x, std::span<const float> y, int nx, int ny);
+  void gaussian_blur(double sigma_cells, int half_width);
+  [[nodiscard]] std::span<const float> blurred() const;  ///< x and y in turn
+
+ private:
+  struct Images;
+  std::unique_ptr<Images> images_;
+};
+
+}  // namespace fairway::bench

@@ -1,0 +1,38 @@
+// The sections of the benchmark table. Each checks that results agree before it times anything, and
+// throws std::runtime_error when they do not.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/table.hpp"
+
+namespace fairway::bench {
+
+struct Settings {
+  int side = 4096;                                         ///< cells along a side of the map
+  int error_side = 1024;                                   ///< the same where errors are measured
+  std::vector<int> sides = {512, 1024, 2048, 4096, 8192};  ///< for the whole pipeline
+  int repeats = 5;
+  int threads = 2;
+  int flights = 2048;
+  std::string program;     ///< this program, to be started again for one whole pipeline
+  std::string fmm_script;  ///< scikit_fmm_peer.py
+};
+
+inline constexpr std::uint64_t map_seed = 1;
+
+[[nodiscard]] std::vector<Row> distance_rows(const Settings& settings);
+[[nodiscard]] std::vector<Row> cost_rows(const Settings& settings);
+[[nodiscard]] std::vector<Row> cost_error_rows(const Settings& settings);
+[[nodiscard]] std::vector<Row> filter_rows(const Settings& settings);
+[[nodiscard]] std::vector<Row> pipeline_rows(const Settings& settings);
+[[nodiscard]] std::vector<Row> flight_rows(const Settings& settings);
+
+/// One whole pipeline in this process, which is to have done nothing else. Prints a line
+/// "WALL_S CPU_S BYTES_BEFORE BYTES_AT_PEAK SHARE", where SHARE is that of the safe-start cells
+/// from which the goal can be reached.
+void run_one_field(int side);
+
+}  // namespace fairway::bench

@@ -1,0 +1,70 @@
+// How long something took, and medians of ours and a peer run in turn, so that whatever else the
+// machine does falls on both alike.
+#pragma once
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+namespace fairway::bench {
+
+struct Took {
+  double wall_s = 0.0;
+  double cpu_s = 0.0;  ///< of all threads of the process that did the work
+};
+
+inline double process_cpu_s() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+template <typename Work>
+Took timed(Work&& work) {
+  const double cpu = process_cpu_s();
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  return {wall.count(), process_cpu_s() - cpu};
+}
+
+/// The middle value; of an even number the mean of the two in the middle. Not empty.
+inline double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+inline Took median(const std::vector<Took>& runs) {
+  std::vector<double> wall;
+  std::vector<double> cpu;
+  for (const Took& run : runs) {
+    wall.push_back(run.wall_s);
+    cpu.push_back(run.cpu_s);
+  }
+  return {median(wall), median(cpu)};
+}
+
+/// `ours` and `peer` return a Took each; they run in turn, `repeats` times.
+struct Medians {
+  Took ours;
+  Took peer;
+};
+template <typename Ours, typename Peer>
+Medians interleaved(int repeats, Ours&& ours, Peer&& peer) {
+  std::vector<Took> of_ours;
+  std::vector<Took> of_peer;
+  for (int i = 0; i < repeats; ++i) {
+    of_ours.push_back(ours());
+    of_peer.push_back(peer());
+  }
+  return {median(of_ours), median(of_peer)};
+}
+
+}  // namespace fairway::bench
