@@ -14,9 +14,9 @@
 //   4. A heading along a border keeps its zero component exactly; 0 stays 0.
 //   5. A touch (the arc's extreme point on the border) is an exit whose heading runs along it.
 //   6. Mirroring or turning the cell by 90 degrees changes the answer by rounding only.
-// Error (observed over random draws against long double, see the test): exit point and length
-// within 1e-14 turn radii, but for grazing exits, where the time is as uncertain as the square root
-// of rounding while the point stays on its arc.
+// Error (observed over random draws against long double, see the test): the exit point lies within
+// 2e-14 turn radii of where the exact motion is after length_m(). Where an exit grazes its side,
+// the length itself is only as certain as the square root of rounding.
 #pragma once
 
 #include <algorithm>
