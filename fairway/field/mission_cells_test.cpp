@@ -284,6 +284,34 @@ TEST(CellsOnPath, APathWithoutLengthOrOutsideTheGridHasNoCells) {
   EXPECT_TRUE(cells_on_path(g, {{{1.0, 8.0}, {1.0, 7.0}}, false}).empty());
 }
 
+TEST(CellsNearPath, AreThoseOfThePathAndTheirNeighboursWithDistancesToPieces) {
+  Random random(67);
+  for (const Grid& g : some_grids()) {
+    for (int draw = 0; draw < 30; ++draw) {
+      const PathMission path = random_path(random, g);
+      Cells expected;
+      for (const PathCell& c : cells_on_path(g, path)) {
+        const Cell cell = g.cell_at(c.index);
+        for (int k = 0; k < 9; ++k) {
+          const Cell n{cell.ix + k % 3 - 1, cell.iy + k / 3 - 1};
+          if (g.contains(n)) expected.insert(static_cast<std::uint32_t>(g.index(n)));
+        }
+      }
+      Cells found;
+      for (const PathCell& c : cells_near_path(g, path)) {
+        found.insert(c.index);
+        const double exact = nearest_on_path(path, g.center(g.cell_at(c.index))).distance_m;
+        ASSERT_GE(c.distance_m, exact - 1e-8);
+        // A piece that passes within a cell of the centre comes to a neighbour at the farthest.
+        if (exact < g.cell_m) {
+          ASSERT_NEAR(c.distance_m, exact, 1e-8) << "cell " << c.index << ", draw " << draw;
+        }
+      }
+      ASSERT_EQ(found, expected);
+    }
+  }
+}
+
 TEST(NearestOnPath, IsNoFartherThanAnySampleAndAtItsOwnArcLength) {
   Random random(66);
   const Grid g{30, 20, -4.0, 9.0, 1.5};
