@@ -124,7 +124,7 @@ std::vector<Row> pipeline_rows(const Settings& settings) {
     const double ns = 1e9 * mid.wall_s / cells;
     const std::string what = fmt::format("whole pipeline, {} x {}", side, side);
     const std::string time =
-        fmt::format("{:.1f} ns a cell ({:.1f} cores)", ns, mid.cpu_s / mid.wall_s);
+        fmt::format("{:.1f} ns a cell ({:.2f} cores)", ns, mid.cpu_s / mid.wall_s);
     if (side != settings.side) {
       rows.push_back({what, time});
       continue;

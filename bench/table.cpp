@@ -40,8 +40,8 @@ Row without_peer(std::string name, std::string ours, std::string why, std::strin
 
 std::string shown(const Took& took) {
   const double cores = took.wall_s > 0.0 ? took.cpu_s / took.wall_s : 0.0;
-  if (took.wall_s < 1.0) return fmt::format("{:.1f} ms ({:.1f} cores)", 1e3 * took.wall_s, cores);
-  return fmt::format("{:.2f} s ({:.1f} cores)", took.wall_s, cores);
+  if (took.wall_s < 1.0) return fmt::format("{:.1f} ms ({:.2f} cores)", 1e3 * took.wall_s, cores);
+  return fmt::format("{:.2f} s ({:.2f} cores)", took.wall_s, cores);
 }
 
 void print_table(const std::vector<Row>& rows) {
