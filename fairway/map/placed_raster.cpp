@@ -31,7 +31,8 @@ struct Place {
 std::string utm_advice(const Transform& t, int width, int height) {
   const double longitude = t[0] + 0.5 * width * t[1];
   const double latitude = t[3] + 0.5 * height * t[5];
-  const int zone = std::clamp(static_cast<int>(std::floor((longitude + 180.0) / 6.0)) + 1, 1, 60);
+  if (!(std::abs(longitude) <= 180.0)) return "reproject it first with gdalwarp -t_srs";
+  const int zone = std::min(static_cast<int>(std::floor((longitude + 180.0) / 6.0)) + 1, 60);
   return fmt::format("reproject it first: gdalwarp -t_srs EPSG:{} IN OUT",
                      (latitude < 0.0 ? 32700 : 32600) + zone);
 }

@@ -212,6 +212,13 @@ TEST_F(RosMap, WrongValuesAreNamedWithTheirLine) {
             "map.yaml:1: the image \"other.pgm\" does not exist beside this file");
 }
 
+TEST_F(RosMap, AnOriginTooFarAwayToTellCellsApartIsRefused) {
+  write_row({255});
+  EXPECT_EQ(
+      error(yaml({{"origin", "origin: [1e300, 0, 0]"}})),
+      "map.cell_m: the map's corner is at 1e+300 m: too far from 0 to tell cells of 1 m apart");
+}
+
 TEST_F(RosMap, AKeyThatOccursTwiceIsRefused) {
   write_row({0});
   EXPECT_EQ(error(yaml({{"more", "resolution: 2"}})),
