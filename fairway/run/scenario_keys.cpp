@@ -212,9 +212,6 @@ std::vector<ScenarioKey> plan_keys() {
                     FAIRWAY_MEMBER(plan.blend),
                     "how a transition begins: with a jump as printed (Eq. 16), or without"),
       number("plan.axis_capture_rad", Range{0.0, 0.1}, FAIRWAY_MEMBER(plan.axis_capture_rad),
-             "commands this close to a grid axis are put on it, which spares flights from weaving "
-             "along cell borders; never with metric \"paper\""),
-      number("plan.axis_capture_rad", Range{0.0, 0.1}, FAIRWAY_MEMBER(plan.axis_capture_rad),
              "commands this close to a grid axis are put on it, so that opposing commands do not "
              "weave along a border in tiny hops; metric \"paper\": never"),
   };

@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -158,6 +159,12 @@ TEST(ScenarioKeys, EffectiveValuesReadBackGiveTheSameScenario) {
   EXPECT_EQ(plan["alpha"], FieldOptions{}.alpha);
   EXPECT_EQ(effective_values(s, "map")["unknown"], "free");
   EXPECT_TRUE(effective_values(s, "map")["inclusion"].is_null());
+}
+
+TEST(ScenarioKeys, StandInTheTableOnce) {
+  std::set<std::string> names;
+  for (const ScenarioKey& key : scenario_keys())
+    EXPECT_TRUE(names.insert(key.name).second) << key.name;
 }
 
 TEST(ScenarioKeys, TheDocumentationHoldsTheTable) {
