@@ -9,6 +9,7 @@
 
 #include "fairway/field/octile.hpp"
 #include "fairway/field/sample_maps.hpp"
+#include "fairway/vehicle/path_geometry.hpp"
 
 namespace fairway {
 namespace {
@@ -115,7 +116,7 @@ TEST(CostToGo, InTheOpenEuclideanIsWithinAQuarterOfACellOfTheDistanceToTheGoalOr
         cost_to_go(g, complete_of(map, line, Metric::euclidean), line, Metric::euclidean);
     worst = 0.0;
     for (std::size_t i = 0; i < g.size(); ++i) {
-      const double exact = nearest_on_path(line, g.center(g.cell_at(i))).distance_m / g.cell_m;
+      const double exact = nearest_on_path(g.center(g.cell_at(i)), line).distance_m / g.cell_m;
       worst = std::max(worst, std::fabs(way[i] - exact));
     }
     EXPECT_LT(worst, 0.22) << "the line rises by " << rise_m << " m";

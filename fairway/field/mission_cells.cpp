@@ -2,37 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "fairway/base/error.hpp"
+#include "fairway/vehicle/path_geometry.hpp"
 
 namespace fairway {
 namespace {
 
-struct Segment {
-  Vec2 from;
-  Vec2 to;
-  double length_m;
-};
-
-// The pieces of the polyline that have a length, the closing one included.
-std::vector<Segment> segments_of(const PathMission& path) {
-  std::vector<Segment> out;
-  const std::size_t n = path.vertices_m.size();
-  const std::size_t pieces = path.closed ? n : (n == 0 ? 0 : n - 1);
-  for (std::size_t i = 0; i < pieces; ++i) {
-    const Vec2 a = path.vertices_m[i];
-    const Vec2 b = path.vertices_m[(i + 1) % n];
-    const double length = norm(b - a);
-    if (length > 0.0) out.push_back({a, b, length});
-  }
-  return out;
-}
-
-double distance_to(const Segment& s, Vec2 p) {
-  const Vec2 along = (1.0 / s.length_m) * (s.to - s.from);
-  const double t = std::clamp(dot(p - s.from, along), 0.0, s.length_m);
-  return norm(p - (s.from + t * along));
+double distance_to(const PathPiece& piece, Vec2 p) {
+  const double t_m = std::clamp(dot(p - piece.from, piece.tangent()), 0.0, piece.length_m);
+  return norm(p - (piece.from + t_m * piece.tangent()));
 }
 
 int clamped_floor(double value, int low, int high) {
@@ -40,10 +18,10 @@ int clamped_floor(double value, int low, int high) {
       std::clamp(std::floor(value), static_cast<double>(low), static_cast<double>(high)));
 }
 
-// Cells of one segment, row by row: the stretch of the segment inside the row, widened by nothing
+// Cells of one piece, row by row: the stretch of the piece inside the row, widened by nothing
 // but the closed sides of the cells.
 template <typename Visit>
-void visit_cells(const Grid& g, const Segment& s, const Visit& visit) {
+void visit_cells(const Grid& g, const PathPiece& s, const Visit& visit) {
   const Vec2 a{(s.from.x - g.x0_m) / g.cell_m, (s.from.y - g.y0_m) / g.cell_m};
   const Vec2 b{(s.to.x - g.x0_m) / g.cell_m, (s.to.y - g.y0_m) / g.cell_m};
   const double low_y = std::min(a.y, b.y);
@@ -72,19 +50,18 @@ void visit_cells(const Grid& g, const Segment& s, const Visit& visit) {
 // Cells up to `beside` cells away from those that a piece crosses, each with the nearest piece.
 std::vector<PathCell> nearest_pieces(const Grid& grid, const PathMission& path, int beside) {
   std::vector<PathCell> cells;
-  for (const Segment& s : segments_of(path)) {
-    const Vec2 tangent = (1.0 / s.length_m) * (s.to - s.from);
-    visit_cells(grid, s, [&](Cell crossed) {
+  for_pieces(path, [&](const PathPiece& piece) {
+    visit_cells(grid, piece, [&](Cell crossed) {
       for (int dy = -beside; dy <= beside; ++dy) {
         for (int dx = -beside; dx <= beside; ++dx) {
           const Cell c{crossed.ix + dx, crossed.iy + dy};
           if (!grid.contains(c)) continue;
-          cells.push_back(
-              {static_cast<std::uint32_t>(grid.index(c)), tangent, distance_to(s, grid.center(c))});
+          cells.push_back({static_cast<std::uint32_t>(grid.index(c)), piece.tangent(),
+                           distance_to(piece, grid.center(c))});
         }
       }
     });
-  }
+  });
   // Of the pieces that come to a cell the nearest to its centre gives the tangent; of equally near
   // ones the first along the path (the sort is stable).
   std::stable_sort(cells.begin(), cells.end(), [](const PathCell& a, const PathCell& b) {
@@ -125,19 +102,6 @@ std::vector<PathCell> cells_on_path(const Grid& grid, const PathMission& path) {
 
 std::vector<PathCell> cells_near_path(const Grid& grid, const PathMission& path) {
   return nearest_pieces(grid, path, 1);
-}
-
-PathPoint nearest_on_path(const PathMission& path, Vec2 p) {
-  PathPoint best{std::numeric_limits<double>::infinity(), {1.0, 0.0}, 0.0};
-  double along = 0.0;
-  for (const Segment& s : segments_of(path)) {
-    const Vec2 tangent = (1.0 / s.length_m) * (s.to - s.from);
-    const double t = std::clamp(dot(p - s.from, tangent), 0.0, s.length_m);
-    const double distance = norm(p - (s.from + t * tangent));
-    if (distance < best.distance_m) best = {distance, tangent, along + t};
-    along += s.length_m;
-  }
-  return best;
 }
 
 }  // namespace fairway

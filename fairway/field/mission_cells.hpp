@@ -28,12 +28,4 @@ struct PathCell {
 /// neighbour of it. The distances to the path of cells on both of its sides.
 [[nodiscard]] std::vector<PathCell> cells_near_path(const Grid& grid, const PathMission& path);
 
-/// The point of the polyline nearest to `p`; of several the first along the path.
-struct PathPoint {
-  double distance_m = 0.0;
-  Vec2 tangent;
-  double along_m = 0.0;  ///< arc length from the first vertex
-};
-[[nodiscard]] PathPoint nearest_on_path(const PathMission& path, Vec2 p);
-
 }  // namespace fairway

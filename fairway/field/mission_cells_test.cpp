@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "fairway/base/error.hpp"
 #include "fairway/base/random.hpp"
+#include "fairway/vehicle/path_geometry.hpp"
 
 namespace fairway {
 namespace {
@@ -278,7 +280,7 @@ TEST(CellsOnPath, AlongALineBetweenCellsBothSidesCount) {
 TEST(CellsOnPath, APathWithoutLengthOrOutsideTheGridHasNoCells) {
   const Grid g{6, 6, 0.0, 0.0, 1.0};
   EXPECT_TRUE(cells_on_path(g, {{{2.5, 2.5}, {2.5, 2.5}}, true}).empty());
-  EXPECT_TRUE(cells_on_path(g, {{}, false}).empty());
+  EXPECT_THROW((void)cells_on_path(g, {{}, false}), ContractViolation);
   EXPECT_TRUE(cells_on_path(g, {{{-5.0, 1.0}, {-1.0, 5.0}}, false}).empty());
   EXPECT_TRUE(cells_on_path(g, {{{7.0, 1.0}, {9.0, 1.0}}, false}).empty());
   EXPECT_TRUE(cells_on_path(g, {{{1.0, 8.0}, {1.0, 7.0}}, false}).empty());
@@ -300,7 +302,7 @@ TEST(CellsNearPath, AreThoseOfThePathAndTheirNeighboursWithDistancesToPieces) {
       Cells found;
       for (const PathCell& c : cells_near_path(g, path)) {
         found.insert(c.index);
-        const double exact = nearest_on_path(path, g.center(g.cell_at(c.index))).distance_m;
+        const double exact = nearest_on_path(g.center(g.cell_at(c.index)), path).distance_m;
         ASSERT_GE(c.distance_m, exact - 1e-8);
         // A piece that passes within a cell of the centre comes to a neighbour at the farthest.
         if (exact < g.cell_m) {
@@ -322,7 +324,7 @@ TEST(NearestOnPath, IsNoFartherThanAnySampleAndAtItsOwnArcLength) {
     if (total == 0.0) continue;
     for (int k = 0; k < 20; ++k) {
       const Vec2 p = somewhere(random, g, 0.4);
-      const PathPoint near = nearest_on_path(path, p);
+      const PathPoint near = nearest_on_path(p, path);
       ASSERT_NEAR(near.distance_m, to_path(path, p), 1e-10);
       ASSERT_GE(near.along_m, 0.0);
       ASSERT_LE(near.along_m, total + 1e-9);
@@ -334,7 +336,7 @@ TEST(NearestOnPath, IsNoFartherThanAnySampleAndAtItsOwnArcLength) {
         if (length > 0.0 && left <= length + 1e-9) {
           const Vec2 tangent = (1.0 / length) * (b - a);
           found = std::fabs(norm(p - (a + left * tangent)) - near.distance_m) < 1e-8 &&
-                  norm(tangent - near.tangent) < 1e-9;
+                  norm(tangent - near.tangent.unit()) < 1e-9;
           if (found || left < length - 1e-9) break;
         }
         left -= length;
@@ -346,18 +348,18 @@ TEST(NearestOnPath, IsNoFartherThanAnySampleAndAtItsOwnArcLength) {
 
 TEST(NearestOnPath, OfEquallyNearPointsTheFirstCounts) {
   const PathMission hairpin{{{0.0, 0.0}, {10.0, 0.0}, {10.0, 4.0}, {0.0, 4.0}}, false};
-  const PathPoint near = nearest_on_path(hairpin, {3.0, 2.0});
+  const PathPoint near = nearest_on_path({3.0, 2.0}, hairpin);
   EXPECT_EQ(near.distance_m, 2.0);
   EXPECT_EQ(near.along_m, 3.0);
-  EXPECT_EQ(near.tangent, (Vec2{1.0, 0.0}));
+  EXPECT_EQ(near.tangent.rad(), 0.0);
 }
 
 TEST(NearestOnPath, AClosedPathRunsHomeByItsLastPiece) {
   const PathMission square{{{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}, {0.0, 10.0}}, true};
-  const PathPoint near = nearest_on_path(square, {-1.0, 4.0});
+  const PathPoint near = nearest_on_path({-1.0, 4.0}, square);
   EXPECT_EQ(near.distance_m, 1.0);
   EXPECT_EQ(near.along_m, 36.0);
-  EXPECT_EQ(near.tangent, (Vec2{0.0, -1.0}));
+  EXPECT_EQ(near.tangent.rad(), -pi / 2);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "fairway/field/cost_to_go.hpp"
 #include "fairway/field/distance_transform.hpp"
 #include "fairway/field/sample_maps.hpp"
+#include "fairway/vehicle/path_geometry.hpp"
 
 namespace fairway {
 namespace {
@@ -211,9 +212,9 @@ TEST(RawField, TwoCellsOrMoreBesideAStraightPathItPointsToThePath) {
     double worst = 0.0;
     for (std::size_t i = 0; i < g.size(); ++i) {
       const Vec2 p = g.center(g.cell_at(i));
-      const PathPoint near = nearest_on_path(line, p);
+      const PathPoint near = nearest_on_path(p, line);
       if (near.distance_m < 2.0 * g.cell_m) continue;
-      const Vec2 foot = line.vertices_m[0] + near.along_m * near.tangent;
+      const Vec2 foot = near.position_m;
       worst = std::max(worst, angle_between(direction(s, i), foot - p));
     }
     EXPECT_LT(worst, 0.165) << "the line rises by " << rise_m << " m";

@@ -59,69 +59,6 @@ RegionCounts count_by_region(const Plan& plan, std::span<const State> starts,
   return counts;
 }
 
-namespace {
-
-/// Calls visit(a, b) for each edge of the path that has a length.
-template <typename Visit>
-void for_edges(const PathMission& path, const Visit& visit) {
-  const std::vector<Vec2>& v = path.vertices_m;
-  require(v.size() >= 2, "a path has at least two vertices");
-  const std::size_t edges = path.closed ? v.size() : v.size() - 1;
-  for (std::size_t i = 0; i < edges; ++i) {
-    const Vec2 a = v[i];
-    const Vec2 b = v[(i + 1) % v.size()];
-    if (!(a == b)) visit(a, b);
-  }
-}
-
-/// Whether some t in [0, 1] has |a + t (b - a) - p| < limit, component by component.
-bool edge_in_box(Vec2 a, Vec2 b, Vec2 p, double limit) {
-  double low = 0.0;
-  double high = 1.0;
-  const auto clip = [&](double from, double step) {  // |from + t step| < limit
-    if (step == 0.0) return std::abs(from) < limit;
-    const double t0 = (-limit - from) / step;
-    const double t1 = (limit - from) / step;
-    low = std::max(low, std::min(t0, t1));
-    high = std::min(high, std::max(t0, t1));
-    return true;
-  };
-  if (!clip(a.x - p.x, b.x - a.x) || !clip(a.y - p.y, b.y - a.y) || low > high) return false;
-  if (low < high) return true;
-  // One point in common with the closed box: an end of the edge inside, or a touch, which is not.
-  const Vec2 q = a + low * (b - a);
-  return std::abs(q.x - p.x) < limit && std::abs(q.y - p.y) < limit;
-}
-
-}  // namespace
-
-PathPoint nearest_on_path(Vec2 point_m, const PathMission& path) {
-  PathPoint nearest;
-  nearest.distance_m = std::numeric_limits<double>::infinity();
-  double before_m = 0.0;
-  for_edges(path, [&](Vec2 a, Vec2 b) {
-    const Vec2 edge = b - a;
-    const double edge_m = norm(edge);
-    const double t = std::clamp(dot(point_m - a, edge) / norm2(edge), 0.0, 1.0);
-    const Vec2 q = a + t * edge;
-    const double distance_m = norm(point_m - q);
-    if (distance_m < nearest.distance_m) {
-      nearest = {q, Heading::of(edge), distance_m, before_m + t * edge_m};
-    }
-    before_m += edge_m;
-  });
-  return nearest;
-}
-
-bool on_path(const State& state, const PathMission& path) {
-  bool found = false;
-  for_edges(path, [&](Vec2 a, Vec2 b) {
-    found = found || (edge_in_box(a, b, state.position_m, path.delta_position_m) &&
-                      std::abs(state.heading.turn_to(Heading::of(b - a))) < path.delta_heading_rad);
-  });
-  return found;
-}
-
 std::vector<PathSample> sample_along_path(const Flight& flight, const PathMission& path,
                                           double speed_mps, double step_m) {
   require(speed_mps > 0.0 && step_m > 0.0, "speed and step are positive");

@@ -9,6 +9,7 @@
 #include "fairway/plan/plan.hpp"
 #include "fairway/simulate/flight.hpp"
 #include "fairway/vehicle/mission.hpp"
+#include "fairway/vehicle/path_geometry.hpp"
 
 namespace fairway {
 
@@ -38,21 +39,6 @@ struct RegionCounts {
 /// `starts` and `results` are of one length; throws ContractViolation otherwise.
 [[nodiscard]] RegionCounts count_by_region(const Plan& plan, std::span<const State> starts,
                                            std::span<const FlightResult> results);
-
-/// The point of a path nearest to another point.
-struct PathPoint {
-  Vec2 position_m;
-  Heading tangent;
-  double distance_m = 0.0;
-  double along_m = 0.0;  ///< from the first vertex
-};
-
-/// Throws ContractViolation when the path has fewer than two vertices.
-[[nodiscard]] PathPoint nearest_on_path(Vec2 point_m, const PathMission& path);
-
-/// Membership in the goal set of a path mission (paper 1, Eq. 5): some point of the path has x and
-/// y within delta_position_m and its tangent within delta_heading_rad, all strictly.
-[[nodiscard]] bool on_path(const State& state, const PathMission& path);
 
 struct PathSample {
   double time_s = 0.0;
