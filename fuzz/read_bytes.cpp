@@ -10,12 +10,15 @@
 #include "fairway/base/error.hpp"
 #include "fairway/map/read_map.hpp"
 #include "fairway/map/read_path.hpp"
+#include "fairway/plan/plan_file.hpp"
+#include "fairway/run/scenario.hpp"
+#include "fairway/simulate/state_files.hpp"
 
 namespace fairway {
 
 namespace {
 
-enum class Verb { map, path, path_in_degrees };
+enum class Verb { map, path, path_in_degrees, plan, scenario, states };
 
 struct Feed {
   std::string_view reader;
@@ -23,7 +26,7 @@ struct Feed {
   Verb verb;
 };
 
-constexpr std::array<Feed, 13> feeds = {{{"ros_map", "map.yaml", Verb::map},
+constexpr std::array<Feed, 16> feeds = {{{"ros_map", "map.yaml", Verb::map},
                                          {"moving_ai", "map.map", Verb::map},
                                          {"geojson", "map.geojson", Verb::map},
                                          {"qgc_plan", "map.plan", Verb::map},
@@ -35,7 +38,10 @@ constexpr std::array<Feed, 13> feeds = {{{"ros_map", "map.yaml", Verb::map},
                                          {"world_file", "placed.wld", Verb::map},
                                          {"path_csv", "path.csv", Verb::path},
                                          {"path_json", "path.geojson", Verb::path_in_degrees},
-                                         {"path_waypoints", "path.txt", Verb::path_in_degrees}}};
+                                         {"path_waypoints", "path.txt", Verb::path_in_degrees},
+                                         {"plan_file", "plan.safetensors", Verb::plan},
+                                         {"scenario", "scenario.toml", Verb::scenario},
+                                         {"states_csv", "states.csv", Verb::states}}};
 
 constexpr std::array<std::string_view, feeds.size()> names = [] {
   std::array<std::string_view, feeds.size()> result{};
@@ -94,6 +100,28 @@ ObstacleMap world_for(Verb verb) {
   return world;
 }
 
+void read(const Feed& to, const Folder& folder) {
+  const std::filesystem::path file = folder.file(to.file);
+  switch (to.verb) {
+    case Verb::map:
+      (void)read_map(request_for(to, folder));
+      return;
+    case Verb::path:
+    case Verb::path_in_degrees:
+      (void)read_path(file, world_for(to.verb), true);
+      return;
+    case Verb::plan:
+      (void)read_plan(file);
+      return;
+    case Verb::scenario:
+      (void)read_scenario(file);
+      return;
+    case Verb::states:
+      (void)read_states(file);
+      return;
+  }
+}
+
 }  // namespace
 
 std::span<const std::string_view> readers_to_feed() { return names; }
@@ -104,10 +132,7 @@ std::string feed(std::string_view reader, std::string_view bytes) {
     if (to.reader != reader) continue;
     write_file(folder.file(to.file), bytes);
     try {
-      if (to.verb == Verb::map)
-        (void)read_map(request_for(to, folder));
-      else
-        (void)read_path(folder.file(to.file), world_for(to.verb), true);
+      read(to, folder);
       return "read";
     } catch (const InputError& error) {
       return error.what();
