@@ -184,6 +184,17 @@ void draw_field_steps(const std::filesystem::path& scenario, FieldOptions option
 
 }  // namespace
 
+FieldOptions options_to_the_letter() {
+  FieldOptions options;
+  options.metric = Metric::paper;
+  options.filter = Filter::paper;
+  options.blend = Blend::paper;
+  options.alpha = options.beta = 2.0;
+  options.mu_path = options.mu_border = 0.5;
+  options.sigma_path = options.sigma_border = 1.5;
+  return options;
+}
+
 Reproduction reproduce_figures(const std::filesystem::path& demo, const FieldOptions& base) {
   const auto goal_scenario = demo / "demo.toml";
   const auto path_scenario = demo / "path.toml";

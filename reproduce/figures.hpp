@@ -40,6 +40,10 @@ struct Reproduction {
   std::vector<PathRow> path_by_cell;        ///< Fig. 8b
 };
 
+/// Metric, filter and blend as printed. What the paper leaves open lies in the middle of its
+/// ranges.
+[[nodiscard]] FieldOptions options_to_the_letter();
+
 /// Reads demo.toml and path.toml in `demo`. `base` has every option but sigma_cells.
 [[nodiscard]] Reproduction reproduce_figures(const std::filesystem::path& demo,
                                              const FieldOptions& base);

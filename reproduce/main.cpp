@@ -24,17 +24,9 @@ struct Setting {
 
 int reproduce(const std::filesystem::path& demo, const std::filesystem::path& out) {
   using namespace fairway;
-  FieldOptions letter;  // what the paper leaves open lies in the middle of its ranges
-  letter.alpha = 2.0;
-  letter.beta = 2.0;
-  letter.mu_path = letter.mu_border = 0.5;
-  letter.sigma_path = letter.sigma_border = 1.5;
-  letter.metric = Metric::paper;
-  letter.filter = Filter::paper;
-  letter.blend = Blend::paper;
   const std::array<Setting, 2> settings{
-      {{"paper", "To the letter of the paper", letter},
-       {"default", "With the defaults (euclidean metric)", FieldOptions{}}}};
+      {{"paper", "To the letter of the paper", reproduce::options_to_the_letter()},
+       {"default", "With the defaults (but for sigma)", FieldOptions{}}}};
   std::string text;
   nlohmann::json numbers;
   for (const Setting& setting : settings) {

@@ -6,6 +6,7 @@
 #include "fairway/base/error.hpp"
 #include "fairway/report/flight_series.hpp"
 #include "fairway/simulate/flight_statistics.hpp"
+#include "fairway/vehicle/path_geometry.hpp"
 
 namespace fairway::reproduce {
 namespace {
@@ -91,9 +92,7 @@ PathMeasures path_measures(const Flight& flight, double speed_mps, const PathMis
 
 double length_of(const PathMission& path) {
   double length_m = 0.0;
-  for (std::size_t i = 1; i < path.vertices_m.size(); ++i)
-    length_m += norm(path.vertices_m[i] - path.vertices_m[i - 1]);
-  if (path.closed) length_m += norm(path.vertices_m.front() - path.vertices_m.back());
+  for_pieces(path, [&](const PathPiece& piece) { length_m += piece.length_m; });
   return length_m;
 }
 

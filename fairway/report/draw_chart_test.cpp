@@ -122,17 +122,6 @@ TEST(FlightSeries, DistancesFromAPathAreThoseOfTheCircle) {
   EXPECT_NEAR(series.x.back(), 4.0 * pi, 1e-9);
 }
 
-TEST(FlightSeries, TheDistanceFromAPathIsToItsNearestPointAndClosedPathsCloseUp) {
-  PathMission path{{{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}}, false};
-  EXPECT_DOUBLE_EQ(distance_to_path_m({5.0, 3.0}, path), 3.0);
-  EXPECT_DOUBLE_EQ(distance_to_path_m({-3.0, -4.0}, path), 5.0);
-  EXPECT_DOUBLE_EQ(distance_to_path_m({3.0, 7.0}, path), 7.0);
-  path.closed = true;
-  EXPECT_NEAR(distance_to_path_m({3.0, 7.0}, path), 4.0 / std::sqrt(2.0), 1e-12);
-  path.vertices_m.push_back(path.vertices_m.back());  // a vertex twice
-  EXPECT_NEAR(distance_to_path_m({3.0, 7.0}, path), 4.0 / std::sqrt(2.0), 1e-12);
-}
-
 TEST(FlightSeries, AnUnrecordedFlightGivesAnEmptySeries) {
   EXPECT_TRUE(heading_over_time(Flight{}, 10.0, "h").x.empty());
   EXPECT_THROW(static_cast<void>(heading_over_time(Flight{}, 0.0, "h")), ContractViolation);

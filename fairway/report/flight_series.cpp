@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "fairway/base/error.hpp"
+#include "fairway/vehicle/path_geometry.hpp"
 
 namespace fairway {
 namespace {
@@ -17,13 +17,6 @@ Vec2 position_along(const FlightSegment& piece, double s_m) {
   const double chord_m = half_turn == 0.0 ? s_m : s_m * std::sin(half_turn) / half_turn;
   return piece.start.position_m +
          chord_m * Heading::from_rad(piece.start.heading.rad() + half_turn).unit();
-}
-
-double distance_to_edge_m(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 edge = b - a;
-  const double length2 = norm2(edge);
-  const double t = length2 > 0.0 ? std::clamp(dot(p - a, edge) / length2, 0.0, 1.0) : 0.0;
-  return norm(p - (a + t * edge));
 }
 
 }  // namespace
@@ -53,20 +46,10 @@ ChartSeries path_distance_over_time(const Flight& flight, double speed_mps, cons
     for (double k = series.x.empty() ? 0.0 : 1.0; k <= steps; k += 1.0) {
       const double s_m = piece.length_m * k / steps;
       series.x.push_back(piece.time_s + s_m / speed_mps);
-      series.y.push_back(distance_to_path_m(position_along(piece, s_m), path));
+      series.y.push_back(nearest_on_path(position_along(piece, s_m), path).distance_m);
     }
   }
   return series;
-}
-
-double distance_to_path_m(Vec2 point_m, const PathMission& path) {
-  const auto& v = path.vertices_m;
-  require(!v.empty(), "a path has vertices");
-  double least = norm(point_m - v.front());
-  for (std::size_t i = 1; i < v.size(); ++i)
-    least = std::min(least, distance_to_edge_m(point_m, v[i - 1], v[i]));
-  if (path.closed) least = std::min(least, distance_to_edge_m(point_m, v.back(), v.front()));
-  return least;
 }
 
 }  // namespace fairway

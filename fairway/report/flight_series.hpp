@@ -20,7 +20,4 @@ namespace fairway {
                                                   const PathMission& path, double step_m,
                                                   std::string name);
 
-/// Distance from a point to the nearest point of the path's polyline, metres.
-[[nodiscard]] double distance_to_path_m(Vec2 point_m, const PathMission& path);
-
 }  // namespace fairway
