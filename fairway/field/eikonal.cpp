@@ -25,10 +25,13 @@ constexpr float largest_drop = 1.06066017F;  // 1.5 / sqrt(2): beyond it the dia
 constexpr float cells_per_wave = 1.0F / side;
 constexpr float unreached = std::numeric_limits<float>::infinity();
 constexpr std::size_t slots = 4;  // a step reaches at most three waves ahead: 1 + 2.13
+constexpr std::size_t finished = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t shared_wave_cells = 256;
 constexpr std::size_t last_wave = std::size_t{1}
                                   << 22;  // whole waves are exact in float up to here
 
-// Threads meet here after every wave; waves are short (microseconds), so they spin first.
+// Threads meet here after every wave they share. Waves are short (microseconds), so they spin
+// first; on a busy machine they then sleep, and leave the processor to the one they wait for.
 class WaveBarrier {
  public:
   explicit WaveBarrier(int threads) : threads_(threads) {}
@@ -37,11 +40,13 @@ class WaveBarrier {
     if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == threads_) {
       arrived_.store(0, std::memory_order_relaxed);
       phase_.store(phase + 1, std::memory_order_release);
+      phase_.notify_all();
       return;
     }
-    for (int spins = 0; phase_.load(std::memory_order_acquire) == phase; ++spins) {
-      if (spins > 200) std::this_thread::yield();
+    for (int spins = 0; spins < 4000; ++spins) {
+      if (phase_.load(std::memory_order_acquire) != phase) return;
     }
+    phase_.wait(phase, std::memory_order_acquire);
   }
 
  private:
@@ -59,7 +64,6 @@ class WaveFront {
         stride_(static_cast<std::ptrdiff_t>(stride)),
         starts_(std::move(starts)),
         lists_(static_cast<std::size_t>(threads)),
-        pending_(2 * lists_.size()),
         barrier_(threads) {
     if (!starts_.empty()) lists_[0].cells[0] = starts_[0];
   }
@@ -78,18 +82,30 @@ class WaveFront {
 
   // Every thread runs the same loop and reads the same counts, so all leave it together. A list is
   // written by its owner only, and read by all in the wave it belongs to, when nobody writes it.
+  // Narrow waves (a corridor's) thread 0 spreads alone while the others wait: meeting after each
+  // would take longer than the work.
   void work(std::size_t thread) {
-    ThreadLists& mine = lists_[thread];
-    for (std::size_t wave = 0; wave < last_wave; ++wave) {
-      if (thread == 0) start_wave(wave + 1);
-      spread_wave(wave, thread);
-      std::size_t ahead = 0;
-      for (std::size_t w = wave + 1; w < wave + slots; ++w) ahead += mine.cells[w % slots].size();
-      pending_[wave % 2 * lists_.size() + thread] = ahead;
-      barrier_.wait();
-      mine.cells[wave % slots].clear();
-      if (over(wave)) return;
+    std::size_t wave = 0;
+    while (wave != finished) {
+      if (lists_.size() > 1 && wave < last_wave && cells_of(wave) >= shared_wave_cells) {
+        if (thread == 0) start_wave(wave + 1);
+        spread_share(wave, thread);
+        barrier_.wait();
+        lists_[thread].cells[wave % slots].clear();
+        ++wave;
+      } else {
+        barrier_.wait();  // every thread has cleared its list of the wave before
+        if (thread == 0) next_wave_ = spread_alone(wave);
+        barrier_.wait();
+        wave = next_wave_;
+      }
     }
+  }
+
+  std::size_t cells_of(std::size_t wave) const {
+    std::size_t total = 0;
+    for (const ThreadLists& l : lists_) total += l.cells[wave % slots].size();
+    return total;
   }
 
   // Sources join the wave they belong to; thread 0 owns them. Called one wave ahead.
@@ -99,17 +115,27 @@ class WaveFront {
     list.insert(list.end(), starts_[wave].begin(), starts_[wave].end());
   }
 
-  bool over(std::size_t wave) const {
-    if (wave + 1 < starts_.size()) return false;
-    const auto counts = pending_.begin() + static_cast<std::ptrdiff_t>(wave % 2 * lists_.size());
-    return std::all_of(counts, counts + static_cast<std::ptrdiff_t>(lists_.size()),
-                       [](std::size_t count) { return count == 0; });
+  // Spreads waves from `wave` on until one is wide enough to share; answers that wave, or finished.
+  std::size_t spread_alone(std::size_t wave) {
+    std::size_t empty_waves = 0;
+    for (; wave < last_wave; ++wave) {
+      const std::size_t cells = cells_of(wave);
+      if (lists_.size() > 1 && cells >= shared_wave_cells) return wave;
+      empty_waves = cells == 0 ? empty_waves + 1 : 0;
+      if (empty_waves == slots && wave >= starts_.size()) return finished;
+      start_wave(wave + 1);
+      for (ThreadLists& l : lists_) {
+        CellList& list = l.cells[wave % slots];
+        for (const std::uint32_t cell : list) spread(cell, static_cast<float>(wave), lists_[0]);
+        list.clear();
+      }
+    }
+    return finished;
   }
 
   // This thread's share of the cells of the wave: an even cut of all threads' lists in a row.
-  void spread_wave(std::size_t wave, std::size_t thread) {
-    std::size_t total = 0;
-    for (const ThreadLists& l : lists_) total += l.cells[wave % slots].size();
+  void spread_share(std::size_t wave, std::size_t thread) {
+    const std::size_t total = cells_of(wave);
     const std::size_t begin = total * thread / lists_.size();
     const std::size_t end = total * (thread + 1) / lists_.size();
     std::size_t offset = 0;
@@ -189,7 +215,7 @@ class WaveFront {
   std::ptrdiff_t stride_;
   std::vector<CellList> starts_;
   std::vector<ThreadLists> lists_;
-  std::vector<std::size_t> pending_;  // cells waiting in each thread's lists, two waves in turn
+  std::size_t next_wave_ = 0;
   WaveBarrier barrier_;
 };
 
