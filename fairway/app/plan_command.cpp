@@ -35,6 +35,7 @@ Action declare_plan(CLI::App& options) {
   options.add_option("-o,--output", arguments->output, "the plan file to write")
       ->required()
       ->type_name("PLAN.safetensors");
+  options.footer("Example: fairway plan demo/demo.toml -o demo.safetensors");
   return [arguments](const Session& session) { return plan_command(*arguments, session); };
 }
 

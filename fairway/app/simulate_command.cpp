@@ -187,10 +187,10 @@ int simulate_command(const SimulateArguments& arguments, const Session& session)
   std::optional<TerminalProgress> terminal(std::in_place, session.quiet);
   const Progress progress = terminal->progress();
   StageClock clock(progress);
-  clock.begin("reading the plan", 0.0);
+  clock.begin("reading the plan", unknown_time);
   const Plan plan = read_plan(arguments.plan);
   const std::vector<State> starts = starts_of(arguments, plan);
-  clock.begin("flying", 0.0);
+  clock.begin("flying", unknown_time);
   const Flown flown = fly_as_asked(arguments, plan, starts, clock);
   terminal.reset();
 
@@ -299,6 +299,10 @@ Action declare_simulate(CLI::App& options) {
           "--law", "noise, wind, gain, period and time limit need --law bang-bang or proportional");
     }
   });
+  options.footer(
+      "Without --outcomes - and the like, prints what became of the flights.\n"
+      "Example: fairway simulate demo.safetensors --state 100,100,90deg --random 1000 --outcomes "
+      "out.csv");
   return [arguments](const Session& session) { return simulate_command(*arguments, session); };
 }
 

@@ -38,8 +38,10 @@ Progress TerminalProgress::progress() {
   return [this](std::string_view stage, double left_s) {
     const std::scoped_lock lock(mutex_);
     stage_ = stage;
+    end_estimate_.reset();
+    if (left_s < 0.0) return;
     end_estimate_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                       std::chrono::duration<double>(std::clamp(left_s, 0.0, 1e6)));
+                                       std::chrono::duration<double>(std::min(left_s, 1e6)));
   };
 }
 
@@ -49,9 +51,12 @@ void TerminalProgress::show_until_done() {
   while (!changed_.wait_for(lock, step, [this] { return done_; })) {
     const auto now = Clock::now();
     const double so_far_s = std::chrono::duration<double>(now - begin_).count();
-    const double left_s = std::chrono::duration<double>(end_estimate_ - now).count();
-    const std::string left = left_s > 1.0 ? "about " + duration(left_s) + " left" : "almost done";
-    fmt::print(stderr, "\r\033[K{}  {} so far, {}", stage_, duration(so_far_s), left);
+    std::string left;
+    if (end_estimate_) {
+      const double left_s = std::chrono::duration<double>(*end_estimate_ - now).count();
+      left = left_s > 1.0 ? ", about " + duration(left_s) + " left" : ", almost done";
+    }
+    fmt::print(stderr, "\r\033[K{}  {} so far{}", stage_, duration(so_far_s), left);
     std::fflush(stderr);
   }
   fmt::print(stderr, "\r\033[K");

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -31,7 +32,7 @@ class TerminalProgress {
   bool done_ = false;
   std::string stage_;
   Clock::time_point begin_ = Clock::now();
-  Clock::time_point end_estimate_ = begin_;
+  std::optional<Clock::time_point> end_estimate_;
   std::thread thread_;  // joinable only when something is shown
 };
 

@@ -151,8 +151,12 @@ void write_whole(const fs::path& path, Existing existing, std::string_view text)
   file.commit();
 }
 
-AtomicFolder::AtomicFolder(fs::path path, Existing existing, std::string last)
-    : path_(resolved(std::move(path))), existing_(existing), last_(std::move(last)) {
+AtomicFolder::AtomicFolder(fs::path path, Existing existing, std::string last,
+                           std::vector<std::string> products)
+    : path_(resolved(std::move(path))),
+      existing_(existing),
+      last_(std::move(last)),
+      products_(std::move(products)) {
   std::error_code error;
   if (!path_.has_filename() || path_.filename() == "." || path_.filename() == "..") {
     path_ = fs::weakly_canonical(path_, error);  // "-o ." and "-o ..": a real name is needed
@@ -193,6 +197,9 @@ void AtomicFolder::commit() {
     std::stable_partition(names.begin(), names.end(),
                           [&](const fs::path& n) { return n != last_; });
     fs::remove(path_ / last_, error);
+    for (const std::string& product : products_) {
+      if (!fs::exists(temporary_ / product)) fs::remove(path_ / product, error);
+    }
     for (const fs::path& name : names) {
       move_into_place(temporary_ / name, path_ / name, existing_);
     }

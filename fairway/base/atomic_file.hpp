@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -55,12 +56,15 @@ void write_whole(const std::filesystem::path& path, Existing existing, std::stri
 
 /// A folder of products. With commit() a folder that did not exist appears in one rename. Into one
 /// that exists (empty, or Existing::replace) the products move one by one, each whole, `last` at
-/// the end after an old `last` was removed first: a folder with `last` in it is complete. Files
-/// that are not among the products are left alone.
+/// the end after an old `last` was removed first: a folder with `last` in it is complete. Files of
+/// other names are left alone.
 class AtomicFolder {
  public:
-  /// Throws when `path` is a file, or a folder that is not empty and `existing` is keep.
-  AtomicFolder(std::filesystem::path path, Existing existing, std::string last);
+  /// `products`: every name that may be written. Of these, what an earlier run left and this one
+  /// does not write is removed. Throws when `path` is a file, or a folder that is not empty and
+  /// `existing` is keep.
+  AtomicFolder(std::filesystem::path path, Existing existing, std::string last,
+               std::vector<std::string> products);
   ~AtomicFolder();
   AtomicFolder(const AtomicFolder&) = delete;
   AtomicFolder& operator=(const AtomicFolder&) = delete;
@@ -74,6 +78,7 @@ class AtomicFolder {
   std::filesystem::path temporary_;
   Existing existing_;
   std::string last_;
+  std::vector<std::string> products_;
 };
 
 /// Removes what unfinished AtomicFiles and AtomicFolders have on disk; for a thread that is about

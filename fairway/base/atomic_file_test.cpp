@@ -145,7 +145,7 @@ TEST_F(AtomicFiles, AKilledProcessLeavesTheOldFileWhole) {
 TEST_F(AtomicFiles, AProcessThatEndsOnASignalTidiesUp) {
   in_child([&] {
     AtomicFile file(folder_ / "a", Existing::keep);
-    AtomicFolder products(folder_ / "d", Existing::keep, "summary.json");
+    AtomicFolder products(folder_ / "d", Existing::keep, "summary.json", {});
     file.write("half");
     write_whole(products.temporary_path() / "b", Existing::keep, "b");
     remove_unfinished();
@@ -156,7 +156,7 @@ TEST_F(AtomicFiles, AProcessThatEndsOnASignalTidiesUp) {
 
 TEST_F(AtomicFiles, ANewFolderAppearsInOneStep) {
   {
-    AtomicFolder products(folder_ / "deep" / "out", Existing::keep, "summary.json");
+    AtomicFolder products(folder_ / "deep" / "out", Existing::keep, "summary.json", {});
     write_whole(products.temporary_path() / "summary.json", Existing::keep, "{}");
     EXPECT_FALSE(fs::exists(folder_ / "deep" / "out"));
     products.commit();
@@ -170,9 +170,10 @@ TEST_F(AtomicFiles, AFolderWithFilesIsKeptUnlessItsProductsAreReplaced) {
   fs::create_directory(out);
   write_whole(out / "notes.txt", Existing::keep, "mine");
   write_whole(out / "summary.json", Existing::keep, "old");
-  EXPECT_THROW(AtomicFolder(out, Existing::keep, "summary.json"), InputError);
+  write_whole(out / "stale.svg", Existing::keep, "of an earlier run");
+  EXPECT_THROW(AtomicFolder(out, Existing::keep, "summary.json", {}), InputError);
   {
-    AtomicFolder products(out / "", Existing::replace, "summary.json");
+    AtomicFolder products(out / "", Existing::replace, "summary.json", {"plan", "stale.svg"});
     write_whole(products.temporary_path() / "summary.json", Existing::keep, "new");
     write_whole(products.temporary_path() / "plan", Existing::keep, "p");
     EXPECT_EQ(content(out / "summary.json"), "old");
@@ -181,13 +182,15 @@ TEST_F(AtomicFiles, AFolderWithFilesIsKeptUnlessItsProductsAreReplaced) {
   EXPECT_EQ(content(out / "notes.txt"), "mine");
   EXPECT_EQ(content(out / "summary.json"), "new");
   EXPECT_EQ(content(out / "plan"), "p");
+  EXPECT_FALSE(fs::exists(out / "stale.svg"));
   EXPECT_EQ(names(), Names{"out"});
 }
 
 TEST_F(AtomicFiles, AFileWhereAFolderBelongsIsRefused) {
   write_whole(folder_ / "a", Existing::keep, "file");
-  EXPECT_THROW(AtomicFolder(folder_ / "a", Existing::replace, "summary.json"), InputError);
-  EXPECT_THROW(AtomicFolder(folder_ / "a" / "b", Existing::replace, "summary.json"), InputError);
+  EXPECT_THROW(AtomicFolder(folder_ / "a", Existing::replace, "summary.json", {}), InputError);
+  EXPECT_THROW(AtomicFolder(folder_ / "a" / "b", Existing::replace, "summary.json", {}),
+               InputError);
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ using nlohmann::json;
 
 constexpr const char* summary_name = "summary.json";
 
-/// Seconds that the stages after the map will take, from rates seen on one machine: no more than
-/// what a progress line needs.
+/// Seconds that the stages after the map will take, from rates seen on one machine with two cores:
+/// no more than what a progress line needs.
 struct Estimate {
   double field_s, plan_s, flights_s, pictures_s;
   double from_field() const { return field_s + from_plan(); }
@@ -38,8 +38,9 @@ Estimate estimate(const Scenario& scenario, const Grid& grid) {
   const auto cells = static_cast<double>(grid.size());
   const auto flights =
       static_cast<double>(std::max(scenario.simulate.random, scenario.simulate.sample));
-  return {60e-9 * cells, 20e-9 * cells, flights * 2.0 * (grid.nx + grid.ny) * 20e-9,
-          1.5 + 40e-9 * cells};
+  return {120e-9 * cells, 30e-9 * cells, flights * (grid.nx + grid.ny) * 100e-9,
+          0.5 + 500e-9 * cells};
+};
 }
 
 std::string plural(std::size_t n, const char* noun) {
@@ -83,7 +84,7 @@ struct Planned {
 };
 
 std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& scenario, StageClock& clock) {
-  clock.begin("reading the map", 0.0);
+  clock.begin("reading the map", unknown_time);
   ObstacleMap map = read_map(scenario.map);
   Mission mission = mission_on_map(scenario, map);
 
@@ -108,6 +109,16 @@ void write_flights(const ScenarioFlights& flown, const ObstacleMap& map, double 
   write_whole(place / "outcomes.csv", Existing::keep, outcomes_csv(flown.starts, flown.results));
 }
 
+std::vector<std::string> product_names() {
+  std::vector<std::string> names{"plan.safetensors", "flights.csv", "flights.geojson",
+                                 "outcomes.csv", summary_name};
+  for (const std::string picture : run_pictures) {
+    names.push_back(picture + ".svg");
+    names.push_back(picture + ".png");
+  }
+  return names;
+}
+
 json product_digests(const fs::path& folder) {
   json digests = json::object();
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -120,7 +131,7 @@ json product_digests(const fs::path& folder) {
 
 RunResult run(const Scenario& scenario, const fs::path& folder, Existing existing,
               const Progress& progress) {
-  AtomicFolder products(folder, existing, summary_name);
+  AtomicFolder products(folder, existing, summary_name, product_names());
   const fs::path& place = products.temporary_path();
   StageClock clock(progress);
 

@@ -1,6 +1,7 @@
 // The pictures of a run: plan, flights, headings and, for paths, distances.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 
@@ -9,6 +10,9 @@
 #include "fairway/vehicle/mission.hpp"
 
 namespace fairway {
+
+/// Names of the pictures a run may have, without extension.
+inline constexpr std::array<const char*, 4> run_pictures{"plan", "flights", "headings", "distance"};
 
 /// Writes NAME.svg and NAME.png into `folder` for every picture.
 void write_run_pictures(const Plan& plan, const Mission& mission, const ScenarioFlights& flown,

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/parallel.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/simulate/start_states.hpp"
 
@@ -69,9 +70,12 @@ ScenarioFlights fly_scenario(const Scenario& scenario, const Plan& plan, const M
     clock.tell(per_flight_s * static_cast<double>(starts.size() - flown.results.size()) + after_s);
   }
   const std::size_t to_record = std::min(flown.given + asked.random, starts.size());
-  for (const State& start : starts.first(to_record)) {
-    flown.recorded.push_back(recorded(flights, plan, mission, start));
-  }
+  flown.recorded.resize(to_record);
+  for_ranges(to_record, 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      flown.recorded[i] = recorded(flights, plan, mission, starts[i]);
+    }
+  });
   return flown;
 }
 
