@@ -10,7 +10,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <tbb/parallel_invoke.h>
 #include <nlohmann/json.hpp>
 
 #include "fairway/base/digest.hpp"
@@ -41,9 +40,9 @@ std::vector<Tensor> tensors_of(const Plan& plan) {
 
 std::array<std::string, 3> digests_of(const std::vector<Tensor>& tensors) {
   std::array<std::string, 3> digest;
-  tbb::parallel_invoke([&] { digest[0] = sha256_hex(tensors[0].data); },
-                       [&] { digest[1] = sha256_hex(tensors[1].data); },
-                       [&] { digest[2] = sha256_hex(tensors[2].data); });
+  for_ranges(tensors.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) digest[i] = sha256_hex(tensors[i].data);
+  });
   return digest;
 }
 

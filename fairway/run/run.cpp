@@ -40,7 +40,6 @@ Estimate estimate(const Scenario& scenario, const Grid& grid) {
       static_cast<double>(std::max(scenario.simulate.random, scenario.simulate.sample));
   return {120e-9 * cells, 30e-9 * cells, flights * (grid.nx + grid.ny) * 100e-9,
           0.5 + 500e-9 * cells};
-};
 }
 
 std::string plural(std::size_t n, const char* noun) {
