@@ -115,8 +115,9 @@ int main(int argc, char** argv) {
     return 64;
   }
   const Vehicle vehicle{10.0, std::atof(argv[4])};
-  fmt::print("| map | blend | sigma_border | sigma_cells | axis_capture_rad | goals | reach | worst "
-             "goal | collide | trapped | crossings per cell |\n");
+  fmt::print(
+      "| map | blend | sigma_border | sigma_cells | axis_capture_rad | goals | reach | worst "
+      "goal | collide | trapped | crossings per cell |\n");
   fmt::print("|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int i = 5; i < argc; ++i) {
     MapRequest request;
