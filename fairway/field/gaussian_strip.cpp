@@ -205,9 +205,8 @@ void filter_baseline(const GaussianPlane& p, std::size_t column, std::size_t row
                                          std::size_t row) {
   filter_with<32>(p, column, row);
 }
-[[gnu::target("avx512f,prefer-vector-width=512")]] void filter_avx512(const GaussianPlane& p,
-                                                                      std::size_t column,
-                                                                      std::size_t row) {
+[[gnu::target("avx512f")]] void filter_avx512(const GaussianPlane& p, std::size_t column,
+                                              std::size_t row) {
   filter_with<64>(p, column, row);
 }
 #endif

@@ -14,8 +14,6 @@
 namespace fairway {
 namespace {
 
-constexpr float unreached = std::numeric_limits<float>::infinity();
-
 void set(VectorField& field, std::size_t i, Vec2 v) {
   const double n = norm(v);
   if (n == 0.0) return;
