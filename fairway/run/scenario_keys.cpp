@@ -116,6 +116,7 @@ constexpr Range metres{-1e9, 1e9, false};
 constexpr Range degrees{-180.0, 180.0, false};
 
 // Members of const and mutable scenarios alike.
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a member's name cannot stand in parentheses
 #define FAIRWAY_MEMBER(path) \
   [](auto& s) -> auto& { return s.path; }
 
