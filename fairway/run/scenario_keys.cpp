@@ -116,9 +116,10 @@ constexpr Range metres{-1e9, 1e9, false};
 constexpr Range degrees{-180.0, 180.0, false};
 
 // Members of const and mutable scenarios alike.
-// NOLINTNEXTLINE(bugprone-macro-parentheses): a member's name cannot stand in parentheses
+// NOLINTBEGIN(bugprone-macro-parentheses): a member's name cannot stand in parentheses
 #define FAIRWAY_MEMBER(path) \
   [](auto& s) -> auto& { return s.path; }
+// NOLINTEND(bugprone-macro-parentheses)
 
 std::vector<ScenarioKey> map_keys() {
   return {
