@@ -2,6 +2,8 @@
 
 export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
 JOBS ?= $(shell nproc)
+# What a user runs; tests and benchmarks are built when asked for.
+PROGRAMS = fairway_command
 
 .PHONY: help setup build demo test bench reproduce install clean
 
@@ -19,12 +21,14 @@ setup:
 
 build: setup
 	cmake --preset release
-	cmake --build --preset release --parallel $(JOBS)
+	cmake --build --preset release --parallel $(JOBS) --target $(PROGRAMS)
 
 demo: build
 	build/release/bin/fairway run demo/demo.toml -o out/demo --force
 
-test: build
+test: setup
+	cmake --preset release
+	cmake --build --preset release --parallel $(JOBS)
 	ctest --preset release --parallel $(JOBS)
 
 bench: setup
@@ -33,6 +37,7 @@ bench: setup
 	cmake --build --preset bench --parallel $(JOBS)
 	cmake --build --preset bench --target run_bench
 
+reproduce: PROGRAMS += fairway_reproduce
 reproduce: build
 	build/release/bin/fairway-reproduce demo out/reproduce
 
