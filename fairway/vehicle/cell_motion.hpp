@@ -27,6 +27,7 @@
 
 #include "fairway/base/heading.hpp"
 #include "fairway/base/vec2.hpp"
+#include "fairway/vehicle/side.hpp"
 
 namespace fairway {
 
@@ -47,9 +48,6 @@ struct Direction {
     return {heading.unit(), h};
   }
 };
-
-/// Sides counter-clockwise, so that a quarter turn adds one.
-enum class Side : std::uint8_t { right = 0, top = 1, left = 2, bottom = 3 };
 
 enum class CellPath : std::uint8_t { straight, arc, arc_then_straight };
 
