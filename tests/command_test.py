@@ -309,14 +309,39 @@ class Simulate(Command):
 
     def test_wrong_input_is_told_apart_from_wrong_usage(self):
         plan = self.plan()
-        self.assertIn("3", self.expect(65, "simulate", plan, "--state", "1,2").stderr)
+        (self.folder / "nan.csv").write_text("nan,0,0\n")
         self.expect(65, "simulate", plan, "--states", "none.csv")
-        self.expect(65, "simulate", plan, "--state", "nan,0,0")
+        self.assertIn("nan.csv:1: ", self.expect(65, "simulate", plan, "--states", "nan.csv").stderr)
         self.expect(64, "simulate", plan)
         self.expect(64, "simulate", plan, "--random", "x")
         self.expect(64, "simulate", plan, "--random", 1, "--wind", "1,2")
         self.expect(64, "simulate", plan, "--random", 1, "--law", "magic")
         self.expect(65, "simulate", plan, "--random", 1, "--outcomes", "none/o.csv")
+
+    def test_a_wrong_value_on_the_command_line_is_wrong_usage_told_before_files_are_read(self):
+        for state in ("1,2", "1,2,3,4", "nan,0,0", "inf,0,0", "0,x,0", "0,0,", "", "1 2 3"):
+            done = self.expect(64, "simulate", "none.safetensors", "--state", state)
+            self.assertIn("--state: ", done.stderr)
+        self.assertIn("expected 3", self.expect(64, "simulate", "none", "--state", "1,2").stderr)
+        sampled = ("simulate", "none", "--random", 1, "--law", "bang-bang")
+        for option, wrong in (
+                ("--wind", ("1", "nan,0", "0,inf", "a,b")),
+                ("--gust", ("nan", "-1", "inf", "x")),
+                ("--gain", ("nan", "0", "-0", "1e999")),
+                ("--period", ("nan", "0", "1e-300", "inf")),
+                ("--gust-time", ("0", "nan")),
+                ("--time-limit", ("0", "nan", "inf")),
+                ("--position-noise", ("nan", "-1")),
+                ("--heading-noise", ("nan", "-1deg", "200deg", "4", "deg", "x")),
+                ("--step", ("nan", "0", "inf")),
+                ("--seed", ("-1", "1.5", "x")),
+                ("--random", ("-1", "1e9"))):
+            for value in wrong:
+                done = self.expect(64, *sampled, f"{option}={value}")
+                self.assertIn(option, done.stderr)
+                self.assertLess(len(done.stderr), 300)
+        self.expect(64, *sampled, "--csv", "-", "--outcomes", "-")
+        self.expect(65, *sampled, "--heading-noise", "180deg", "--wind", "-1,2")  # none is no plan
 
 
 class Usage(Command):

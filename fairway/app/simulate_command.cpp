@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
 #include "fairway/app/terminal_progress.hpp"
 #include "fairway/base/error.hpp"
@@ -49,7 +50,7 @@ struct SimulateArguments {
 std::vector<State> starts_of(const SimulateArguments& arguments, const Plan& plan) {
   std::vector<State> starts;
   for (const std::string& text : arguments.states) {
-    starts.push_back(state_of_text(text, "--state " + text));
+    starts.push_back(state_of_argument(text));
   }
   if (!arguments.states_file.empty()) {
     for (const State& s : read_states(arguments.states_file)) starts.push_back(s);
@@ -119,10 +120,7 @@ Flown fly_as_asked(const SimulateArguments& arguments, const Plan& plan,
   if (!arguments.wind_mps.empty())
     options.wind_mps = {arguments.wind_mps[0], arguments.wind_mps[1]};
   if (!arguments.heading_noise.empty()) {
-    const std::string where = "--heading-noise " + arguments.heading_noise;
-    options.heading_noise_rad =
-        state_of_text("0,0," + arguments.heading_noise, where).heading.rad();
-    if (options.heading_noise_rad < 0.0) throw InputError(where, "expected not less than 0");
+    options.heading_noise_rad = angle_of_argument_rad(arguments.heading_noise);
   }
   const SampledFlights flights(plan, options);
   return fly(
@@ -218,6 +216,7 @@ void declare_starts(CLI::App& options, SimulateArguments& a) {
       .add_option("--state", a.states,
                   "a start: metres, and radians or degrees with the suffix deg; may be repeated")
       ->type_name("X,Y,H")
+      ->check(state_argument())
       ->allow_extra_args(false)
       ->delimiter('\0');
   options.add_option("--states", a.states_file, "starts from a CSV file: x_m,y_m,heading_rad")
@@ -227,6 +226,7 @@ void declare_starts(CLI::App& options, SimulateArguments& a) {
       ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{100'000'000}));
   options.add_option("--seed", a.sampled.seed, "of all random draws")
       ->type_name("S")
+      ->check(finite_from(0.0))
       ->capture_default_str();
   options
       .add_option("--random-in", a.random_in,
@@ -247,7 +247,7 @@ void declare_outputs(CLI::App& options, SimulateArguments& a) {
       .add_option("--step", a.step_m,
                   "longest step between points of a track, metres (default: a cell)")
       ->type_name("M")
-      ->check(CLI::PositiveNumber);
+      ->check(finite_above(0.0));
 }
 
 void declare_laws(CLI::App& options, SimulateArguments& a) {
@@ -261,18 +261,22 @@ void declare_laws(CLI::App& options, SimulateArguments& a) {
         ->group("Sampled laws")
         ->each([&a](const std::string&) { a.sampled_only_given = true; });
   };
-  const CLI::Validator positive = CLI::PositiveNumber;
-  const CLI::Validator not_negative = CLI::NonNegativeNumber;
+  const CLI::Validator positive = finite_above(0.0);
+  const CLI::Validator not_negative = finite_from(0.0);
+  constexpr double shortest_period_s = 1e-4;  // a flight of a minute: half a million periods
   sampled("--gain", a.gain_per_s, "proportional: turn rate per heading error, 1/s", "G")
       ->check(positive);
-  sampled("--period", a.sampled.control_period_s, "control period, seconds", "S")->check(positive);
+  sampled("--period", a.sampled.control_period_s, "control period, seconds", "S")
+      ->check(finite_from(shortest_period_s));
   sampled("--position-noise", a.sampled.position_noise_m, "of the measurement, metres", "M")
       ->check(not_negative);
   sampled("--heading-noise", a.heading_noise,
-          "of the measurement, radians, or degrees with the suffix deg", "H");
+          "of the measurement, radians, or degrees with the suffix deg", "H")
+      ->check(angle_argument());
   sampled("--wind", a.wind_mps, "where it blows to, metres per second", "EAST,NORTH")
       ->delimiter(',')
-      ->expected(2);
+      ->expected(2)
+      ->check(finite_number());
   sampled("--gust", a.sampled.gust_mps, "standard deviation of gusts per axis", "MPS")
       ->check(not_negative);
   sampled("--gust-time", a.sampled.gust_time_s, "correlation time of gusts, seconds", "S")
@@ -293,6 +297,10 @@ Action declare_simulate(CLI::App& options) {
   options.final_callback([&a] {
     if (a.states.empty() && a.states_file.empty() && a.random == 0) {
       throw CLI::RequiredError("--state, --states or --random");
+    }
+    const auto to_stdout = [](const fs::path& path) { return path == "-" ? 1 : 0; };
+    if (to_stdout(a.csv) + to_stdout(a.outcomes) + to_stdout(a.geojson) > 1) {
+      throw CLI::ValidationError("--csv, --outcomes, --geojson", "only one of them can be -");
     }
     if (a.sampled_only_given && a.law == "exact") {
       throw CLI::ValidationError(
