@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <optional>
 
@@ -34,7 +35,14 @@ void mark_buffer_euclidean(CompleteMap& complete, double limit_cells2) {
   });
 }
 
-// Algorithm 1, lines 2 to 18.
+// Algorithm 1, line 2. At least one sweep, and no more than the map can take: 0 would mean "until
+// nothing changes".
+int paper_sweeps(const Grid& grid, const Vehicle& vehicle, const FieldOptions& options) {
+  const double width_cells = std::ceil(options.alpha * vehicle.turn_radius_m / grid.cell_m - 1e-9);
+  return static_cast<int>(std::clamp(width_cells, 1.0, 1.0 * std::max(grid.nx, grid.ny)));
+}
+
+// Algorithm 1, lines 3 to 18.
 void mark_buffer_paper(CompleteMap& complete, const ObstacleMap& map, const Vehicle& vehicle,
                        const FieldOptions& options) {
   const Grid& g = map.grid;
@@ -44,9 +52,7 @@ void mark_buffer_paper(CompleteMap& complete, const ObstacleMap& map, const Vehi
     not_obstacle[i] = map.obstacle[i] == 0 ? 1 : 0;
     if (map.obstacle[i] != 0) obstacles.push_back(static_cast<std::uint32_t>(i));
   }
-  // At least one sweep, and no more than the map can take: 0 would mean "until nothing changes".
-  const double width_cells = std::ceil(options.alpha * vehicle.turn_radius_m / g.cell_m - 1e-9);
-  const auto sweeps = static_cast<int>(std::clamp(width_cells, 1.0, 1.0 * std::max(g.nx, g.ny)));
+  const int sweeps = paper_sweeps(g, vehicle, options);
   const std::vector<float> number =
       paper_wavefront(not_obstacle, g.nx, g.ny, obstacles, 1.0F, sweeps);
   for (std::size_t i = 0; i < g.size(); ++i) {
@@ -88,21 +94,68 @@ std::optional<Vec2> nearest_place_that_fits(const Grid& grid, const std::vector<
   return best;
 }
 
-// The mission cell that comes closest to an obstacle, with its distance.
-struct Tightest {
-  std::size_t index = 0;
-  std::int32_t clearance_cells2 = no_feature_distance;
-};
-template <typename Cells, typename IndexOf>
-Tightest tightest_of(const CompleteMap& complete, const Cells& cells, const IndexOf& index_of) {
-  Tightest least;
-  for (const auto& cell : cells) {
-    const std::size_t i = index_of(cell);
-    if (complete.clearance_cells2[i] < least.clearance_cells2) {
-      least = {i, complete.clearance_cells2[i]};
+// Distances to the nearest obstacle in the metric whose circles are squares, in cells: what
+// Algorithm 1 widens obstacles by, since a sweep reaches all eight neighbours. Two passes are exact
+// for it (Rosenfeld and Pfaltz 1968).
+std::vector<int> square_distance_cells(const ObstacleMap& map) {
+  const Grid& g = map.grid;
+  std::vector<int> distance(g.size(), std::max(g.nx, g.ny));
+  const auto lower = [&](Cell c, std::initializer_list<Cell> steps) {
+    int& here = distance[g.index(c)];
+    if (map.obstacle[g.index(c)] != 0) here = 0;
+    for (const Cell step : steps) {
+      const Cell n{c.ix + step.ix, c.iy + step.iy};
+      if (g.contains(n)) here = std::min(here, distance[g.index(n)] + 1);
     }
+  };
+  for (int iy = 0; iy < g.ny; ++iy) {
+    for (int ix = 0; ix < g.nx; ++ix) lower({ix, iy}, {{-1, 0}, {-1, -1}, {0, -1}, {1, -1}});
   }
-  return least;
+  for (int iy = g.ny - 1; iy >= 0; --iy) {
+    for (int ix = g.nx - 1; ix >= 0; --ix) lower({ix, iy}, {{1, 0}, {1, 1}, {0, 1}, {-1, 1}});
+  }
+  return distance;
+}
+
+// How far a mission that reaches into the buffer is from Assumption 1, by the buffer's own metric.
+struct Shortage {
+  std::size_t index = 0;     // the mission cell that comes closest to an obstacle
+  double clearance_m = 0.0;  // what it has
+  double lacks_m = 0.0;
+  double largest_alpha = 0.0;  // that the clearance would do for: below, with the paper's up to it
+  std::string needs;           // the demand in words
+};
+Shortage shortage_of(const CompleteMap& complete, const ObstacleMap& map, const Vehicle& vehicle,
+                     const FieldOptions& options) {
+  const double cell_m = map.grid.cell_m;
+  const auto nearest = [&](const auto& distance) {
+    return std::size_t{*std::min_element(
+        complete.goal_cells.begin(), complete.goal_cells.end(),
+        [&](std::uint32_t a, std::uint32_t b) { return distance[a] < distance[b]; })};
+  };
+  Shortage s;
+  if (options.metric == Metric::paper) {
+    const std::vector<int> distance = square_distance_cells(map);
+    s.index = nearest(distance);
+    s.clearance_m = distance[s.index] * cell_m;
+    const double needed_m = (paper_sweeps(map.grid, vehicle, options) + 1) * cell_m;
+    s.lacks_m = std::max(needed_m - s.clearance_m, 0.0);
+    s.largest_alpha =  // rounded down, so that the printed digits do
+        std::floor(1e4 * (s.clearance_m - cell_m) / vehicle.turn_radius_m) / 1e4;
+    s.needs = fmt::format(
+        "and must stay at least {:.6g} m away, a cell more than alpha * turn_radius_m in whole "
+        "cells, both along x or y, whichever is more, as metric \"paper\" counts",
+        needed_m);
+    return s;
+  }
+  s.index = nearest(complete.clearance_cells2);
+  s.clearance_m = std::sqrt(static_cast<double>(complete.clearance_cells2[s.index])) * cell_m;
+  const double needed_m = options.alpha * vehicle.turn_radius_m;
+  s.lacks_m = std::max(needed_m - s.clearance_m, 0.0);
+  s.largest_alpha = s.clearance_m / vehicle.turn_radius_m;
+  s.needs =
+      fmt::format("and must stay farther than alpha * turn_radius_m = {:.6g} m away", needed_m);
+  return s;
 }
 
 bool all_free(const CompleteMap& complete) {
@@ -110,9 +163,10 @@ bool all_free(const CompleteMap& complete) {
                      [&](std::uint32_t i) { return complete.region[i] == Region::free; });
 }
 
-std::optional<MissionRefusal> place_goal(CompleteMap& complete, const Grid& grid,
+std::optional<MissionRefusal> place_goal(CompleteMap& complete, const ObstacleMap& map,
                                          const GoalMission& goal, const Vehicle& vehicle,
                                          const FieldOptions& options) {
+  const Grid& grid = map.grid;
   const double x = goal.goal_m.x;
   const double y = goal.goal_m.y;
   const double radius = options.beta * vehicle.turn_radius_m;
@@ -148,24 +202,20 @@ std::optional<MissionRefusal> place_goal(CompleteMap& complete, const Grid& grid
                     radius, x, y, grid.cell_m));
   }
   if (all_free(complete)) return std::nullopt;
-  const Tightest tight =
-      tightest_of(complete, complete.goal_cells, [](std::uint32_t i) { return std::size_t{i}; });
-  const double clearance = std::sqrt(static_cast<double>(tight.clearance_cells2)) * grid.cell_m;
-  const double needed = options.alpha * vehicle.turn_radius_m;
-  const double lacks = std::max(needed - clearance, 0.0);
+  const Shortage shortage = shortage_of(complete, map, vehicle, options);
   return refusal(
       Reason::in_buffer,
       fmt::format("the goal disc (radius beta * turn_radius_m = {:.6g} m about [{:.12g}, "
                   "{:.12g}]) reaches into the buffer: it comes within {:.6g} m of an "
-                  "obstacle, and must stay farther than alpha * turn_radius_m = {:.6g} m "
-                  "away, so it lacks {:.6g} m (Assumption 1); {}",
-                  radius, x, y, clearance, needed, lacks, next_try()),
-      lacks);
+                  "obstacle, {}, so it lacks {:.6g} m (Assumption 1); {}",
+                  radius, x, y, shortage.clearance_m, shortage.needs, shortage.lacks_m, next_try()),
+      shortage.lacks_m);
 }
 
-std::optional<MissionRefusal> place_path(CompleteMap& complete, const Grid& grid,
+std::optional<MissionRefusal> place_path(CompleteMap& complete, const ObstacleMap& map,
                                          const PathMission& path, const Vehicle& vehicle,
                                          const FieldOptions& options) {
+  const Grid& grid = map.grid;
   for (std::size_t k = 0; k < path.vertices_m.size(); ++k) {
     const Vec2 p = path.vertices_m[k];
     if (p.x >= grid.x0_m && p.x <= grid.x0_m + grid.width_m() && p.y >= grid.y0_m &&
@@ -179,25 +229,26 @@ std::optional<MissionRefusal> place_path(CompleteMap& complete, const Grid& grid
   complete.path_cells = cells_on_path(grid, path);
   for (const PathCell& cell : complete.path_cells) complete.goal_cells.push_back(cell.index);
   if (all_free(complete)) return std::nullopt;
-  const Tightest tight = tightest_of(complete, complete.path_cells,
-                                     [](const PathCell& c) { return std::size_t{c.index}; });
-  const Vec2 where = grid.center(grid.cell_at(tight.index));
-  const double clearance = std::sqrt(static_cast<double>(tight.clearance_cells2)) * grid.cell_m;
-  if (clearance == 0.0) {
+  const Shortage shortage = shortage_of(complete, map, vehicle, options);
+  const Vec2 where = grid.center(grid.cell_at(shortage.index));
+  if (shortage.clearance_m == 0.0) {
     return refusal(
         Reason::in_obstacle,
         fmt::format("the path crosses an obstacle near [{:.12g}, {:.12g}]", where.x, where.y));
   }
-  const double needed = options.alpha * vehicle.turn_radius_m;
-  const double lacks = std::max(needed - clearance, 0.0);
+  std::string next_try = fmt::format("alpha below {:.4g} would do", shortage.largest_alpha);
+  if (options.metric == Metric::paper) {
+    next_try = shortage.largest_alpha > 0.0
+                   ? fmt::format("alpha up to {:.4f} would do", shortage.largest_alpha)
+                   : "no alpha would do";
+  }
   return refusal(
       Reason::in_buffer,
       fmt::format("the path enters the buffer near [{:.12g}, {:.12g}]: it comes within {:.6g} m "
-                  "of an obstacle, and must stay farther than alpha * turn_radius_m = "
-                  "{:.6g} m away, so it lacks {:.6g} m (Assumption 1); alpha below {:.4g} "
-                  "would do",
-                  where.x, where.y, clearance, needed, lacks, clearance / vehicle.turn_radius_m),
-      lacks);
+                  "of an obstacle, {}, so it lacks {:.6g} m (Assumption 1); {}",
+                  where.x, where.y, shortage.clearance_m, shortage.needs, shortage.lacks_m,
+                  next_try),
+      shortage.lacks_m);
 }
 
 }  // namespace
@@ -219,9 +270,8 @@ std::variant<CompleteMap, MissionRefusal> complete_map(const ObstacleMap& map,
 
   const auto* goal = std::get_if<GoalMission>(&mission);
   const std::optional<MissionRefusal> refused =
-      goal != nullptr
-          ? place_goal(complete, grid, *goal, vehicle, options)
-          : place_path(complete, grid, std::get<PathMission>(mission), vehicle, options);
+      goal != nullptr ? place_goal(complete, map, *goal, vehicle, options)
+                      : place_path(complete, map, std::get<PathMission>(mission), vehicle, options);
   if (refused) return *refused;
   for (const std::uint32_t i : complete.goal_cells) complete.region[i] = Region::goal;  // line 20
   return complete;

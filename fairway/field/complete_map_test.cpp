@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <regex>
 #include <utility>
@@ -220,6 +221,90 @@ TEST(Assumption1, AGoalDiscInTheBufferIsRefusedWithTheClearanceItLacks) {
     EXPECT_NEAR(std::stod(number[1]), refusal->lacks_m, 1e-5 * (1.0 + refusal->lacks_m));
   }
   EXPECT_GT(refused, 25);
+}
+
+int square_distance(const ObstacleMap& map, std::size_t index) {
+  const Cell c = map.grid.cell_at(index);
+  int least = std::numeric_limits<int>::max();
+  for (std::size_t i = 0; i < map.grid.size(); ++i) {
+    const Cell o = map.grid.cell_at(i);
+    if (map.obstacle[i] != 0) {
+      least = std::min(least, std::max(std::abs(o.ix - c.ix), std::abs(o.iy - c.iy)));
+    }
+  }
+  return least;
+}
+
+TEST(Assumption1, WithThePapersMetricTheShortageIsCountedInItsSquareBuffer) {
+  Random random(75);
+  int refused = 0;
+  int round_enough = 0;  // in a corner of the square, where straight distance would lack nothing
+  for (int draw = 0; draw < 300; ++draw) {
+    const Case c = random_case(random, 1.3);
+    FieldOptions options;
+    options.metric = Metric::paper;
+    options.alpha = random.uniform(0.5, 2.5);
+    options.beta = random.uniform(0.5, 1.5);
+    const auto found = placed(c.map, c.goal, options);
+    const MissionRefusal* refusal = refusal_in(found);
+    if (refusal == nullptr || refusal->reason != Reason::in_buffer) continue;
+    ++refused;
+    int least = std::numeric_limits<int>::max();
+    double straight = std::numeric_limits<double>::infinity();
+    const std::vector<Vec2> obstacles = obstacle_centers(c.map);
+    for (const std::uint32_t i : cells_inside_disc(c.map.grid, c.goal.goal_m, 5.0 * options.beta)) {
+      least = std::min(least, square_distance(c.map, i));
+      straight = std::min(straight, clearance(obstacles, c.map.grid.center(c.map.grid.cell_at(i))));
+    }
+    if (straight > options.alpha * 5.0) ++round_enough;
+    // The buffer is ceil(alpha r / cell) cells wide; the first cell beyond it is free.
+    const double expected = (std::ceil(options.alpha * 5.0 / 1.3) + 1 - least) * 1.3;
+    ASSERT_GT(expected, 0.0);
+    EXPECT_NEAR(refusal->lacks_m, expected, 1e-9) << refusal->message;
+    std::smatch number;
+    ASSERT_TRUE(std::regex_search(refusal->message, number, std::regex("it lacks ([0-9.e-]+) m")));
+    EXPECT_NEAR(std::stod(number[1]), refusal->lacks_m, 1e-4) << refusal->message;
+  }
+  EXPECT_GT(refused, 50);
+  EXPECT_GT(round_enough, 5);
+}
+
+TEST(Assumption1, WithThePapersMetricTheAlphaProposedForAPathIsTheLargestThatDoes) {
+  Random random(76);
+  int tried = 0;
+  int hopeless = 0;
+  for (int draw = 0; draw < 200; ++draw) {
+    const Case c = random_case(random, 1.3);
+    const Vec2 size{c.map.grid.width_m(), c.map.grid.height_m()};
+    const auto anywhere = [&] {
+      return Vec2{c.map.grid.x0_m + random.unit() * size.x,
+                  c.map.grid.y0_m + random.unit() * size.y};
+    };
+    const PathMission path{{anywhere(), anywhere()}};
+    FieldOptions options;
+    options.metric = Metric::paper;
+    options.alpha = random.uniform(1.0, 3.0);
+    const auto found = placed(c.map, path, options);
+    const MissionRefusal* refusal = refusal_in(found);
+    if (refusal == nullptr || refusal->reason != Reason::in_buffer) continue;
+    std::smatch number;
+    if (!std::regex_search(refusal->message, number, std::regex("alpha up to ([0-9.]+) would"))) {
+      EXPECT_NE(refusal->message.find("no alpha would do"), std::string::npos);
+      options.alpha = 1e-6;
+      EXPECT_TRUE(std::holds_alternative<MissionRefusal>(placed(c.map, path, options)));
+      ++hopeless;
+      continue;
+    }
+    ++tried;
+    options.alpha = std::stod(number[1]);
+    EXPECT_TRUE(std::holds_alternative<CompleteMap>(placed(c.map, path, options)))
+        << refusal->message;
+    options.alpha += 2e-4;
+    EXPECT_TRUE(std::holds_alternative<MissionRefusal>(placed(c.map, path, options)))
+        << refusal->message;
+  }
+  EXPECT_GT(tried, 20);
+  EXPECT_GT(hopeless, 2);
 }
 
 // The nearest cell centre about which the disc's cells are all free, by trying every one.
