@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/field/distance_transform.hpp"
 #include "fairway/field/octile.hpp"
@@ -227,6 +228,7 @@ std::optional<MissionRefusal> place_path(CompleteMap& complete, const ObstacleMa
                                k + 1, p.x, p.y));
   }
   complete.path_cells = cells_on_path(grid, path);
+  require(!complete.path_cells.empty(), "a path has at least two distinct vertices");
   for (const PathCell& cell : complete.path_cells) complete.goal_cells.push_back(cell.index);
   if (all_free(complete)) return std::nullopt;
   const Shortage shortage = shortage_of(complete, map, vehicle, options);

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fairway/base/error.hpp"
 #include "fairway/field/sample_maps.hpp"
 
 namespace fairway {
@@ -409,6 +410,12 @@ TEST(Assumption1, AGoalAtTheCornerOfFourCellsOrOfTheMapIsPlaced) {
     ASSERT_TRUE(std::holds_alternative<CompleteMap>(found)) << goal.x << ", " << goal.y;
     EXPECT_FALSE(std::get<CompleteMap>(found).goal_cells.empty());
   }
+}
+
+TEST(Assumption1, APathWithoutLengthIsNoMission) {
+  const ObstacleMap map = samples::map_of(Mask(20, 20), 1.0);
+  const PathMission path{{{5.0, 5.0}, {5.0, 5.0}}, true};
+  EXPECT_THROW(static_cast<void>(placed(map, path, {})), ContractViolation);
 }
 
 TEST(Assumption1, APathKeepsItsCellsAndTheirTangents) {

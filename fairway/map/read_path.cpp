@@ -112,9 +112,12 @@ std::vector<Vec2> read_path(const std::filesystem::path& file, const ObstacleMap
     if (path.empty() || path.back() != vertex.point_m) path.push_back(vertex.point_m);
   if (closed)
     while (path.size() > 1 && path.back() == path.front()) path.pop_back();
-  if (path.size() < 2)
-    throw InputError(file.string(),
-                     fmt::format("has {} distinct vertices, a path has at least two", path.size()));
+  if (path.empty()) throw InputError(file.string(), "has no vertex, a path has at least two");
+  if (path.size() == 1)
+    throw InputError(vertices.back().where,
+                     fmt::format("the path has no length: it ends at ({:.10g}, {:.10g}) and was "
+                                 "nowhere else, expected at least two distinct vertices",
+                                 path.front().x, path.front().y));
   require_extent(path, file, frame.grid.cell_m);
   return path;
 }

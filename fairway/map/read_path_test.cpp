@@ -78,9 +78,7 @@ TEST_F(ReadPath, AClosedPathDropsARepeatedFirstVertex) {
 }
 
 TEST_F(ReadPath, WhatIsWrongIsNamedWithItsLine) {
-  EXPECT_EQ(error("x_m,y_m\n1,2\n"), "line.csv: has 1 distinct vertices, a path has at least two");
-  EXPECT_EQ(error(""), "line.csv: has 0 distinct vertices, a path has at least two");
-  EXPECT_EQ(error("1,2\n1,2\n1,2\n"), "line.csv: has 1 distinct vertices, a path has at least two");
+  EXPECT_EQ(error(""), "line.csv: has no vertex, a path has at least two");
   EXPECT_EQ(error("x_m,y_m\n1,2\n3,nan\n"), "line.csv:3: \"nan\" is not finite");
   EXPECT_EQ(error("x_m,y_m\n1,2\n3,1e999\n"), "line.csv:3: \"1e999\" is not finite");
   EXPECT_EQ(error("x_m,y_m\n1,2\n3,four\n"), "line.csv:3: \"four\" is no number");
@@ -94,6 +92,18 @@ TEST_F(ReadPath, WhatIsWrongIsNamedWithItsLine) {
       "from -5 to 45 m");
   EXPECT_EQ(input_error_of([&] { (void)read_path(folder_.file("none.csv"), plain_); }),
             "none.csv: no such file");
+}
+
+TEST_F(ReadPath, APathWithoutLengthIsRefusedWhereItEnds) {
+  const std::string what =
+      ": the path has no length: it ends at (1, 2) and was nowhere else, expected at least two "
+      "distinct vertices";
+  EXPECT_EQ(error("x_m,y_m\n1,2\n"), "line.csv:2" + what);
+  EXPECT_EQ(error("1,2\n1,2\n\n1,2\n"), "line.csv:4" + what);
+  EXPECT_EQ(error(R"({"type":"LineString","coordinates":[[1,2],[1,2]]})", "a.geojson"),
+            "a.geojson: coordinates[1]" + what);
+  const auto closed = [&] { (void)read("1,2\n1,2\n", "line.csv", true); };
+  EXPECT_EQ(input_error_of(closed), "line.csv:2" + what);
 }
 
 TEST_F(ReadPath, DegreesWhereMetresBelongAreRefused) {
