@@ -40,7 +40,7 @@ Plan plan_of_vectors(const World& world, const CompleteMap& complete,
 World world_of(const std::filesystem::path& scenario_file, double cell_m) {
   Scenario scenario = read_scenario(scenario_file);
   scenario.map.cell_m = cell_m;
-  World world{read_map(scenario.map), scenario.vehicle, {}, {}};
+  World world{read_map(map_request(scenario)), scenario.vehicle, {}, {}};
   world.mission = mission_on_map(scenario, world.map);
   if (scenario.simulate.states.empty())
     throw std::runtime_error(scenario_file.string() + " has no simulate.states");

@@ -30,6 +30,7 @@ struct RasteriseOptions {
   double growth_m = 0.0;  ///< >= 0, the radius R
   bool unknown_is_obstacle = true;
   bool outside_is_obstacle = true;
+  double least_world_margin_m = 0.0;  ///< >= 0, of the default margin; fences only
   std::uint64_t max_cells = std::uint64_t{1} << 28;
 };
 

@@ -73,7 +73,8 @@ MapExtent world_of(const FenceSet& fences, const RasteriseOptions& options, Incl
     throw InputError(name_of_map(fences), "has neither fence, obstacle nor mission item");
   const double longer_m = std::max(world.x_high - world.x_low, world.y_high - world.y_low);
   const double margin_m =
-      options.growth_m + world_margin_m.value_or(std::max(0.1 * longer_m, 10.0 * options.cell_m));
+      options.growth_m + world_margin_m.value_or(std::max({0.1 * longer_m, 10.0 * options.cell_m,
+                                                           options.least_world_margin_m}));
   world.hold({world.x_low - margin_m, world.y_low - margin_m});
   world.hold({world.x_high + margin_m, world.y_high + margin_m});
   return world.extent();

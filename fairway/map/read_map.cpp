@@ -66,14 +66,19 @@ void check(const MapRequest& request) {
   require_range("map.footprint_radius_m", request.footprint_radius_m, true);
   require_range("map.margin_m", request.margin_m, true);
   if (request.world_margin_m) require_range("map.world_margin_m", *request.world_margin_m, true);
+  require_range("map.least_world_margin_m", request.least_world_margin_m, true);
   if (request.altitude_m && !std::isfinite(*request.altitude_m))
     throw InputError("map.altitude_m", "is not finite, expected metres");
   if (request.resolution_m) require_range("map.resolution_m", *request.resolution_m, false);
 }
 
 RasteriseOptions options_of(const MapRequest& request) {
-  return {request.cell_m, request.footprint_radius_m, request.unknown_is_obstacle,
-          request.outside_is_obstacle, request.max_cells};
+  return {request.cell_m,
+          request.footprint_radius_m,
+          request.unknown_is_obstacle,
+          request.outside_is_obstacle,
+          0.0,
+          request.max_cells};
 }
 
 // Keep-in fences are many only by the user's word on what that means.
@@ -86,6 +91,7 @@ ObstacleMap rasterise_fences(const GeodeticFences& fences, const MapRequest& req
                                  "in every one) or \"any\" (stay in one of them)",
                                  keep_ins));
   RasteriseOptions options = options_of(request);
+  options.least_world_margin_m = request.least_world_margin_m;
   options.growth_m += in_metres.geo ? in_metres.geo->worst_error_m : 0.0;
   return rasterise(in_metres, options, request.inclusion.value_or(Inclusion::all),
                    request.world_margin_m);

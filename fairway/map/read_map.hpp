@@ -55,8 +55,10 @@ struct MapRequest {
   std::optional<double> altitude_m;
   double margin_m = 0.0;  ///< >= 0, height to keep above the ground
   /// Free room around obstacles and mission when no keep-in fence bounds the world, >= 0;
-  /// by default a tenth of the longer side of their bounding box, and at least ten cells.
+  /// by default a tenth of the longer side of their bounding box, at least ten cells, and at least
+  /// `least_world_margin_m` (>= 0), which is for what the caller knows: how wide the vehicle turns.
   std::optional<double> world_margin_m;
+  double least_world_margin_m = 0.0;
   std::uint64_t max_pixels = std::uint64_t{1} << 28;  ///< larger images are refused unread
   std::uint64_t max_cells = std::uint64_t{1} << 28;   ///< larger grids are refused unallocated
 };

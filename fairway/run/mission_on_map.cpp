@@ -1,5 +1,6 @@
 #include "fairway/run/mission_on_map.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -45,6 +46,15 @@ std::string hint(const Scenario& scenario, const ObstacleMap& map) {
 const char* place_key(const Scenario& scenario) {
   if (scenario.mission.kind == MissionKind::path) return "mission.path_file";
   return scenario.mission.goal_deg ? "mission.goal_deg" : "mission.goal_m";
+}
+
+MapRequest map_request(const Scenario& scenario) {
+  MapRequest request = scenario.map;
+  // A goal disc is beta wide, a turn on the spot of a path 2; then the buffer. Of the two cells one
+  // may stick out beyond the world, and the paper's metric rounds the buffer up by less than one.
+  const double turns = scenario.plan.alpha + std::max(scenario.plan.beta, 2.0);
+  request.least_world_margin_m = turns * scenario.vehicle.turn_radius_m + 2.0 * request.cell_m;
+  return request;
 }
 
 Mission mission_on_map(const Scenario& scenario, const ObstacleMap& map) {

@@ -1,10 +1,13 @@
 #include "fairway/run/mission_on_map.hpp"
 
 #include <string>
+#include <variant>
 
 #include <gtest/gtest.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/field/compute_field.hpp"
+#include "fairway/map/scratch_folder.hpp"
 #include "fairway/map/tangent_plane.hpp"
 #include "fairway/run/plan_record.hpp"
 
@@ -68,6 +71,45 @@ TEST(MissionOnMap, BordersOfTheMapBelongToIt) {
   EXPECT_EQ(refusal("goal_m = [100, 50]", false), "accepted");
   EXPECT_EQ(refusal("goal_m = [-100, -50]", false), "accepted");
   EXPECT_NE(refusal("goal_m = [100.001, 50]", false), "accepted");
+}
+
+// A mission of two waypoints without a fence, and a goal or path through them: on the border of
+// everything that the file names.
+Scenario scenario_without_fence(const ScratchFolder& folder, Metric metric, double radius_m) {
+  (void)folder.write("two.plan", R"({"fileType":"Plan","mission":{"items":[
+    {"type":"SimpleItem","command":16,"frame":3,"params":[0,0,0,null,47.3977,8.5456,50]},
+    {"type":"SimpleItem","command":16,"frame":3,"params":[0,0,0,null,47.3990,8.5460,50]}]}})");
+  Scenario scenario = scenario_of_text(
+      "map = { file = \"two.plan\", cell_m = 7 }\n"
+      "vehicle = { speed_mps = 20, turn_radius_m = " +
+          std::to_string(radius_m) +
+          " }\n"
+          "[mission]\nkind = \"goal\"\ngoal_deg = [47.3990, 8.5460]\n",
+      folder.file("s.toml"));
+  scenario.plan.metric = metric;
+  return scenario;
+}
+
+TEST(MapRequest, AMissionWithoutAFenceHasRoomHoweverWideTheVehicleTurns) {
+  const ScratchFolder folder;
+  for (const Metric metric : {Metric::euclidean, Metric::paper}) {
+    for (const double radius_m : {8.0, 37.0, 150.3}) {
+      Scenario scenario = scenario_without_fence(folder, metric, radius_m);
+      const auto refused = [&] {
+        const ObstacleMap map = read_map(map_request(scenario));
+        const auto answer =
+            compute_field(map, scenario.vehicle, mission_on_map(scenario, map), scenario.plan);
+        const auto* refusal = std::get_if<MissionRefusal>(&answer);
+        return refusal == nullptr ? std::string() : refusal->message;
+      };
+      EXPECT_EQ(refused(), "") << radius_m;
+      scenario.mission.kind = MissionKind::path;
+      scenario.mission.path_file = scenario.map.file;
+      EXPECT_EQ(refused(), "") << radius_m;
+      scenario.map.world_margin_m = 1.5 * radius_m;  // the user's word counts
+      EXPECT_NE(refused(), "") << radius_m;
+    }
+  }
 }
 
 TEST(PlanRecord, GivesTheGeoreferenceBack) {

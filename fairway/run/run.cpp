@@ -84,7 +84,7 @@ struct Planned {
 
 std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& scenario, StageClock& clock) {
   clock.begin("reading the map", unknown_time);
-  ObstacleMap map = read_map(scenario.map);
+  ObstacleMap map = read_map(map_request(scenario));
   Mission mission = mission_on_map(scenario, map);
 
   clock.begin("computing the field", estimate(scenario, map.grid).from_field());

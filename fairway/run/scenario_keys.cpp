@@ -151,9 +151,12 @@ std::vector<ScenarioKey> map_keys() {
              "elevation maps: flight altitude; higher ground is an obstacle"),
       number("map.margin_m", not_negative, FAIRWAY_MEMBER(map.margin_m),
              "elevation maps: height to keep above the ground, metres"),
-      number("map.world_margin_m", not_negative, FAIRWAY_MEMBER(map.world_margin_m),
-             "free room around obstacles and mission when no keep-in fence bounds the world; "
-             "without it a tenth of the longer side, and at least ten cells"),
+      number(
+          "map.world_margin_m", not_negative, FAIRWAY_MEMBER(map.world_margin_m),
+          "free room around obstacles and mission when no keep-in fence bounds the world; "
+          "without it a tenth of the longer side, at least ten cells, and at least the room for a "
+          "goal or a turn and its buffer: (alpha + the larger of beta and 2) turning radii and "
+          "two cells"),
   };
 }
 
