@@ -1,11 +1,14 @@
 #include "fairway/field/gaussian_filter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
-#include "fairway/field/gaussian_strip.hpp"
+#include "fairway/field/gaussian_band.hpp"
 
 namespace fairway {
 namespace {
@@ -19,27 +22,61 @@ std::vector<float> kernel_of(double sigma_cells) {
   return weight;
 }
 
+// Bands are filtered side by side and in place, so each needs its neighbours' nearest rows as they
+// were: copies, made before any band starts. Bands are high enough that these stay few.
+constexpr std::size_t least_band_rows = 1024;
+constexpr std::size_t band_rows_per_reach = 16;
+
+struct Bands {
+  std::size_t columns;
+  std::size_t rows;
+  std::size_t reach;
+  std::size_t height = std::max(least_band_rows, band_rows_per_reach* reach);
+  std::size_t count = (rows + height - 1) / height;
+
+  std::size_t first_row(std::size_t band) const { return std::min(band * height, rows); }
+  /// The rows within reach of where `band` begins, on both sides.
+  std::vector<float> around_start(const std::vector<float>& plane, std::size_t band) const {
+    if (band == 0) return {};
+    const auto row = [&](std::size_t iy) {
+      return plane.begin() + static_cast<std::ptrdiff_t>(iy * columns);
+    };
+    return {row(first_row(band) - reach), row(std::min(first_row(band) + reach, rows))};
+  }
+};
+
 void filter(VectorField& field, const std::uint8_t* wall, int nx, int ny, double sigma_cells) {
   require(nx >= 0 && ny >= 0, "gaussian filter: sides are not negative");
-  const auto columns = static_cast<std::size_t>(nx);
-  const auto rows = static_cast<std::size_t>(ny);
-  require(field.x.size() == columns * rows && field.y.size() == columns * rows,
-          "gaussian filter: one vector per cell");
   const std::vector<float> weight = kernel_of(sigma_cells);
-  std::vector<float> filtered(columns * rows);
-  for (std::vector<float>* plane : {&field.x, &field.y}) {
-    // Pieces of a strip are cut at fixed rows: what is computed never depends on the threads.
-    const std::size_t strips = (columns + gaussian_strip_width - 1) / gaussian_strip_width;
-    const std::size_t pieces = (rows + gaussian_piece_rows - 1) / gaussian_piece_rows;
-    for_ranges(strips * pieces, 1, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        filter_strip(
-            {plane->data(), wall, filtered.data(), columns, rows, weight.data(), weight.size() - 1},
-            i / pieces * gaussian_strip_width, i % pieces * gaussian_piece_rows);
-      }
-    });
-    std::swap(*plane, filtered);
-  }
+  const Bands bands{static_cast<std::size_t>(nx), static_cast<std::size_t>(ny), weight.size() - 1};
+  const std::size_t cells = bands.columns * bands.rows;
+  require(field.x.size() == cells && field.y.size() == cells,
+          "gaussian filter: one vector per cell");
+  const std::array<std::vector<float>*, 2> planes{&field.x, &field.y};
+  const std::size_t tasks = planes.size() * bands.count;
+  std::vector<std::vector<float>> around(tasks);
+  for_ranges(tasks, 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      around[i] = bands.around_start(*planes[i / bands.count], i % bands.count);
+    }
+  });
+  for_ranges(tasks, 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const std::size_t band = i % bands.count;
+      const bool has_above = band + 1 < bands.count;
+      filter_band(
+          {.plane = planes[i / bands.count]->data(),
+           .below = around[i].data(),
+           .above = has_above ? around[i + 1].data() + bands.reach * bands.columns : nullptr,
+           .wall = wall,
+           .columns = bands.columns,
+           .rows = bands.rows,
+           .first_row = bands.first_row(band),
+           .last_row = bands.first_row(band + 1),
+           .weight = weight.data(),
+           .reach = bands.reach});
+    }
+  });
 }
 
 }  // namespace

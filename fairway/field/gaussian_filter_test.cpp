@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <tuple>
 
 #include <gtest/gtest.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/field/gaussian_band.hpp"
 #include "fairway/field/sample_maps.hpp"
 
 namespace fairway {
@@ -255,6 +257,58 @@ TEST(GaussianFilterBetweenWalls, RefusesWallsOfAnotherSize) {
   VectorField f(12);
   const Mask wall(3, 3);
   EXPECT_THROW(gaussian_filter_between_walls(f, wall.cells, 4, 3, 1.0), ContractViolation);
+}
+
+// A plane in bands of `height` rows, one after the other.
+std::vector<float> filtered_in_bands(BandFilter filter, std::vector<float> plane, const Mask& wall,
+                                     bool walls, std::span<const float> weight,
+                                     std::size_t height) {
+  const std::vector<float> before = plane;
+  const auto columns = static_cast<std::size_t>(wall.nx);
+  const auto rows = static_cast<std::size_t>(wall.ny);
+  const std::size_t reach = weight.size() - 1;
+  for (std::size_t first = 0; first < rows; first += height) {
+    const std::size_t last = std::min(first + height, rows);
+    filter({.plane = plane.data(),
+            .below = first < reach ? nullptr : before.data() + (first - reach) * columns,
+            .above = before.data() + last * columns,
+            .wall = walls ? wall.cells.data() : nullptr,
+            .columns = columns,
+            .rows = rows,
+            .first_row = first,
+            .last_row = last,
+            .weight = weight.data(),
+            .reach = reach});
+  }
+  return plane;
+}
+
+TEST(GaussianBand, GivesTheSameBitsOnEveryWidthAndInBandsOfAnyHeight) {
+  Random random(127);
+  for (const auto& [nx, ny] : std::vector<std::array<int, 2>>{{1, 1}, {17, 90}, {300, 121}}) {
+    const Mask wall = samples::speckled(random, nx, ny, 0.03);
+    const VectorField f = random_field(random, wall.cells.size(), 0.1);
+    for (const std::size_t reach : {1, 8, 33}) {
+      std::vector<float> weights;
+      for (std::size_t k = 0; k <= reach; ++k) {
+        weights.push_back(
+            static_cast<float>(weight(static_cast<int>(k), 0.5 * static_cast<double>(reach))));
+      }
+      for (const bool walls : {false, true}) {
+        const std::vector<float> expected =
+            filtered_in_bands(band_filters().front(), f.x, wall, walls, weights, wall.cells.size());
+        for (const BandFilter filter : band_filters()) {
+          for (const std::size_t height : {reach, std::size_t{48}, std::size_t{1000}}) {
+            const std::vector<float> found =
+                filtered_in_bands(filter, f.x, wall, walls, weights, std::max(height, reach));
+            ASSERT_EQ(std::memcmp(found.data(), expected.data(), sizeof(float) * found.size()), 0)
+                << nx << " x " << ny << ", reach " << reach << ", walls " << walls << ", bands of "
+                << height;
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST(GaussianFilterOnThreads, GivesTheSameBitsOnAnyNumber) {
