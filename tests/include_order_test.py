@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "report", "run", "app"]
+STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "verify", "report", "run", "app"]
 TOOLBOXES = {"base", "vehicle"}
 JOINERS = {"run", "app"}
 NOUNS = {
@@ -15,6 +15,7 @@ NOUNS = {
     "field": {"field.hpp"},
     "plan": {"plan.hpp"},
     "simulate": {"flight.hpp"},
+    "verify": {"border_bitmap.hpp"},
     "report": {"picture.hpp"},
 }
 # Libraries that must stay out of the core, and the folders that may name them.
