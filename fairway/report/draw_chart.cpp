@@ -11,6 +11,7 @@
 #include "fairway/base/error.hpp"
 #include "fairway/report/legend.hpp"
 #include "fairway/report/plot_frame.hpp"
+#include "fairway/report/thinned_path.hpp"
 #include "fairway/report/ticks.hpp"
 
 namespace fairway {
@@ -104,7 +105,8 @@ Picture draw_chart(std::span<const ChartSeries> series, const ChartOptions& opti
   draw_axes(canvas, frame, true);
   for (std::size_t k = 0; k < series.size(); ++k) {
     const auto layer = canvas.layer(fmt::format("series-{}", k + 1), frame.rect);
-    canvas.stroke(line_of(series[k], frame), pen_of(series[k], static_cast<int>(k)));
+    canvas.stroke(thinned(line_of(series[k], frame), unseen_pt),
+                  pen_of(series[k], static_cast<int>(k)));
   }
   draw_legend(canvas, {frame.rect.right() + gap_to_legend_pt, frame.rect.y + 2.0}, entries);
   if (!options.title.empty()) {

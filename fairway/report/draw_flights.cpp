@@ -10,6 +10,7 @@
 #include "fairway/base/error.hpp"
 #include "fairway/report/flight_path.hpp"
 #include "fairway/report/map_page.hpp"
+#include "fairway/report/thinned_path.hpp"
 
 namespace fairway {
 namespace {
@@ -81,7 +82,7 @@ void draw_bundle(MapPage& page, const Bundle& bundle, std::size_t share_of_drawn
   if (bundle.flights.size() > 60) pen.width_pt *= 0.6;
   const std::size_t count = std::min(bundle.flights.size(), share_of_drawn);
   for (std::size_t i = 0; i < count; ++i)
-    canvas.stroke(flight_path(*bundle.flights[i], page.frame()), pen);
+    canvas.stroke(thinned(flight_path(*bundle.flights[i], page.frame()), unseen_pt), pen);
   DrawingPath dots;
   DrawingPath ticks;
   const double dot_pt = bundle.flights.size() > 60 ? 0.6 * start_dot_pt : start_dot_pt;
