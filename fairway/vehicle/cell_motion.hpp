@@ -3,7 +3,7 @@
 //
 // Coordinates are the cell's own, (0, 0) at its lower left corner, so that rounding stays that of
 // numbers as small as the cell. A heading is kept as an angle and as a unit vector: geometry uses
-// the vector and square roots, only lengths use angles (at most one asin per crossing).
+// the vector and square roots, only lengths use angles (chord_angle.hpp, at most once a crossing).
 //
 // Properties that always hold, for a state in the closed cell and cell_m < turn_radius_m:
 //   1. The exit lies on the closed border: the coordinate across its side is exactly 0 or cell_m,
@@ -27,6 +27,7 @@
 
 #include "fairway/base/heading.hpp"
 #include "fairway/base/vec2.hpp"
+#include "fairway/vehicle/chord_angle.hpp"
 #include "fairway/vehicle/side.hpp"
 
 namespace fairway {
@@ -68,7 +69,7 @@ struct CellExit {
   double length_m() const { return arc_m + straight_m; }
   bool on_corner(double cell_m) const {
     const Vec2 p = state.position_m;
-    return (p.x == 0.0 || p.x == cell_m) && (p.y == 0.0 || p.y == cell_m);
+    return ((p.x == 0.0) | (p.x == cell_m)) & ((p.y == 0.0) | (p.y == cell_m));
   }
   /// The heading runs along the side: a touch, not a crossing.
   bool is_touch() const {
@@ -80,6 +81,7 @@ struct CellExit {
 struct CellShape {
   double cell_m = 1.0;
   double turn_radius_m = 2.0;  ///< > cell_m
+  double per_radius = 1.0 / turn_radius_m;
 };
 
 /// The side on which the command lies: +1 left, -1 right, 0 aligned or no command. Exactly opposite
@@ -87,11 +89,11 @@ struct CellShape {
 inline int turn_towards(const Direction& heading, const Direction& command) {
   const double sine = cross(heading.unit, command.unit);
   const double cosine = dot(heading.unit, command.unit);
-  if (cosine < 0.0 && std::abs(sine) < 1e-9) {
+  if ((cosine < 0.0) & (std::abs(sine) < 1e-9)) [[unlikely]] {
     const double d = command.rad - heading.rad;  // |d| is within 1e-8 of pi
     return (d > 0.0) == (std::abs(d) <= pi) || std::abs(d) == pi ? 1 : -1;
   }
-  return sine > 0.0 ? 1 : sine < 0.0 ? -1 : 0;
+  return (sine > 0.0) - (sine < 0.0);
 }
 
 /// |b - a| on the circle, [0, pi].
@@ -183,11 +185,12 @@ inline double square_at_right(Vec2 u, double k) { return u.x * u.x - k * (2.0 * 
 /// Turning less than 90 degrees (property 2) the heading stays in [0, 180): y grows all the way
 /// (so never the bottom), x grows up to heading 90 degrees and falls after it. Hence the order of
 /// the tests: top before 90 degrees, right, top after it, left.
-inline ArcExit first_arc_exit(Vec2 u, double r, double ahead, double above, double behind) {
-  const double g = above / r;
+inline ArcExit first_arc_exit(Vec2 u, const CellShape& shape, double ahead, double above,
+                              double behind) {
+  const double g = above * shape.per_radius;
   const Vec2 w{u.x - g, std::sqrt(std::max(0.0, u.y * u.y + g * (2.0 * u.x - g)))};
   const double to_top_x = above > 0.0 ? above * (u.x + w.x) / (u.y + w.y) : 0.0;
-  const double k_right = ahead / r;
+  const double k_right = ahead * shape.per_radius;
   const double square = square_at_right(u, k_right);
   const bool top_first = w.x >= 0.0 ? to_top_x <= ahead : square < 0.0 && to_top_x >= -behind;
   if (top_first) return {1, {to_top_x, above}, w};
@@ -195,9 +198,9 @@ inline ArcExit first_arc_exit(Vec2 u, double r, double ahead, double above, doub
     const Vec2 v{std::sqrt(std::max(0.0, square)), u.y + k_right};
     return {0, {ahead, std::min(above, ahead * (u.y + v.y) / (u.x + v.x))}, v};
   }
-  const double k = behind / r;
+  const double k = behind * shape.per_radius;
   const Vec2 v{-std::sqrt(std::max(0.0, u.x * u.x + k * (2.0 * u.y - k))), u.y - k};
-  return {2, {-behind, std::min(above, r * (u.x - v.x))}, v};
+  return {2, {-behind, std::min(above, shape.turn_radius_m * (u.x - v.x))}, v};
 }
 
 /// A turn that leaves the heading's quadrant, or the cell before it is done.
@@ -216,7 +219,8 @@ inline void exit_turning(const CellState& s, const Direction& command, const Cel
 
   // Aligned inside past heading 90 degrees: the arc is monotone before and after its extreme point.
   const Vec2 c = canonical.into(command.unit);
-  if (c.x <= 0.0 && c.y > 0.0 && dot(u, c) >= 0.0 && square_at_right(u, ahead / r) < 0.0) {
+  if ((c.x <= 0.0) & (c.y > 0.0) & (dot(u, c) >= 0.0) &
+      (square_at_right(u, ahead * shape.per_radius) < 0.0)) {
     const Vec2 move = arc_move(u, c, r);
     if (move.x >= -behind && move.y <= above) {
       const Vec2 q = p + canonical.out_of(move);
@@ -229,8 +233,8 @@ inline void exit_turning(const CellState& s, const Direction& command, const Cel
     }
   }
 
-  const ArcExit arc = first_arc_exit(u, r, ahead, above, behind);
-  const double angle = 2.0 * std::asin(std::min(1.0, norm(arc.move) / (2.0 * r)));
+  const ArcExit arc = first_arc_exit(u, shape, ahead, above, behind);
+  const double angle = chord_angle(arc.move, 0.5 * shape.per_radius);
   // One Newton step towards length 1 keeps long turns from drifting.
   const double scale = 1.5 - 0.5 * norm2(arc.heading);
   exit.side = canonical.side(arc.side);

@@ -315,5 +315,28 @@ TEST(CellMotion, knows_a_corner) {
   EXPECT_EQ(exit.state.position_m, (Vec2{d, d}));
 }
 
+TEST(ChordAngle, IsTwiceTheArcSineOverTheWholeHalfTurn) {
+  Random random(17);
+  for (int i = 0; i < 200'000; ++i) {
+    // Small and large alike, and about s = 1/2, where the polynomial ends.
+    const double wanted = i % 3 == 0   ? std::pow(10.0, random.uniform(-12.0, 0.0))
+                          : i % 3 == 1 ? random.uniform(0.0, 1.0)
+                                       : 0.5 + random.uniform(-1e-12, 1e-12);
+    const double diameter = random.uniform(0.1, 1000.0);
+    const double direction_rad = random.uniform(-pi, pi);
+    const Vec2 chord = wanted * diameter * Vec2{std::cos(direction_rad), std::sin(direction_rad)};
+    const Wide s = std::hypot(static_cast<Wide>(chord.x), static_cast<Wide>(chord.y)) /
+                   static_cast<Wide>(diameter);
+    const Wide exact = 2 * std::asin(std::min<Wide>(1, s));
+    // What rounding of s makes of the angle, and a little.
+    const Wide tolerance = 6e-16L * (s / std::sqrt(std::max<Wide>(1e-16L, 1 - s * s)) + exact);
+    ASSERT_NEAR(chord_angle(chord, 1.0 / diameter), static_cast<double>(exact),
+                static_cast<double>(tolerance))
+        << "s = " << wanted << ", diameter " << diameter;
+  }
+  EXPECT_EQ(chord_angle({0.0, 0.0}, 0.1), 0.0);
+  EXPECT_EQ(chord_angle({0.0, 10.000001}, 0.1), pi);
+}
+
 }  // namespace
 }  // namespace fairway
