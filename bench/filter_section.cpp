@@ -79,17 +79,29 @@ std::vector<Row> filter_rows(const Settings& settings) {
     opencv.place_vectors(field.x, field.y, nx, ny);
     opencv.gaussian_blur(4.0, gaussian_half_width(4.0));
     check_against(opencv.blurred(), work, map.grid, 4.0);
+    opencv.gaussian_blur_on_threads(4.0, gaussian_half_width(4.0));
+    check_against(opencv.blurred(), work, map.grid, 4.0);
   }
+  const auto blur = [&](double sigma) {
+    return timed([&] { opencv.gaussian_blur(sigma, gaussian_half_width(sigma)); });
+  };
+  const auto blur_on_threads = [&](double sigma) {
+    return timed([&] { opencv.gaussian_blur_on_threads(sigma, gaussian_half_width(sigma)); });
+  };
   std::vector<Row> rows;
   for (const auto& [name, filter] : {std::pair{"Gaussian filter, whole map", over_all},
                                      std::pair{"Gaussian filter, between walls", between_walls}}) {
     const std::string at_4 = fmt::format("{}, sigma 4", name);
     if (OpenCv::is_there()) {
       const Medians took = interleaved(
-          settings.repeats, [&] { return run(filter, 4.0); },
-          [&] { return timed([&] { opencv.gaussian_blur(4.0, gaussian_half_width(4.0)); }); });
+          settings.repeats, [&] { return run(filter, 4.0); }, [&] { return blur(4.0); });
       rows.push_back(ratio_row(at_4, shown(took.ours), "OpenCV " + shown(took.peer),
                                took.ours.wall_s / took.peer.wall_s, 1.0, "<= 1"));
+      const Medians threads = interleaved(
+          settings.repeats, [&] { return run(filter, 4.0); }, [&] { return blur_on_threads(4.0); });
+      rows.push_back(ratio_row("  OpenCV called on a band a thread", shown(threads.ours),
+                               "OpenCV " + shown(threads.peer),
+                               threads.ours.wall_s / threads.peer.wall_s, 1.0, "<= 1"));
     } else {
       rows.push_back(without_peer(at_4, shown(run(filter, 4.0)),
                                   "OpenCV was not there at build time", "<= 1"));
@@ -99,6 +111,12 @@ std::vector<Row> filter_rows(const Settings& settings) {
     rows.push_back(ratio_row(fmt::format("{}, sigma 16", name), shown(took.ours),
                              "at sigma 4 " + shown(took.peer), took.ours.wall_s / took.peer.wall_s,
                              1.5, "<= 1.5"));
+    if (!OpenCv::is_there()) continue;
+    const Medians threads = interleaved(
+        settings.repeats, [&] { return run(filter, 16.0); }, [&] { return blur_on_threads(16.0); });
+    rows.push_back({"  OpenCV at sigma 16, on a band a thread", shown(threads.ours),
+                    "OpenCV " + shown(threads.peer),
+                    fmt::format("{:.3f}", threads.ours.wall_s / threads.peer.wall_s)});
   }
   return rows;
 }

@@ -79,7 +79,7 @@ Request parsed(int argc, char** argv) {
 }
 
 int run_sections(const Request& request) {
-  print_machine();
+  print_machine(request.settings.threads);
   const Settings& s = request.settings;
   fmt::print("{} x {} cells of which about 20 % are obstacles, {} threads, medians of {}\n\n",
              s.side, s.side, s.threads, s.repeats);
@@ -103,6 +103,8 @@ int run_sections(const Request& request) {
     }
   }
   print_table(rows);
+  fmt::print("\nload average at the end {:.2f}, of which {} threads are this program's own\n",
+             load_average(), s.threads);
   for (const std::string& failure : failures) fmt::print("FAILED {}\n", failure);
   return failures.empty() ? 0 : 1;
 }

@@ -46,6 +46,22 @@ void OpenCv::gaussian_blur(double sigma_cells, int half_width) {
   cv::GaussianBlur(images_->vectors, images_->blurred, cv::Size(n, n), sigma_cells, sigma_cells);
 }
 
+void OpenCv::gaussian_blur_on_threads(double sigma_cells, int half_width) {
+  const cv::Size kernel(2 * half_width + 1, 2 * half_width + 1);
+  const int rows = images_->vectors.rows;
+  const int bands = cv::getNumThreads();
+  images_->blurred.create(images_->vectors.size(), images_->vectors.type());
+  const auto blur = [&](const cv::Range& range) {
+    for (int band = range.start; band < range.end; ++band) {
+      // A part of an image: the filter reads the rows around it from the whole.
+      const cv::Range part(rows * band / bands, rows * (band + 1) / bands);
+      cv::Mat out = images_->blurred.rowRange(part);
+      cv::GaussianBlur(images_->vectors.rowRange(part), out, kernel, sigma_cells, sigma_cells);
+    }
+  };
+  cv::parallel_for_(cv::Range(0, bands), blur, bands);
+}
+
 std::span<const float> OpenCv::blurred() const {
   return {images_->blurred.ptr<float>(), 2 * images_->blurred.total()};
 }

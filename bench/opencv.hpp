@@ -26,6 +26,9 @@ class OpenCv {
   /// GaussianBlur of an image of two floats a pixel, kernels of 2 half_width + 1.
   void place_vectors(std::span<const float> x, std::span<const float> y, int nx, int ny);
   void gaussian_blur(double sigma_cells, int half_width);
+  /// The same result from as many calls, side by side on bands of rows, as there are threads:
+  /// GaussianBlur runs on one thread when the image is of floats.
+  void gaussian_blur_on_threads(double sigma_cells, int half_width);
   [[nodiscard]] std::span<const float> blurred() const;  ///< x and y in turn
 
  private:
