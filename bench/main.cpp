@@ -28,6 +28,7 @@ struct Section {
 constexpr Section sections[] = {
     {"distance", distance_rows}, {"cost", cost_rows},         {"error", cost_error_rows},
     {"filter", filter_rows},     {"pipeline", pipeline_rows}, {"flight", flight_rows},
+    {"bitmap", bitmap_rows},
 };
 
 struct Request {
@@ -35,12 +36,13 @@ struct Request {
   bool quick = false;
   std::vector<std::string> only;
   int one_field = 0;
+  int one_bitmap = 0;
 };
 
 [[noreturn]] void usage() {
   fmt::print(stderr,
              "usage: fairway-bench [--quick] [--only SECTION]... [--repeats N] [--threads N]\n"
-             "sections: distance cost error filter pipeline flight\n");
+             "sections: distance cost error filter pipeline flight bitmap\n");
   std::exit(64);
 }
 
@@ -63,12 +65,17 @@ Request parsed(int argc, char** argv) {
       request.settings.sides = {128, 256};
       request.settings.repeats = 1;
       request.settings.flights = 32;
+      request.settings.bitmap_samples = 40;
     } else if (word == "--repeats") {
       request.settings.repeats = number(++i);
     } else if (word == "--threads") {
       request.settings.threads = number(++i);
     } else if (word == "--one-field") {
       request.one_field = number(++i);
+    } else if (word == "--one-bitmap") {
+      request.one_bitmap = number(++i);
+    } else if (word == "--samples") {
+      request.settings.bitmap_samples = number(++i);
     } else if (word == "--only" && i + 1 < argc) {
       request.only.emplace_back(argv[++i]);
     } else {
@@ -119,9 +126,12 @@ int main(int argc, char** argv) {
   const tbb::global_control bound(tbb::global_control::max_allowed_parallelism, threads);
   tbb::task_arena arena(request.settings.threads);
   return arena.execute([&] {
-    if (request.one_field == 0) return run_sections(request);
+    if (request.one_field == 0 && request.one_bitmap == 0) return run_sections(request);
     try {
-      run_one_field(request.one_field);
+      if (request.one_field != 0) run_one_field(request.one_field);
+      if (request.one_bitmap != 0) {
+        run_one_bitmap(request.one_bitmap, request.settings.bitmap_samples);
+      }
     } catch (const std::exception& error) {
       fmt::print(stderr, "{}\n", error.what());
       return 1;

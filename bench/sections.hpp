@@ -17,6 +17,8 @@ struct Settings {
   int repeats = 5;
   int threads = 2;
   int flights = 2048;
+  int bitmap_side = 20;  ///< and ten times that
+  int bitmap_samples = 200;
   std::string program;     ///< this program, to be started again for one whole pipeline
   std::string fmm_script;  ///< scikit_fmm_peer.py
 };
@@ -29,10 +31,15 @@ inline constexpr std::uint64_t map_seed = 1;
 [[nodiscard]] std::vector<Row> filter_rows(const Settings& settings);
 [[nodiscard]] std::vector<Row> pipeline_rows(const Settings& settings);
 [[nodiscard]] std::vector<Row> flight_rows(const Settings& settings);
+[[nodiscard]] std::vector<Row> bitmap_rows(const Settings& settings);
 
 /// One whole pipeline in this process, which is to have done nothing else. Prints a line
 /// "WALL_S CPU_S BYTES_BEFORE BYTES_AT_PEAK SHARE", where SHARE is that of the safe-start cells
 /// from which the goal can be reached.
 void run_one_field(int side);
+
+/// One backward reachable set in this process. Prints a line "WALL_S CPU_S STATES BYTES_STORED
+/// BYTES_AT_PEAK SHARE", where SHARE is that of the configuration volume.
+void run_one_bitmap(int side, int samples);
 
 }  // namespace fairway::bench
