@@ -12,7 +12,7 @@ help:
 	@echo "make test       build and run every test"
 	@echo "make build      build/release/bin/fairway"
 	@echo "make bench      build and print the benchmark table"
-	@echo "make reproduce  redraw paper 1's figures on the project's own map"
+	@echo "make reproduce  redraw the papers' figures on the project's own maps"
 	@echo "make install    install to PREFIX (default /usr/local)"
 	@echo "make clean      remove build/ and out/"
 

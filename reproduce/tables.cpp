@@ -93,4 +93,39 @@ nlohmann::json numbers_of(const Reproduction& r) {
           {"fig8b", list_of(r.path_by_cell)}};
 }
 
+std::string tables_of(const CellSetFigures& cells, const ExpansionFigures& e) {
+  const auto percent = [](double share) { return fmt::format("{:.2f} %", 100.0 * share); };
+  std::string out = "| figure | what | |\n|---|---|---|\n";
+  const auto row = [&](const char* figure, const char* what, const std::string& value) {
+    out += fmt::format("| {} | {} | {} |\n", figure, what, value);
+  };
+  row("8a", "points from which the top is out of reach, r = 20 m", percent(cells.unreachable_8a));
+  row("8b", "the same, r = 8.1 m", percent(cells.unreachable_8b));
+  row("20", "y max, Eq. 16", fmt::format("{:.3f} m", cells.y_max_m));
+  for (std::size_t s = 0; s < e.border_shares.size(); ++s)
+    row("21", fmt::format("S{} of all samples of its border", s + 1).c_str(),
+        percent(e.border_shares[s]));
+  row("23", "border states, n = 20, m = 200", fmt::format("{}", e.states));
+  row("23", "stored", fmt::format("{} bytes", e.stored_bytes));
+  row("23", "border states that reach", percent(e.border_share));
+  row("23", "configuration volume that reaches", percent(e.volume_share));
+  row("23", "sweeps of Algorithm 1 for the same bits",
+      fmt::format("{}{}", e.sweeps, e.algorithm_1_agrees ? "" : " (THE BITS DIFFER)"));
+  return out;
+}
+
+nlohmann::json numbers_of(const CellSetFigures& cells, const ExpansionFigures& e) {
+  return {{"fig8a_unreachable", cells.unreachable_8a},
+          {"fig8b_unreachable", cells.unreachable_8b},
+          {"fig20_y_max_m", cells.y_max_m},
+          {"fig21_border_shares", e.border_shares},
+          {"fig23",
+           {{"states", e.states},
+            {"stored_bytes", e.stored_bytes},
+            {"border_share", e.border_share},
+            {"volume_share", e.volume_share},
+            {"sweeps", e.sweeps},
+            {"algorithm_1_agrees", e.algorithm_1_agrees}}}};
+}
+
 }  // namespace fairway::reproduce

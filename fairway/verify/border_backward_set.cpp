@@ -136,7 +136,8 @@ HeadingSet backward_headings_on_border(Side entry, double along_m, const Directi
   const double inwards = (static_cast<int>(entry) + 1) * (pi / 2);  // start of the half circle
   HeadingSet entering;
   for (const HeadingRange& range : backward_headings(point, command, shape, exit)) {
-    for (const HeadingRange& part : common({inwards, pi}, range)) entering.add(part);
+    for (const HeadingRange& part : common({inwards, pi}, range))
+      entering.add({Heading::from_rad(part.from_rad).rad(), part.width_rad});
   }
   return entering;
 }

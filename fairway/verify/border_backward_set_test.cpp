@@ -260,17 +260,33 @@ TEST(BackwardHeadings, through_a_corner_and_straight_are_those_of_equations_8_to
   const double qp = q + r / std::abs(std::sin(pi / 2 - c));
   const double beta = (2 * m * qp - 2 * p.x - 2 * m * p.y) / (1 + m * m);
   const double gamma = (p.x * p.x + p.y * p.y + qp * qp - 2 * p.y * qp - r * r) / (1 + m * m);
-  const double center_x = (-beta - std::sqrt(beta * beta - 4 * gamma)) / 2;
-  const double other_x = (-beta + std::sqrt(beta * beta - 4 * gamma)) / 2;
-  const auto heading = [&](double x) { return std::atan2(p.x - x, (m * x + qp) - p.y); };
+  const double center_x = (-beta + std::sqrt(beta * beta - 4 * gamma)) / 2;
+  const double printed = std::atan2(p.x - center_x, (m * center_x + qp) - p.y);
   const HeadingSet set = backward_headings(p, direction(c), {d, r}, Side::top);
   ASSERT_EQ(set.count, 1U);
   const double from = set.ranges[0].from_rad;
-  EXPECT_LT(std::min(std::abs(std::remainder(from - heading(center_x), two_pi)),
-                     std::abs(std::remainder(from - heading(other_x), two_pi))),
-            1e-12);
-  EXPECT_NEAR(std::remainder(from - heading(other_x), two_pi), 0.0, 1e-12);
-  EXPECT_GT(std::abs(std::remainder(from - heading(other_x) - pi / 2, two_pi)), 1.0);
+  EXPECT_NEAR(std::remainder(from - printed, two_pi), 0.0, 1e-12);
+  EXPECT_GT(std::abs(std::remainder(from - printed - pi / 2, two_pi)), 1.0);
+}
+
+TEST(BackwardHeadings, through_the_left_corner_take_the_other_root_of_equation_9) {
+  // The end of the left turn lies ahead of p: to the west, when the command heads west.
+  const double d = 1.0;
+  const double r = 2.5;
+  const double c = 2.0;
+  const Vec2 p{0.3, 0.2};
+  const double m = std::tan(c);
+  ASSERT_LT(p.y, m * p.x + d);  // region B of the line through (0, d): a left turn
+  const double qp = d - r / std::abs(std::sin(pi / 2 - c));
+  const double beta = (2 * m * qp - 2 * p.x - 2 * m * p.y) / (1 + m * m);
+  const double gamma = (p.x * p.x + p.y * p.y + qp * qp - 2 * p.y * qp - r * r) / (1 + m * m);
+  const double root = std::sqrt(beta * beta - 4 * gamma);
+  const auto heading = [&](double x) { return std::atan2(p.x - x, (m * x + qp) - p.y); };
+  const HeadingSet set = backward_headings(p, direction(c), {d, r}, Side::top);
+  ASSERT_EQ(set.count, 1U);
+  const double to = set.ranges[0].to_rad();
+  EXPECT_NEAR(std::remainder(to - heading((-beta - root) / 2), two_pi), 0.0, 1e-12);
+  EXPECT_GT(std::abs(std::remainder(to - heading((-beta + root) / 2), two_pi)), 0.1);  // as printed
 }
 
 TEST(BackwardHeadings, refuse_points_outside_and_wide_cells) {
