@@ -46,7 +46,8 @@ inline Interval operator*(Interval a, Interval b) {
   const double q = a.lo * b.hi;
   const double s = a.hi * b.lo;
   const double t = a.hi * b.hi;
-  return outward(std::min(std::min(p, q), std::min(s, t)), std::max(std::max(p, q), std::max(s, t)));
+  return outward(std::min(std::min(p, q), std::min(s, t)),
+                 std::max(std::max(p, q), std::max(s, t)));
 }
 inline Interval operator*(double k, Interval a) {
   const double p = k * a.lo;
@@ -59,7 +60,8 @@ inline Interval operator/(Interval a, Interval b) {
   const double q = a.lo / b.hi;
   const double s = a.hi / b.lo;
   const double t = a.hi / b.hi;
-  return outward(std::min(std::min(p, q), std::min(s, t)), std::max(std::max(p, q), std::max(s, t)));
+  return outward(std::min(std::min(p, q), std::min(s, t)),
+                 std::max(std::max(p, q), std::max(s, t)));
 }
 
 inline Interval square(Interval a) {
