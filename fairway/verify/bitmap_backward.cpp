@@ -31,15 +31,16 @@ class Marks {
     const std::uint64_t word = load(place / 32) >> (2 * (place % 32));
     return static_cast<BitmapEnd>(word & 3);
   }
-  void mark(std::size_t place, BitmapEnd end) {
-    const std::uint64_t bits = static_cast<std::uint64_t>(end) << (2 * (place % 32));
-    std::atomic_ref<std::uint64_t> word(words_[place / 32]);
-    word.store(word.load(std::memory_order_relaxed) | bits, std::memory_order_relaxed);
+  /// Adds marks to a word, laid out as the word is.
+  void add(std::size_t word, std::uint64_t marks) {
+    std::atomic_ref<std::uint64_t> all(words_[word]);
+    all.store(all.load(std::memory_order_relaxed) | marks, std::memory_order_relaxed);
   }
-  std::uint64_t load(std::size_t word) {
-    return std::atomic_ref<std::uint64_t>(words_[word]).load(std::memory_order_relaxed);
+  /// The lower bit of each state of a word that is not yet known.
+  std::uint64_t unknown_in(std::size_t word) {
+    const std::uint64_t w = load(word);
+    return ~(w | w >> 1) & 0x5555555555555555U;
   }
-  std::size_t states_per_border() const { return states_per_border_; }
 
   /// One bit a state, in the same memory.
   BitmapWords take_reached() {
@@ -51,6 +52,9 @@ class Marks {
   }
 
  private:
+  std::uint64_t load(std::size_t word) {
+    return std::atomic_ref<std::uint64_t>(words_[word]).load(std::memory_order_relaxed);
+  }
   static_assert(static_cast<int>(BitmapEnd::reached) == 1 &&
                 static_cast<int>(BitmapEnd::not_reached) == 2);
 
@@ -69,17 +73,70 @@ class Marks {
   BitmapWords words_;
 };
 
-/// Follows states until their answer is known. One per thread.
+/// Works out answers for whole borders. One per thread.
 class Follower {
  public:
   Follower(const BitmapGraph& graph, Marks& marks)
       : graph_(graph), marks_(marks), rows_(kept_rows) {}
 
-  void decide(BitmapGraph::Node node, std::size_t place) {
+  /// Marks every state of a border that is not yet known.
+  void decide_border(std::size_t border) {
+    const BitmapGraph::Border cells = graph_.border_at(border);
+    const int m = graph_.samples().count();
+    std::size_t place = marks_.place(border, 0);
+    for (int k = 0; k < m; ++k, place += static_cast<std::size_t>(m))
+      decide_row(graph_.node_at(cells, k, 0), place);
+  }
+
+ private:
+  static constexpr std::size_t kept_rows = 512;
+  struct KeptRow {
+    std::uint64_t key = ~std::uint64_t{0};
+    BitmapRow row;
+  };
+
+  /// The states of one heading, of which `node` is the first, at `first`. Most are decided by the
+  /// next state; marks of one word are written together.
+  void decide_row(BitmapGraph::Node node, std::size_t first) {
+    const std::size_t end_place = first + static_cast<std::size_t>(graph_.samples().count());
+    const BitmapEnd here = graph_.end_of(node);
+    bool has_row = false;
+    BitmapRow row;
+    for (std::size_t place = first; place < end_place;) {
+      const std::size_t word = place / 32;
+      const std::size_t word_end = std::min(end_place, 32 * word + 32);
+      std::uint64_t unknown = marks_.unknown_in(word) & (~std::uint64_t{0} << (2 * (place % 32)));
+      if (word_end % 32 != 0) unknown &= (std::uint64_t{1} << (2 * (word_end % 32))) - 1;
+      if (unknown != 0 && here == BitmapEnd::none && !has_row) {
+        row = graph_.row_of(node);
+        has_row = true;
+      }
+      std::uint64_t found = 0;
+      for (; unknown != 0; unknown &= unknown - 1) {
+        const int bit = std::countr_zero(unknown);
+        node.position = static_cast<int>(32 * word + static_cast<std::size_t>(bit) / 2 - first);
+        const BitmapEnd end = here == BitmapEnd::none ? decided(graph_.successor(node, row)) : here;
+        found |= static_cast<std::uint64_t>(end) << bit;
+      }
+      if (found != 0) marks_.add(word, found);
+      place = word_end;
+    }
+  }
+
+  /// The answer for a state; marks what lies on the way to it.
+  BitmapEnd decided(const BitmapGraph::Node& node) {
+    const BitmapEnd end = graph_.end_of(node);
+    if (end != BitmapEnd::none) return end;
+    const std::size_t place = place_of(node);
+    const BitmapEnd known = marks_.at(place);
+    return known != BitmapEnd::none ? known : followed(node, place);
+  }
+
+  BitmapEnd followed(BitmapGraph::Node node, std::size_t place) {
     path_.clear();
     std::size_t kept = ~std::size_t{0};  // Brent's cycle detection: compared with each new state
     std::size_t next_keep = 1;
-    BitmapEnd end = graph_.end_of(node);
+    BitmapEnd end = BitmapEnd::none;
     while (end == BitmapEnd::none) {
       if (place == kept) {
         end = BitmapEnd::not_reached;
@@ -90,14 +147,15 @@ class Follower {
         kept = place;
         next_keep *= 2;
       }
-      node = graph_.successor(node, row(node));
+      node = graph_.successor(node, row_of(node));
       end = graph_.end_of(node);
       if (end != BitmapEnd::none) break;
       place = place_of(node);
       end = marks_.at(place);
     }
-    if (path_.empty()) path_.push_back(place);
-    for (const std::size_t p : path_) marks_.mark(p, end);
+    for (const std::size_t p : path_)
+      marks_.add(p / 32, static_cast<std::uint64_t>(end) << (2 * (p % 32)));
+    return end;
   }
 
   std::size_t place_of(const BitmapGraph::Node& node) const {
@@ -107,15 +165,8 @@ class Follower {
                             static_cast<std::size_t>(node.position));
   }
 
- private:
-  static constexpr std::size_t kept_rows = 512;
-  struct KeptRow {
-    std::uint64_t key = ~std::uint64_t{0};
-    BitmapRow row;
-  };
-
   /// Neighbouring states fly through the same rows: those of late are kept.
-  const BitmapRow& row(const BitmapGraph::Node& node) {
+  const BitmapRow& row_of(const BitmapGraph::Node& node) {
     const std::uint64_t key =
         (static_cast<std::uint64_t>(node.place) * 4 + static_cast<std::uint64_t>(node.entry)) *
             8192 +
@@ -134,30 +185,9 @@ class Follower {
   std::vector<KeptRow> rows_;
 };
 
-/// Decides every state of the borders that is not yet known; answers how many there were.
-std::size_t decide_borders(const BitmapGraph& graph, Marks& marks, std::size_t begin,
-                           std::size_t end) {
-  constexpr std::uint64_t low_bits = 0x5555555555555555U;
+void decide_borders(const BitmapGraph& graph, Marks& marks, std::size_t begin, std::size_t end) {
   Follower follower(graph, marks);
-  const auto m = static_cast<std::size_t>(graph.samples().count());
-  std::size_t found = 0;
-  for (std::size_t border = begin; border < end; ++border) {
-    const std::size_t first = marks.place(border, 0);
-    for (std::size_t state = 0; state < marks.states_per_border(); state += 32) {
-      const std::size_t here = std::min<std::size_t>(32, marks.states_per_border() - state);
-      const std::uint64_t inside = here == 32 ? low_bits : low_bits & ((1ULL << (2 * here)) - 1);
-      for (;;) {
-        const std::uint64_t word = marks.load((first + state) / 32);
-        const std::uint64_t unknown = ~(word | word >> 1) & inside;
-        if (unknown == 0) break;
-        const std::size_t s = state + static_cast<std::size_t>(std::countr_zero(unknown)) / 2;
-        follower.decide(graph.node_at(border, static_cast<int>(s / m), static_cast<int>(s % m)),
-                        first + s);
-        ++found;
-      }
-    }
-  }
-  return found;
+  for (std::size_t border = begin; border < end; ++border) follower.decide_border(border);
 }
 
 }  // namespace

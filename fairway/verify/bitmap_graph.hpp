@@ -47,16 +47,26 @@ class BitmapGraph {
   const BitmapSamples& samples() const { return samples_; }
   BorderNumbers borders() const { return borders_; }
 
-  Node node_at(std::size_t border, int heading, int position) const {
+  /// The two cells of a border: what its nodes have in common.
+  struct Border {
+    std::uint32_t before = 0;  ///< to the left of it, or below
+    std::uint32_t after = 0;
+    bool upright = false;
+  };
+  Border border_at(std::size_t border) const {
     const bool upright = borders_.is_upright(border);
-    const Cell before = borders_.cell_before(border);
-    const int k = upright ? samples_.wrapped(heading + samples_.quarter()) : heading;
+    const std::uint32_t before = place_of(borders_.cell_before(border));
+    return {before, before + (upright ? 1 : stride_), upright};
+  }
+  Node node_at(const Border& border, int heading, int position) const {
+    const int k = border.upright ? samples_.wrapped(heading + samples_.quarter()) : heading;
     const bool forward = k < 2 * samples_.quarter();  // east, or north
-    const std::uint32_t place = place_of(before);
-    const std::uint32_t step = upright ? 1 : stride_;
-    const Side entry =
-        upright ? (forward ? Side::left : Side::right) : (forward ? Side::bottom : Side::top);
-    return {forward ? place + step : place, entry, heading, position};
+    const Side entry = border.upright ? (forward ? Side::left : Side::right)
+                                      : (forward ? Side::bottom : Side::top);
+    return {forward ? border.after : border.before, entry, heading, position};
+  }
+  Node node_at(std::size_t border, int heading, int position) const {
+    return node_at(border_at(border), heading, position);
   }
   /// The border that a node lies on.
   std::size_t border_of(const Node& node) const {

@@ -53,7 +53,7 @@ TEST(VolumeShare, agrees_with_exact_flights_from_anywhere) {
   }
   EXPECT_GT(reached, draws / 2);
   EXPECT_LT(reached, draws - draws / 20);
-  EXPECT_LT(contradictions, draws / 50);  // samples prove nothing; they come close
+  EXPECT_LT(contradictions, draws / 200);  // samples prove nothing; they come close
 }
 
 TEST(VolumeShare, is_that_of_a_loop_over_draws_and_the_same_for_any_number_of_threads) {
