@@ -15,7 +15,8 @@ NOUNS = {
     "field": {"field.hpp"},
     "plan": {"plan.hpp"},
     "simulate": {"flight.hpp"},
-    "verify": {"border_bitmap.hpp"},
+    "verify": {"border_bitmap.hpp", "verdict.hpp", "flow.hpp", "section_view.hpp",
+               "section_verdicts.hpp"},
     "report": {"picture.hpp"},
 }
 # Libraries that must stay out of the core, and the folders that may name them.

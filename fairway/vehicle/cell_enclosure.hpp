@@ -1,0 +1,359 @@
+// Where a set of states can leave a cell, and how: an enclosure of the exact motion (the contract's
+// model section), in intervals. This is the one place that knows how the vehicle moves inside a
+// cell; what builds on it knows only "these states enter, these may leave". A model with
+// disturbances is another function of this signature that encloses more.
+//
+// The motion is one arc, then a straight line. On an arc of centre C and sign k (+1 left, -1 right)
+//     p = C + k r (u_y, -u_x),                                                              (a)
+// so a set of states on an arc is kept as a set of centres: it does not grow while the turn lasts,
+// over any number of cells. For each side of a cell there is exactly one point of the circle where
+// the motion crosses the side's line outwards, and there, by (a),
+//     right, left:  u_y =  k (line - C_x) / r,  u_x = +-sqrt(1 - u_y^2),  y = C_y - k r u_x, (b)
+//     top, bottom:  u_x = -k (line - C_y) / r,  u_y = +-sqrt(1 - u_x^2),  x = C_x + k r u_y. (c)
+// A state inside a convex cell leaves it by the first of these four, unless it aligns before; and
+// in one cell it turns by less than 90 degrees (its chord is at most sqrt(2) cell_m < sqrt(2) r),
+// so that the order of two events is the sign of the cross product of their headings.
+//
+// Properties that always hold, when cell_m < turn_radius_m and no `too_wide`:
+//   1. Every state of the entry leaves as one of the departures says, or never leaves; it always
+//      leaves when there is a command or a heading to go straight on.
+//   2. At the exactly opposite heading both turns are followed; a touch of a side is a departure;
+//      a set that straddles a corner departs through both sides, each part cut at the corner.
+//   3. length_m bounds what any state flies inside the cell.
+// No include but the standard's and the project's own toolboxes, no heap, no exception.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "fairway/base/interval.hpp"
+#include "fairway/vehicle/side.hpp"
+
+namespace fairway {
+
+/// A set of states in a closed cell, in the cell's own coordinates.
+struct CellEntry {
+  IntervalVec2 position_m;
+  IntervalVec2 heading;   ///< unit vectors
+  int turn = 0;           ///< +1, -1: every state is on its circle of this sign; 0: none is known
+  IntervalVec2 centre_m;  ///< of those circles
+};
+
+/// What the cell tells its states to do.
+struct CellOrder {
+  IntervalVec2 heading;        ///< unit vectors, one direction
+  bool has_command = true;     ///< false: straight on
+  bool already_there = false;  ///< the states' heading is the command itself, the same number
+};
+
+struct CellDeparture {
+  Side side = Side::right;
+  Interval along_m;          ///< along the side, within [0, cell_m]
+  bool low_corner = false;   ///< may pass through the corner at 0 ...
+  bool high_corner = false;  ///< ... or at cell_m
+  bool grazes = false;       ///< may run along the side, straight
+  bool aligned = false;      ///< the heading is the command itself
+  IntervalVec2 heading;
+  int turn = 0;  ///< as in CellEntry
+  IntervalVec2 centre_m;
+  double length_m = 0.0;
+};
+
+struct CellDepartures {
+  static constexpr int most = 16;
+  std::array<CellDeparture, most> of;
+  int count = 0;
+  bool too_wide = false;  ///< the entry is too large to say anything
+
+  const CellDeparture* begin() const { return of.data(); }
+  const CellDeparture* end() const { return of.data() + count; }
+  void add(const CellDeparture& departure) {
+    if (count == most) {
+      too_wide = true;
+    } else {
+      of[static_cast<std::size_t>(count++)] = departure;
+    }
+  }
+};
+
+struct CellSize {
+  double cell_m = 1.0;
+  double turn_radius_m = 2.0;  ///< > cell_m
+};
+
+namespace cell_enclosure {
+
+constexpr bool is_vertical(Side side) { return side == Side::right || side == Side::left; }
+constexpr bool is_far(Side side) { return side == Side::right || side == Side::top; }
+/// Components across and along a side.
+inline const Interval& across(const IntervalVec2& v, Side s) { return is_vertical(s) ? v.x : v.y; }
+inline const Interval& along(const IntervalVec2& v, Side s) { return is_vertical(s) ? v.y : v.x; }
+inline IntervalVec2 from_parts(Interval across, Interval along, Side s) {
+  return is_vertical(s) ? IntervalVec2{across, along} : IntervalVec2{along, across};
+}
+/// Places this near an end of a side count as its corner too, so that other arithmetic, whose
+/// rounding differs, sees no corner that was not reckoned with.
+inline double corner_reach_m(double cell_m) { return cell_m * 0x1p-34; }
+inline double line_of(Side side, double cell_m) { return is_far(side) ? cell_m : 0.0; }
+/// Outward component.
+inline Interval outward_part(const IntervalVec2& v, Side s) {
+  return is_far(s) ? across(v, s) : -across(v, s);
+}
+
+/// Upper bound of the angle between unit vectors less than 180 degrees apart, one of each set.
+/// Huygens: 3 x <= 2 sin x + tan x, for x half the angle; sin and cos of x from the cosine.
+inline double angle_bound(const IntervalVec2& a, const IntervalVec2& b) {
+  const double cosine = std::clamp(dot(a, b).lo, -1.0, 1.0);
+  const Interval half_cos = sqrt(0.5 * (Interval(1.0) + Interval(cosine)));
+  const Interval half_sin = sqrt(0.5 * (Interval(1.0) - Interval(cosine)));
+  if (half_cos.lo < 0.1) return 3.2;
+  return above(2.0 * ((2.0 * half_sin + half_sin / half_cos) / Interval(3.0)).hi);
+}
+
+/// An event on an arc: the heading there tells its order.
+struct ArcEvent {
+  IntervalVec2 heading;
+  bool possible = false;  ///< some state may meet it as its first
+  bool certain = false;   ///< every state meets it or another before turning 90 degrees
+  CellDeparture departure;
+};
+
+struct Turn {
+  const CellEntry& entry;
+  const CellOrder& order;
+  CellSize size;
+  int sign;
+  bool may_align;   ///< some state may reach the command within 90 degrees
+  bool must_align;  ///< every state would
+  IntervalVec2 centre_m;
+};
+
+/// Outward and tangential part of the headings with which a side is crossed.
+struct ExitHeading {
+  Interval across;
+  Interval along;
+
+  bool empty() const { return across.empty() || along.empty(); }
+  IntervalVec2 of(Side side) const {
+    return from_parts(is_far(side) ? across : -across, along, side);
+  }
+  /// Keeps what lies on the unit circle: each part bounds the other.
+  void to_circle() {
+    if (empty()) return;
+    across = intersection(across, sqrt(Interval(1.0) - square(along)));
+    if (across.empty()) return;
+    const Interval size = sqrt(Interval(1.0) - square(across));
+    if (along.positive()) along = intersection(along, size);
+    if (along.negative()) along = intersection(along, -size);
+  }
+};
+
+/// Keeps the headings from the entry's to the command's. Along an arc of less than 90 degrees a
+/// component runs from one end's value to the other's, unless the arc passes that axis; it does not
+/// when the other component has one sign at both ends.
+inline void cut_at_command(const Turn& turn, Side side, ExitHeading& exit) {
+  const IntervalVec2& u = turn.entry.heading;
+  const IntervalVec2& c = turn.order.heading;
+  const Interval u_across = outward_part(u, side);
+  const Interval c_across = outward_part(c, side);
+  const Interval& u_along = along(u, side);
+  const Interval& c_along = along(c, side);
+  if ((u_along.positive() && c_along.positive()) || (u_along.negative() && c_along.negative())) {
+    exit.across = intersection(exit.across, hull(u_across, c_across));
+  }
+  if (u_across.positive() && c_across.positive()) {
+    exit.along = intersection(exit.along, hull(u_along, c_along));
+  }
+  exit.to_circle();
+}
+
+/// Where the arc crosses the line of `side` outwards: (b) and (c).
+inline ArcEvent crossing(const Turn& turn, Side side) {
+  const double d = turn.size.cell_m;
+  const double r = turn.size.turn_radius_m;
+  const double k = is_vertical(side) ? turn.sign : -turn.sign;
+  const double outwards = is_far(side) ? 1.0 : -1.0;
+  const Interval line = line_of(side, d);
+  ArcEvent event;
+  const Interval tangent = (k * (line - across(turn.centre_m, side))) / Interval(r);
+  if (tangent.lo > 1.0 || tangent.hi < -1.0) return event;
+  event.certain = tangent.lo > -1.0 && tangent.hi < 1.0;
+  ExitHeading exit;
+  exit.along = intersection(tangent, {-1.0, 1.0});
+  exit.across = sqrt(Interval(1.0) - square(exit.along));
+  event.heading = exit.of(side);
+  const Interval turned = turn.sign * cross(turn.entry.heading, event.heading);
+  const Interval ahead = dot(turn.entry.heading, event.heading);
+  if (turned.hi < 0.0 || ahead.hi < 0.0) return {};
+  event.certain = event.certain && turned.lo >= 0.0 && ahead.lo > 0.0;
+
+  if (turn.must_align) cut_at_command(turn, side, exit);
+  if (exit.empty()) return event;
+  Interval offset = (-k * r * outwards) * exit.across;
+  const Interval place = along(turn.centre_m, side) + offset;
+  CellDeparture& leave = event.departure;
+  leave.along_m = intersection(place, {0.0, d});
+  if (leave.along_m.empty()) return event;
+  leave.side = side;
+  leave.low_corner = place.lo <= corner_reach_m(d);
+  leave.high_corner = place.hi >= d - corner_reach_m(d);
+  leave.turn = turn.sign;
+  if (leave.low_corner || leave.high_corner) {
+    // What passes between the corners tells the headings that do ...
+    exit.across = intersection(
+        exit.across, (leave.along_m - along(turn.centre_m, side)) / Interval(-k * r * outwards));
+    exit.to_circle();
+    if (exit.empty()) return event;
+    offset = (-k * r * outwards) * exit.across;
+  }
+  // ... and the centres: along the side at once, across it through the heading.
+  const Interval centre_along = intersection(along(turn.centre_m, side), leave.along_m - offset);
+  const Interval centre_across =
+      intersection(across(turn.centre_m, side), line - (k * r) * exit.along);
+  if (centre_along.empty() || centre_across.empty()) return event;
+  event.possible = true;
+  event.heading = exit.of(side);
+  leave.heading = event.heading;
+  leave.centre_m = from_parts(centre_across, centre_along, side);
+  return event;
+}
+
+/// Straight on from `from` (a part of the closed cell) along `model.heading` to every side that may
+/// be met first; each departure is `model` but for where it leaves.
+inline void leave_straight(const IntervalVec2& from, const CellDeparture& model, CellSize size,
+                           CellDepartures& departures) {
+  const double d = size.cell_m;
+  for (const Side side : {Side::right, Side::top, Side::left, Side::bottom}) {
+    const Interval speed = outward_part(model.heading, side);
+    if (speed.hi < 0.0) continue;
+    const Interval pace = along(model.heading, side);
+    const Interval start = along(from, side);
+    const Interval gap = intersection(
+        is_far(side) ? Interval(d) - across(from, side) : across(from, side), {0.0, above(d)});
+    CellDeparture leave = model;
+    leave.side = side;
+    Interval place;
+    if (speed.positive()) {
+      place = start + gap * (pace / speed);
+      leave.length_m = above(std::min((gap / speed).hi, 1.5 * d));
+    } else {  // perhaps along the side: far along it, unless already on it
+      leave.grazes = true;
+      if (speed.hi == 0.0 && gap.lo > 0.0) continue;
+      const double least = gap.lo <= 0.0 ? 0.0 : gap.lo / speed.hi * 0.5;  // |pace| > 1 / 2
+      if (pace.lo > 0.5) {
+        place = {below(start.lo + least), d};
+      } else if (pace.hi < -0.5) {
+        place = {0.0, above(start.hi - least)};
+      } else {
+        departures.too_wide = true;
+        return;
+      }
+      leave.length_m = 1.5 * d;
+    }
+    leave.along_m = intersection(place, {0.0, d});
+    if (leave.along_m.empty()) continue;
+    // What runs along the side on it ends at the corner where the side ahead is left, too.
+    const bool on_side = speed.lo == 0.0 && speed.hi == 0.0;
+    leave.low_corner = !on_side && place.lo <= corner_reach_m(d);
+    leave.high_corner = !on_side && place.hi >= d - corner_reach_m(d);
+    leave.length_m = above(leave.length_m + model.length_m);
+    departures.add(leave);
+  }
+}
+
+/// All departures of one turn.
+inline void leave_turning(const Turn& turn, CellDepartures& departures) {
+  const double d = turn.size.cell_m;
+  const double r = turn.size.turn_radius_m;
+  std::array<ArcEvent, 5> events;
+  int count = 0;
+  if (turn.may_align) {
+    ArcEvent& align = events[static_cast<std::size_t>(count++)];
+    align.heading = turn.order.heading;
+    align.certain = turn.must_align;
+    align.possible = true;
+  }
+  for (const Side side : {Side::right, Side::top, Side::left, Side::bottom}) {
+    // Every heading on an arc of at most 90 degrees is a sum of its ends with weights >= 0, the
+    // last's > 0 but at the start: it points out of a side nowhere when the first end does not
+    // and the last points in. (A touch at the very start is for those who brought the state.)
+    const double k = turn.sign;
+    const Interval first = outward_part(turn.entry.heading, side);
+    const Interval last =
+        turn.must_align ? outward_part(turn.order.heading, side)
+                        : (is_far(side) ? k : -k) *
+                              (is_vertical(side) ? -turn.entry.heading.y : turn.entry.heading.x);
+    if (first.hi <= 0.0 && last.negative()) continue;
+    const ArcEvent event = crossing(turn, side);
+    if (event.possible || event.certain) events[static_cast<std::size_t>(count++)] = event;
+  }
+  for (int i = 0; i < count; ++i) {
+    const ArcEvent& event = events[static_cast<std::size_t>(i)];
+    bool first = event.possible;
+    for (int j = 0; j < count && first; ++j) {
+      const ArcEvent& other = events[static_cast<std::size_t>(j)];
+      if (j == i || !other.certain) continue;
+      first = !(turn.sign * cross(other.heading, event.heading)).positive();
+    }
+    if (!first) continue;
+    CellDeparture leave = event.departure;
+    leave.length_m = above(r * angle_bound(turn.entry.heading, event.heading));
+    if (!turn.may_align || i > 0) {
+      departures.add(leave);
+      continue;
+    }
+    const IntervalVec2& c = turn.order.heading;
+    const IntervalVec2 at{intersection(turn.centre_m.x + (turn.sign * r) * c.y, {0.0, d}),
+                          intersection(turn.centre_m.y - (turn.sign * r) * c.x, {0.0, d})};  // (a)
+    if (at.x.empty() || at.y.empty()) continue;
+    leave.heading = c;
+    leave.aligned = true;
+    leave_straight(at, leave, turn.size, departures);
+  }
+}
+
+inline void turn_and_leave(const CellEntry& entry, const CellOrder& order, CellSize size, int sign,
+                           bool may_align, bool must_align, CellDepartures& departures) {
+  Turn turn{entry, order, size, sign, may_align, must_align, entry.centre_m};
+  if (entry.turn != sign) {
+    const double kr = sign * size.turn_radius_m;
+    turn.centre_m = {entry.position_m.x - kr * entry.heading.y,
+                     entry.position_m.y + kr * entry.heading.x};  // (a)
+  }
+  leave_turning(turn, departures);
+}
+
+}  // namespace cell_enclosure
+
+/// Every way in which a state of `entry` can leave the cell under `order`.
+inline CellDepartures enclose_departures(const CellEntry& entry, const CellOrder& order,
+                                         CellSize size) {
+  CellDepartures departures;
+  if (entry.heading.x.width() > 0.5 || entry.heading.y.width() > 0.5) {
+    departures.too_wide = true;
+    return departures;
+  }
+  if (!order.has_command || order.already_there) {
+    CellDeparture straight;
+    straight.heading = entry.heading;
+    straight.aligned = order.has_command;
+    cell_enclosure::leave_straight(entry.position_m, straight, size, departures);
+    return departures;
+  }
+  const Interval side = cross(entry.heading, order.heading);
+  const Interval ahead = dot(entry.heading, order.heading);
+  const bool near = ahead.hi > 0.0;
+  const bool sure = ahead.lo > 0.0;
+  if (side.positive() || side.negative()) {
+    cell_enclosure::turn_and_leave(entry, order, size, side.positive() ? 1 : -1, near, sure,
+                                   departures);
+  } else if (near && !sure) {
+    departures.too_wide = true;
+  } else {  // aligned, or opposite: each turn for the states that take it
+    cell_enclosure::turn_and_leave(entry, order, size, 1, near, sure, departures);
+    cell_enclosure::turn_and_leave(entry, order, size, -1, near, sure, departures);
+  }
+  return departures;
+}
+
+}  // namespace fairway

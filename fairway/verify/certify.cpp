@@ -1,0 +1,186 @@
+#include "fairway/verify/certify.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "fairway/base/parallel.hpp"
+#include "fairway/base/random.hpp"
+#include "fairway/verify/images.hpp"
+#include "fairway/verify/prover.hpp"
+
+namespace fairway {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto undecided = static_cast<std::uint8_t>(Verdict::undecided);
+
+/// The states that measure volumes: the same number in every cell that is neither obstacle nor
+/// target, one in each of equal slices of heading.
+std::vector<Place> sampled_states(const Flow& flow, const CertifyOptions& options) {
+  std::vector<Place> states;
+  std::size_t cells = 0;
+  for (std::size_t c = 0; c < flow.cells(); ++c) cells += flow.kind[c] == CellKind::ordinary;
+  if (cells == 0) return states;
+  const std::size_t each = std::max<std::size_t>(1, options.samples / cells);
+  states.reserve(each * cells);
+  for (std::size_t c = 0; c < flow.cells(); ++c) {
+    if (flow.kind[c] != CellKind::ordinary) continue;
+    Random random = Random::stream(options.seed, c);
+    const double d = flow.size.cell_m;
+    const double x = flow.x0_m + static_cast<double>(c % static_cast<std::size_t>(flow.nx)) * d;
+    const double y = flow.y0_m + static_cast<double>(c / static_cast<std::size_t>(flow.nx)) * d;
+    for (std::size_t k = 0; k < each; ++k) {
+      const double turn = (static_cast<double>(k) + random.unit()) / static_cast<double>(each);
+      states.push_back(
+          {x + random.unit() * d, y + random.unit() * d, std::numbers::pi * (1.0 - 2.0 * turn)});
+    }
+  }
+  return states;
+}
+
+/// The volumes, by looking up again the states not decided before.
+class VolumeMeter {
+ public:
+  VolumeMeter(const Flow& flow, const std::vector<bool>& is_free, const CertifyOptions& options)
+      : flow_(flow),
+        is_free_(is_free),
+        states_(sampled_states(flow, options)),
+        images_(state_images(flow, states_, options.most_crossings, [] { return true; })),
+        found_(states_.size()) {}
+
+  VolumeFractions measure(const Prover& prover) {
+    for_ranges(states_.size(), 4096, [&](std::size_t a, std::size_t b) {
+      for (std::size_t i = a; i < b; ++i) {
+        if (found_[i].only() != Verdict::undecided) continue;
+        const Image image = images_[i];
+        VerdictSet& found = found_[i] = image.ends;
+        if (image.gave_up) found.add(Verdict::undecided, 0.0);
+        for (const ImagePiece& piece : image.pieces) {
+          prover.look_up(piece.section, piece.range, static_cast<double>(piece.flown_s), found);
+        }
+      }
+    });
+    return fractions();
+  }
+  std::size_t bytes() const { return images_.bytes() + states_.size() * 40; }
+
+ private:
+  VolumeFractions fractions() const {
+    VolumeFractions volume;
+    volume.samples = states_.size();
+    const auto cells = static_cast<std::size_t>(
+        std::count(flow_.kind, flow_.kind + flow_.cells(), CellKind::ordinary));
+    const std::size_t each = cells == 0 ? 0 : states_.size() / cells;
+    std::size_t free_count = 0;
+    std::size_t i = 0;  // the states stand cell by cell, as they were drawn
+    for (std::size_t c = 0; c < flow_.cells(); ++c) {
+      if (flow_.kind[c] != CellKind::ordinary) continue;
+      for (std::size_t k = 0; k < each; ++k, ++i) {
+        const Verdict verdict = found_[i].only();
+        const auto v = static_cast<std::size_t>(verdict);
+        volume.all[v] += 1.0;
+        (is_free_[c] ? volume.free : volume.buffer)[v] += 1.0;
+        free_count += is_free_[c] ? 1 : 0;
+        if (verdict == Verdict::reach) {
+          volume.worst_time_s = std::max(volume.worst_time_s, found_[i].time_s);
+        }
+      }
+    }
+    const auto share = [](std::array<double, verdict_count>& counts, std::size_t of) {
+      for (double& count : counts) count = of == 0 ? 0.0 : count / static_cast<double>(of);
+    };
+    share(volume.all, states_.size());
+    share(volume.free, free_count);
+    share(volume.buffer, states_.size() - free_count);
+    return volume;
+  }
+
+  const Flow& flow_;
+  const std::vector<bool>& is_free_;
+  std::vector<Place> states_;
+  ImageStore images_;
+  std::vector<VerdictSet> found_;
+};
+
+}  // namespace
+
+const char* name_of(StoppedBy reason) {
+  switch (reason) {
+    case StoppedBy::undecided_max:
+      return "undecided_max";
+    case StoppedBy::time_limit:
+      return "time_limit";
+    case StoppedBy::memory_limit:
+      return "memory_limit";
+    case StoppedBy::last_level:
+      return "last_level";
+  }
+  return "";
+}
+
+SectionVerdicts undecided_sections(const Flow& flow, int level) {
+  SectionVerdicts sections;
+  const std::uint32_t step = std::uint32_t{1} << (32 - level);
+  sections.first.reserve(4 * flow.cells() + 1);
+  sections.first.push_back(0);
+  for (int iy = 0; iy < flow.ny; ++iy) {
+    for (int ix = 0; ix < flow.nx; ++ix) {
+      const float command = flow.heading_rad[flow.index(ix, iy)];
+      const bool flown = flow.kind_at(ix, iy) == CellKind::ordinary && !std::isnan(command);
+      const IntervalVec2 u = flown ? unit_enclosure(static_cast<double>(command)) : IntervalVec2{};
+      for (const Side side : {Side::right, Side::top, Side::left, Side::bottom}) {
+        if (flown && cell_enclosure::outward_part(u, side).positive() &&
+            flow.kind_at(ix + section_flight::step_x(side), iy + section_flight::step_y(side)) ==
+                CellKind::ordinary) {
+          for (std::uint32_t k = 0; k < std::uint32_t{1} << level; ++k) {
+            sections.begin.push_back(k * step);
+          }
+        }
+        sections.first.push_back(static_cast<std::uint32_t>(sections.begin.size()));
+      }
+    }
+  }
+  sections.rank.assign(sections.leaves(), 0);
+  sections.verdict.assign(sections.leaves(), undecided);
+  sections.time_s.assign(sections.leaves(), 0.0F);
+  return sections;
+}
+
+Certified certify(const Flow& flow, const std::vector<bool>& is_free, const CertifyOptions& options,
+                  SectionVerdicts start, const CertifyProgress& progress) {
+  const auto began = Clock::now();
+  const auto go_on = [&] {
+    return options.time_limit_s <= 0.0 ||
+           std::chrono::duration<double>(Clock::now() - began).count() < options.time_limit_s;
+  };
+  if (start.first.empty()) start = undecided_sections(flow, options.first_level);
+  VolumeMeter meter(flow, is_free, options);
+  Prover prover(flow, start, options.most_crossings, go_on);
+  Certified answer;
+  for (int level = options.first_level;; ++level) {
+    const double least_units = std::ldexp(1.0, 32 - level);
+    const bool settled = prover.settle(least_units);
+    answer.volume = meter.measure(prover);
+    answer.levels.push_back({level, prover.leaves(), prover.undecided(), answer.volume.all[0]});
+    if (progress) progress(answer.levels.back());
+    if (answer.volume.all[0] <= options.undecided_max) {
+      answer.stopped_by = StoppedBy::undecided_max;
+    } else if (!settled) {
+      answer.stopped_by = StoppedBy::time_limit;
+    } else if (options.memory_limit_bytes > 0 &&
+               2 * prover.bytes() + meter.bytes() > options.memory_limit_bytes) {
+      answer.stopped_by = StoppedBy::memory_limit;
+    } else if (level >= options.last_level) {
+      answer.stopped_by = StoppedBy::last_level;
+    } else {
+      continue;
+    }
+    answer.sections = prover.sections();
+    return answer;
+  }
+}
+
+}  // namespace fairway

@@ -1,0 +1,71 @@
+// The certified method: a proved verdict for all states, by proving the section
+// (section_flight.hpp) and refining what is left undecided.
+//
+// Properties that always hold:
+//   1. Every verdict is proved (docs/trust.md); more work only turns undecided into proved.
+//   2. The answer depends on the plan and the options alone, not on threads; a time limit is the
+//      one exception, and the answer says that it was what stopped the work.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fairway/verify/flow.hpp"
+#include "fairway/verify/section_verdicts.hpp"
+
+namespace fairway {
+
+struct CertifyOptions {
+  double undecided_max = 0.0005;       ///< of the configuration volume; stop there, [0, 1]
+  double time_limit_s = 0.0;           ///< 0: none
+  std::size_t memory_limit_bytes = 0;  ///< 0: none
+  std::size_t samples = 1000000;       ///< states that measure the volumes, at least one a cell
+  std::uint64_t seed = 1;
+  int most_crossings = 3000;  ///< of borders, in one flight to the section
+  int first_level = 2;        ///< a section begins as 2^first_level leaves
+  int last_level = 26;        ///< and no leaf is smaller than cell_m / 2^last_level
+};
+
+enum class StoppedBy : std::uint8_t { undecided_max, time_limit, memory_limit, last_level };
+const char* name_of(StoppedBy reason);
+
+/// Shares of the configuration volume by verdict, [Verdict]; each sums to 1, or to 0 when there is
+/// no such cell. Measured by proved queries of sampled states, the same number in every cell.
+struct VolumeFractions {
+  std::array<double, verdict_count> all{};     ///< cells neither obstacle nor target
+  std::array<double, verdict_count> free{};    ///< of these, the safe-start cells
+  std::array<double, verdict_count> buffer{};  ///< and those of the buffer
+  std::size_t samples = 0;
+  double worst_time_s = 0.0;  ///< largest bound of a sampled state proved to reach
+};
+
+struct LevelRecord {
+  int level = 0;              ///< no leaf is narrower than cell_m / 2^level
+  std::size_t leaves = 0;     ///< in all
+  std::size_t undecided = 0;  ///< of these
+  double undecided_volume = 0.0;
+};
+
+struct Certified {
+  SectionVerdicts sections;
+  VolumeFractions volume;
+  std::vector<LevelRecord> levels;
+  StoppedBy stopped_by = StoppedBy::undecided_max;
+};
+
+/// Called after every level.
+using CertifyProgress = std::function<void(const LevelRecord&)>;
+
+/// `is_free[cell]`: a safe-start cell (for the fractions alone). `start`: an earlier answer for the
+/// same flow to go on from, or empty.
+Certified certify(const Flow& flow, const std::vector<bool>& is_free, const CertifyOptions& options,
+                  SectionVerdicts start = {}, const CertifyProgress& progress = {});
+
+/// Sections of 2^level equal leaves, all undecided.
+SectionVerdicts undecided_sections(const Flow& flow, int level);
+
+}  // namespace fairway

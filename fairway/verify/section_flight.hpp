@@ -1,0 +1,295 @@
+// Flying a set of states until every one of them is accounted for.
+//
+// The section is the set of states in which the vehicle leaves an ordinary cell with the cell's own
+// command as its heading, exactly. It is one-dimensional, for heading alignment is exact and
+// finite, and almost every flight soon meets it: what a plan does with all states follows from what
+// it does with those of the section, plus one short flight.
+//
+// The flight is followed as an enclosure, cell by cell, and branches where the set does. What
+// becomes of the states is told to a visitor:
+//     void arrive(std::size_t section, Interval along_m, double length_m, bool hop)  on the section
+//     void end(Verdict, double length_m)      in a target or obstacle cell, outside, or circling
+//     void give_up()   too wide, too long or too many pieces to say; what was told is not all
+// length_m bounds what has been flown until then.
+//
+// Properties that always hold, when cell_m < turn_radius_m:
+//   1. Every state of the start meets one of the things told, with its place inside the interval
+//      told: no state is lost. Something is always told.
+//   2. On contact with a corner every cell around it is told of; heading along a border, both.
+//   3. `end(trapped)` is told only of states on a circle that comes back to the same border through
+//      the same cells without aligning: motion on a circle repeats.
+//   4. A `hop` is one wave of a weave: out over a border and back, on two arcs, to the section
+//   where
+//      the start stood. Both arcs depend on the command and the border's direction alone, so all
+//      states of the start were moved along the border by the same distance.
+// A section is named 4 * cell + side.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "fairway/vehicle/cell_enclosure.hpp"
+#include "fairway/verify/flow.hpp"
+#include "fairway/verify/verdict.hpp"
+
+namespace fairway {
+
+inline std::size_t section_of(std::size_t cell, Side side) {
+  return 4 * cell + static_cast<std::size_t>(side);
+}
+
+/// A set of states in one cell, with what its flight so far allows to conclude.
+struct Front {
+  static constexpr std::size_t nowhere = ~std::size_t{0};
+
+  int ix = 0;
+  int iy = 0;
+  CellEntry entry;
+  float heading_rad = NAN;  ///< the exact heading, when it is some cell's command
+  double length_m = 0.0;
+  /// Came off this section in the step before, ...
+  std::size_t came_off = nowhere;
+  /// ... or came back over the same border: the heading is its command, mirrored in the border.
+  std::size_t mirrored = nowhere;
+  /// The first border met on the present circle.
+  std::size_t circle_began = nowhere;
+  /// A wave over a border: the border left at its start, the place there, the length until there;
+  /// and whether the border was crossed back since. Every state of the set did the same.
+  std::size_t wave_began = nowhere;
+  Interval wave_along_m;
+  double wave_length_m = 0.0;
+  bool wave_half = false;
+  /// Runs along this side, straight, and so does the same set in the cell beyond it.
+  int grazed = -1;
+};
+
+namespace section_flight {
+
+inline int step_x(Side s) { return s == Side::right ? 1 : s == Side::left ? -1 : 0; }
+inline int step_y(Side s) { return s == Side::top ? 1 : s == Side::bottom ? -1 : 0; }
+inline Side opposite(Side s) { return static_cast<Side>((static_cast<int>(s) + 2) & 3); }
+
+/// The order of a cell for states whose heading is exactly `tag` (NaN: not known exactly).
+inline CellOrder order_for(float command, float tag) {
+  CellOrder order;
+  order.has_command = !std::isnan(command);
+  order.already_there = command == tag;
+  if (order.has_command) order.heading = unit_enclosure(static_cast<double>(command));
+  return order;
+}
+
+template <typename Visitor>
+class Follower {
+ public:
+  Follower(const Flow& flow, int most_crossings, Visitor& visitor)
+      : flow_(flow), most_crossings_(most_crossings), visitor_(visitor) {}
+
+  void push(const Front& front) {
+    if (count_ == most_fronts) {
+      gave_up_ = true;
+    } else {
+      fronts_[static_cast<std::size_t>(count_++)] = front;
+    }
+  }
+  void run() {
+    for (int crossings = 0; count_ > 0 && !gave_up_; ++crossings) {
+      const Front front = fronts_[static_cast<std::size_t>(--count_)];
+      gave_up_ = crossings == most_crossings_;
+      if (!gave_up_) cross(front);
+    }
+    if (gave_up_) visitor_.give_up();
+  }
+
+ private:
+  static constexpr int most_fronts = 16;
+
+  void cross(const Front& front) {
+    const std::size_t cell = flow_.index(front.ix, front.iy);
+    const float command = flow_.heading_rad[cell];
+    const CellOrder order = order_for(command, front.heading_rad);
+    const CellDepartures departures = enclose_departures(front.entry, order, flow_.size);
+    if (departures.too_wide || departures.count == 0) {
+      gave_up_ = true;
+      return;
+    }
+    for (const CellDeparture& leave : departures) {
+      if (leave.grazes && static_cast<int>(leave.side) == front.grazed) continue;
+      depart(front, cell, order.has_command ? (leave.aligned ? command : NAN) : front.heading_rad,
+             leave, departures.count == 1);
+    }
+  }
+
+  void depart(const Front& front, std::size_t cell, float tag, CellDeparture leave, bool sole) {
+    const std::size_t section = section_of(cell, leave.side);
+    // The mirror image of the command in the border, turned back to the border on a circle, is the
+    // command again, exactly there: to align and to leave are one event, told once.
+    if (front.mirrored == section && leave.aligned) return;
+    const bool hop = front.mirrored == section;
+    if (hop) {
+      tag = flow_.heading_rad[cell];
+      leave.aligned = true;
+      leave.turn = 0;
+    }
+    const double length_m = above(front.length_m + leave.length_m);
+    Front next;
+    next.ix = front.ix + step_x(leave.side);
+    next.iy = front.iy + step_y(leave.side);
+    next.entry.heading = leave.heading;
+    next.heading_rad = tag;
+    next.length_m = length_m;
+    corner(next, leave, front, leave.low_corner, -1);
+    corner(next, leave, front, leave.high_corner, +1);
+
+    const CellKind kind = flow_.kind_at(next.ix, next.iy);
+    if (kind != CellKind::ordinary) {
+      visitor_.end(verdict_of(kind), length_m);
+      return;
+    }
+    if (leave.grazes && turns_back(next, leave.heading, leave.side)) return;
+    if (leave.aligned && !leave.grazes) {
+      visitor_.arrive(section, leave.along_m, length_m, hop);
+      return;
+    }
+    if (leave.turn != 0) {
+      wave(front, cell, leave, sole, next);
+      const bool same_circle = front.entry.turn == leave.turn;
+      if (same_circle && front.circle_began == section) {
+        visitor_.end(Verdict::trapped, length_m);
+        return;
+      }
+      next.circle_began =
+          same_circle && front.circle_began != Front::nowhere ? front.circle_began : section;
+      next.entry.turn = leave.turn;
+      const double d = flow_.size.cell_m;
+      next.entry.centre_m =
+          leave.centre_m - IntervalVec2{step_x(leave.side) * d, step_y(leave.side) * d};
+      if (front.came_off != Front::nowhere &&
+          front.came_off == section_of(flow_.index(next.ix, next.iy), opposite(leave.side))) {
+        next.mirrored = front.came_off;
+      }
+    }
+    if (leave.grazes) next.grazed = static_cast<int>(opposite(leave.side));
+    const double line = cell_enclosure::is_far(leave.side) ? 0.0 : flow_.size.cell_m;
+    next.entry.position_m = cell_enclosure::from_parts(line, leave.along_m, leave.side);
+    push(next);
+  }
+
+  /// A weave over one border with two arcs a wave keeps its angle n to the border; each wave moves
+  /// every state on by 4 r sin n, and so will the next, as long as it lands between the same two
+  /// cells (nothing but the place along the border differs). Waves that are sure to are leapt over.
+  void wave(const Front& front, std::size_t cell, CellDeparture& leave, bool sole, Front& next) {
+    const std::size_t out = section_of(cell, leave.side);
+    const std::size_t back = section_of(flow_.index(next.ix, next.iy), opposite(leave.side));
+    if (sole && !front.wave_half && front.wave_began == back) {
+      next.wave_began = front.wave_began;
+      next.wave_along_m = front.wave_along_m;
+      next.wave_length_m = front.wave_length_m;
+      next.wave_half = true;
+      return;
+    }
+    if (sole && front.wave_half && front.wave_began == out) {
+      const double d = flow_.size.cell_m;
+      const Interval step =
+          (4.0 * flow_.size.turn_radius_m) *
+          intersection(cell_enclosure::outward_part(leave.heading, leave.side), {0.0, 1.0});
+      const Interval onwards = cell_enclosure::along(leave.heading, leave.side);
+      const double room = onwards.positive() ? d - leave.along_m.hi : leave.along_m.lo;
+      const double waves = std::floor(room / step.hi) - 2.0;
+      if ((onwards.positive() || onwards.negative()) && waves >= 1.0 && waves < 0x1p40) {
+        const Interval move = (onwards.positive() ? waves : -waves) * step;
+        leave.along_m = intersection(leave.along_m + move, {0.0, d});
+        const Side side = leave.side;
+        leave.centre_m =
+            cell_enclosure::from_parts(cell_enclosure::across(leave.centre_m, side),
+                                       cell_enclosure::along(leave.centre_m, side) + move, side);
+        next.length_m = above(next.length_m + above(waves * (next.length_m - front.wave_length_m)));
+      }
+      return;
+    }
+    next.wave_began = out;
+    next.wave_along_m = leave.along_m;
+    next.wave_length_m = next.length_m;
+  }
+
+  /// The states that leave through the corner at the low (-1) or high (+1) end of the side touch
+  /// two more cells: the one beside the cell left, and the one across the corner, which they enter.
+  void corner(Front next, const CellDeparture& leave, const Front& front, bool there, int end) {
+    if (!there) return;
+    const Interval onwards = cell_enclosure::along(leave.heading, leave.side);
+    if (end > 0 ? onwards.negative() : onwards.positive()) return;
+    const bool vertical = cell_enclosure::is_vertical(leave.side);
+    const int beside_x = front.ix + (vertical ? 0 : end);
+    const int beside_y = front.iy + (vertical ? end : 0);
+    next.ix += vertical ? 0 : end;
+    next.iy += vertical ? end : 0;
+    for (const CellKind kind :
+         {flow_.kind_at(beside_x, beside_y), flow_.kind_at(next.ix, next.iy)}) {
+      if (kind != CellKind::ordinary) visitor_.end(verdict_of(kind), next.length_m);
+    }
+    if (flow_.kind_at(next.ix, next.iy) != CellKind::ordinary) return;
+    if (turns_back(next, leave.heading, towards(vertical, end))) return;
+    const double d = flow_.size.cell_m;
+    const double line = cell_enclosure::is_far(leave.side) ? 0.0 : d;
+    next.entry.position_m = cell_enclosure::from_parts(line, end > 0 ? 0.0 : d, leave.side);
+    push(next);
+  }
+
+  /// Heading exactly along the side through which they would enter, towards a cell whose command
+  /// turns out of it again: no motion is in that cell for any time.
+  bool turns_back(const Front& next, const IntervalVec2& heading, Side side) const {
+    const Interval into = cell_enclosure::outward_part(heading, side);
+    if (into.lo != 0.0 || into.hi != 0.0) return false;
+    const float command = flow_.heading_rad[flow_.index(next.ix, next.iy)];
+    return !std::isnan(command) &&
+           cell_enclosure::outward_part(unit_enclosure(static_cast<double>(command)), side)
+               .negative();
+  }
+  static Side towards(bool vertical, int end) {
+    return vertical ? (end > 0 ? Side::top : Side::bottom) : (end > 0 ? Side::right : Side::left);
+  }
+
+  static Verdict verdict_of(CellKind kind) {
+    return kind == CellKind::target     ? Verdict::reach
+           : kind == CellKind::obstacle ? Verdict::collide
+                                        : Verdict::leave;
+  }
+
+  const Flow& flow_;
+  int most_crossings_;
+  Visitor& visitor_;
+  std::array<Front, most_fronts> fronts_;
+  int count_ = 0;
+  bool gave_up_ = false;
+};
+
+}  // namespace section_flight
+
+/// Follows `start` in an ordinary cell through at most `most_crossings` cells, branches counted.
+template <typename Visitor>
+void follow_to_section(const Flow& flow, const Front& start, int most_crossings, Visitor& visitor) {
+  section_flight::Follower<Visitor> follower(flow, most_crossings, visitor);
+  follower.push(start);
+  follower.run();
+}
+
+/// The states of the section `4 * cell + side` whose place along the side is in `along_m`, on their
+/// way into the next cell, which is ordinary.
+inline Front front_of_section(const Flow& flow, std::size_t section, Interval along_m) {
+  const std::size_t cell = section / 4;
+  const Side side = static_cast<Side>(section % 4);
+  Front front;
+  front.ix =
+      static_cast<int>(cell % static_cast<std::size_t>(flow.nx)) + section_flight::step_x(side);
+  front.iy =
+      static_cast<int>(cell / static_cast<std::size_t>(flow.nx)) + section_flight::step_y(side);
+  const double line = cell_enclosure::is_far(side) ? 0.0 : flow.size.cell_m;
+  front.entry.position_m = cell_enclosure::from_parts(line, along_m, side);
+  front.heading_rad = flow.heading_rad[cell];
+  front.entry.heading = unit_enclosure(static_cast<double>(front.heading_rad));
+  front.came_off = section;
+  return front;
+}
+
+}  // namespace fairway

@@ -1,0 +1,95 @@
+// What is proved of the section (section_flight.hpp): every section is cut into leaves, and a leaf
+// has one verdict. A view: it owns nothing, so that it can look into a mapped file.
+//
+// Places along a side are counted in units of cell_m / 2^32. A leaf holds every place from its
+// begin to the next leaf's begin (or the side's end), both ends included.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "fairway/base/interval.hpp"
+#include "fairway/verify/verdict.hpp"
+
+namespace fairway {
+
+inline constexpr double units_per_side = 0x1p32;
+
+/// A range of places in whole units, both ends included; wide enough for the interval it came from
+/// and one unit more on either side, so that other arithmetic finds the same leaves.
+struct UnitRange {
+  std::uint32_t lo = 0;
+  std::uint32_t hi = 0;
+};
+inline UnitRange units_of(Interval along_m, double cell_m) {
+  const auto clamped = [](double units) {
+    return static_cast<std::uint32_t>(units < 0.0                    ? 0.0
+                                      : units > units_per_side - 1.0 ? units_per_side - 1.0
+                                                                     : units);
+  };
+  const double scale = units_per_side / cell_m;
+  return {clamped(std::floor(along_m.lo * scale) - 1.0),
+          clamped(std::ceil(along_m.hi * scale) + 1.0)};
+}
+/// The places of a range, as an interval that holds them and a unit more either side. The last
+/// unit of a side stands for the side's end.
+inline Interval along_of(UnitRange range, double cell_m) {
+  const double unit_m = cell_m / units_per_side;
+  const bool to_end = range.hi == 0xffffffffU;
+  return {
+      std::max(0.0, below((static_cast<double>(range.lo) - 1.0) * unit_m)),
+      to_end ? cell_m : std::min(cell_m, above((static_cast<double>(range.hi) + 1.0) * unit_m))};
+}
+
+/// A set of verdicts, and the longest time to any of them.
+struct VerdictSet {
+  std::uint8_t bits = 0;
+  double time_s = 0.0;
+
+  void add(Verdict verdict, double t_s) {
+    bits = static_cast<std::uint8_t>(bits | 1U << static_cast<unsigned>(verdict));
+    if (t_s > time_s) time_s = t_s;
+  }
+  /// The one verdict of all; undecided when there are several, or none.
+  Verdict only() const {
+    for (int v = 1; v < verdict_count; ++v) {
+      if (bits == 1U << static_cast<unsigned>(v)) return static_cast<Verdict>(v);
+    }
+    return Verdict::undecided;
+  }
+};
+
+struct SectionView {
+  const std::uint32_t* first = nullptr;   ///< [4 cells + 1]: a section's leaves begin here
+  const std::uint32_t* begin = nullptr;   ///< [leaves], units; ascending in a section, from 0
+  const std::uint8_t* verdict = nullptr;  ///< [leaves]
+  const float* time_s = nullptr;          ///< [leaves], bound of the time to the verdict
+
+  /// Calls with each leaf that `range` of the section touches; false when it has no leaves.
+  template <typename Body>
+  bool for_leaves(std::size_t section, UnitRange range, const Body& body) const {
+    std::size_t low = first[section];
+    const std::size_t end = first[section + 1];
+    if (low == end) return false;
+    for (std::size_t count = end - low; count > 1;) {  // the last leaf that begins at or before
+      const std::size_t half = count / 2;
+      if (begin[low + half] <= range.lo) low += half;
+      count -= half;
+    }
+    // A place on the seam of two leaves belongs to both.
+    if (low > first[section] && begin[low] == range.lo) --low;
+    for (std::size_t i = low; i < end && begin[i] <= range.hi; ++i) body(i);
+    return true;
+  }
+
+  void look_up(std::size_t section, UnitRange range, double flown_s, VerdictSet& found) const {
+    const bool any = for_leaves(section, range, [&](std::size_t leaf) {
+      found.add(static_cast<Verdict>(verdict[leaf]),
+                above(flown_s + static_cast<double>(time_s[leaf])));
+    });
+    if (!any) found.add(Verdict::undecided, 0.0);
+  }
+};
+
+}  // namespace fairway

@@ -1,0 +1,79 @@
+// A flight from any state of the configuration space to the section.
+//
+// Properties that always hold: those of section_flight.hpp; and a state on a border, exactly or
+// within rounding, is followed in every cell it may belong to: the one its heading points into,
+// both when it may run along the border. Contact with a closed obstacle cell is told as `collide`.
+#pragma once
+
+#include <cmath>
+
+#include "fairway/base/interval.hpp"
+#include "fairway/verify/section_flight.hpp"
+
+namespace fairway {
+
+namespace state_flight {
+
+/// The sum, the double itself when it is exact (Knuth's two-sum).
+inline Interval sum(double a, double b) {
+  const double s = a + b;
+  const double t = s - a;
+  const double error = (a - (s - t)) + (b - t);
+  return error == 0.0 ? Interval(s) : outward(s, s);
+}
+
+/// Places `cell` cells after `origin` may have on an axis.
+inline Interval border(double origin, int cell, double cell_m) {
+  const double product = cell * cell_m;
+  const bool exact = std::fma(static_cast<double>(cell), cell_m, -product) == 0.0;
+  return exact ? sum(origin, product) : Interval(origin) + outward(product, product);
+}
+
+/// `position` in the coordinates of `cell` along one axis.
+inline Interval local(double position, double origin, int cell, double cell_m) {
+  const Interval at = border(origin, cell, cell_m);
+  return at.lo == at.hi ? sum(position, -at.lo) : Interval(position) - at;
+}
+
+/// False when a state at `p`, exactly on a side of the cell, heads out of it: another's state.
+inline bool belongs(Interval p, Interval u, double cell_m) {
+  const bool on_low = p.lo == 0.0 && p.hi == 0.0;
+  const bool on_high = p.lo == cell_m && p.hi == cell_m;
+  return !(on_low && u.negative()) && !(on_high && u.positive());
+}
+
+}  // namespace state_flight
+
+/// Follows the state (x_m, y_m, heading_rad), any finite numbers, within 2^30 cells of the grid.
+template <typename Visitor>
+void follow_state(const Flow& flow, double x_m, double y_m, double heading_rad, int most_crossings,
+                  Visitor& visitor) {
+  const double d = flow.size.cell_m;
+  const IntervalVec2 u = unit_enclosure(heading_rad);
+  const int cx = static_cast<int>(std::floor((x_m - flow.x0_m) / d));
+  const int cy = static_cast<int>(std::floor((y_m - flow.y0_m) / d));
+  for (int iy = cy - 1; iy <= cy + 1; ++iy) {
+    const Interval y = state_flight::local(y_m, flow.y0_m, iy, d);
+    if (intersection(y, {0.0, d}).empty()) continue;
+    for (int ix = cx - 1; ix <= cx + 1; ++ix) {
+      const Interval x = state_flight::local(x_m, flow.x0_m, ix, d);
+      if (intersection(x, {0.0, d}).empty()) continue;
+      const CellKind kind = flow.kind_at(ix, iy);
+      if (kind == CellKind::obstacle) visitor.end(Verdict::collide, 0.0);
+      if (!state_flight::belongs(x, u.x, d) || !state_flight::belongs(y, u.y, d)) continue;
+      if (kind == CellKind::target) visitor.end(Verdict::reach, 0.0);
+      if (kind == CellKind::outside) visitor.end(Verdict::leave, 0.0);
+      if (kind != CellKind::ordinary) continue;
+      Front front;
+      front.ix = ix;
+      front.iy = iy;
+      front.entry.position_m = {intersection(x, {0.0, d}), intersection(y, {0.0, d})};
+      front.entry.heading = u;
+      const float tag = static_cast<float>(heading_rad);
+      if (static_cast<double>(tag) == heading_rad) front.heading_rad = tag;
+      follow_to_section(flow, front, most_crossings, visitor);
+    }
+  }
+}
+
+}  // namespace fairway
