@@ -7,7 +7,8 @@ import pathlib
 import re
 import sys
 
-STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "verify", "report", "run", "app"]
+STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "verify", "certificate", "report", "run",
+          "app"]
 TOOLBOXES = {"base", "vehicle"}
 JOINERS = {"run", "app"}
 NOUNS = {
@@ -17,6 +18,7 @@ NOUNS = {
     "simulate": {"flight.hpp"},
     "verify": {"border_bitmap.hpp", "verdict.hpp", "flow.hpp", "section_view.hpp",
                "section_verdicts.hpp"},
+    "certificate": {"certificate.hpp"},
     "report": {"picture.hpp"},
 }
 # Libraries that must stay out of the core, and the folders that may name them.

@@ -27,6 +27,10 @@ constexpr Command commands[] = {
     {"plan", "the feedback plan alone", declare_plan},
     {"simulate", "flights under a plan: exact, or by a sampled control law in noise and wind",
      declare_simulate},
+    {"verify", "which states reach the goal: a proof for all of them, and its certificate",
+     declare_verify},
+    {"query", "what a certificate says of a state", declare_query},
+    {"check", "re-prove a certificate with a separate program", declare_check},
 };
 
 /// Ctrl-C and friends must leave nothing half-written: they are taken by a thread of their own,

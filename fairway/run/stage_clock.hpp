@@ -20,11 +20,14 @@ class StageClock {
   void begin(const std::string& stage, double left_s) {
     end();
     stage_ = stage;
+    told_.clear();
     begin_ = Clock::now();
     tell(left_s);
   }
+  /// Another name for the stage under way, as it is told; its time is kept under the old one.
+  void rename(std::string told) { told_ = std::move(told); }
   void tell(double left_s) const {
-    if (progress_) progress_(stage_, left_s);
+    if (progress_) progress_(told_.empty() ? stage_ : told_, left_s);
   }
   /// Of the stage that is under way.
   double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
@@ -47,6 +50,7 @@ class StageClock {
   using Clock = std::chrono::steady_clock;
   const Progress& progress_;
   std::string stage_;
+  std::string told_;
   Clock::time_point begin_;
   std::vector<std::pair<std::string, double>> stages_;
 };

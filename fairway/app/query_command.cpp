@@ -1,0 +1,118 @@
+// fairway query: what a certificate says of a state.
+#include <filesystem>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "fairway/app/argument_checks.hpp"
+#include "fairway/app/command.hpp"
+#include "fairway/base/error.hpp"
+#include "fairway/base/mapped_file.hpp"
+#include "fairway/base/parallel.hpp"
+#include "fairway/certificate/certificate_file.hpp"
+#include "fairway/runtime.hpp"
+#include "fairway/simulate/state_files.hpp"
+
+namespace fairway {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct QueryArguments {
+  fs::path certificate;
+  std::vector<std::string> states;
+  std::string states_file;
+  bool trust_file = false;
+};
+
+std::vector<State> states_of(const QueryArguments& a) {
+  std::vector<State> states;
+  for (const std::string& text : a.states) states.push_back(state_of_argument(text));
+  if (a.states_file == "-") {
+    const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
+    for (const State& s : states_of_csv(text, "standard input")) states.push_back(s);
+  } else if (!a.states_file.empty()) {
+    for (const State& s : read_states(a.states_file)) states.push_back(s);
+  }
+  return states;
+}
+
+int query_command(const QueryArguments& a, const Session& session) {
+  // Reading it whole checks digests and order; the answers then come from the mapped file.
+  if (!a.trust_file) static_cast<void>(read_certificate(a.certificate));
+  const MappedFile file(a.certificate);
+  runtime::Certificate certificate;
+  if (certificate.open(file.bytes().data(), file.bytes().size()) != runtime::Status::ok) {
+    throw InputError(a.certificate.string(), "is not a certificate");
+  }
+  const std::vector<State> states = states_of(a);
+  std::vector<runtime::Answer> answers(states.size());
+  for_ranges(states.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const State& s = states[i];
+      answers[i] = certificate.query(s.position_m.x, s.position_m.y, s.heading.rad());
+    }
+  });
+  if (session.json) {
+    json all = json::array();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const bool reaches = answers[i].verdict == Verdict::reach;
+      all.push_back({{"x_m", states[i].position_m.x},
+                     {"y_m", states[i].position_m.y},
+                     {"heading_rad", states[i].heading.rad()},
+                     {"verdict", name_of(answers[i].verdict)},
+                     {"time_bound_s", reaches ? json(answers[i].time_bound_s) : json()}});
+    }
+    session.tell({{"certificate", a.certificate.string()}, {"states", std::move(all)}}, "");
+    return exit_done;
+  }
+  fmt::memory_buffer text;
+  fmt::format_to(std::back_inserter(text), "x_m,y_m,heading_rad,verdict,time_bound_s\n");
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},", states[i].position_m.x,
+                   states[i].position_m.y, states[i].heading.rad(), name_of(answers[i].verdict));
+    if (answers[i].verdict == Verdict::reach) {
+      fmt::format_to(std::back_inserter(text), "{}", answers[i].time_bound_s);
+    }
+    text.push_back('\n');
+  }
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return exit_done;
+}
+
+}  // namespace
+
+Action declare_query(CLI::App& options) {
+  auto arguments = std::make_shared<QueryArguments>();
+  QueryArguments& a = *arguments;
+  options.add_option("certificate", a.certificate, "the certificate")
+      ->required()
+      ->type_name("CERT");
+  options
+      .add_option("--state", a.states,
+                  "a state: metres, and radians or degrees with the suffix deg; may be repeated")
+      ->type_name("X,Y,H")
+      ->check(state_argument())
+      ->allow_extra_args(false)
+      ->delimiter('\0');
+  options
+      .add_option("--states", a.states_file,
+                  "states from a CSV file, x_m,y_m,heading_rad; - for standard input")
+      ->type_name("CSV");
+  options.add_flag("--trust-file", a.trust_file,
+                   "do not check digests first: faster for a few states of a large certificate");
+  options.final_callback([&a] {
+    if (a.states.empty() && a.states_file.empty()) throw CLI::RequiredError("--state or --states");
+  });
+  options.footer(
+      "Prints CSV x_m,y_m,heading_rad,verdict,time_bound_s (the bound for reach, else empty).\n"
+      "Example: fairway query demo.cert.safetensors --state 100,100,90deg");
+  return [arguments](const Session& session) { return query_command(*arguments, session); };
+}
+
+}  // namespace fairway

@@ -1,0 +1,189 @@
+// fairway verify: which states reach, and a certificate of it.
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "fairway/app/argument_checks.hpp"
+#include "fairway/app/command.hpp"
+#include "fairway/app/terminal_progress.hpp"
+#include "fairway/base/error.hpp"
+#include "fairway/certificate/certificate_file.hpp"
+#include "fairway/plan/plan_file.hpp"
+#include "fairway/run/summary.hpp"
+#include "fairway/run/verification.hpp"
+
+namespace fairway {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct VerifyArguments {
+  fs::path plan;
+  fs::path output;
+  fs::path resume;
+  fs::path failures;
+  fs::path summary;
+  std::string method = "certified";
+  std::string region = "goal";
+  CertifyOptions options;
+  double memory_limit_mb = 0.0;
+  int samples_per_border = 200;
+};
+
+RegionOfInterest region_of_text(const std::string& text) {
+  RegionOfInterest region;
+  if (text == "goal") return region;
+  region.kind = RegionOfInterest::Kind::obstacle;
+  if (text == "obstacle") return region;
+  region.kind = RegionOfInterest::Kind::rectangle;
+  const std::vector<std::string> parts = CLI::detail::split(text, ',');
+  for (std::size_t i = 0; i < 4 && i < parts.size(); ++i) {
+    if (!CLI::detail::lexical_cast(parts[i], region.rectangle_m[i])) break;
+  }
+  return region;
+}
+
+CLI::Validator region_argument() {
+  const auto check = [](const std::string& text) -> std::string {
+    if (text == "goal" || text == "obstacle") return {};
+    const std::vector<std::string> parts = CLI::detail::split(text, ',');
+    std::array<double, 4> r{};
+    bool fits = parts.size() == 4;
+    for (std::size_t i = 0; fits && i < 4; ++i) {
+      fits = CLI::detail::lexical_cast(parts[i], r[i]) && std::isfinite(r[i]);
+    }
+    if (fits && r[0] < r[2] && r[1] < r[3]) return {};
+    return "expected goal, obstacle, or X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1, found " + text;
+  };
+  return {check, "", "region"};
+}
+
+/// Beside the certificate, under its own name when there is a summary of something else.
+fs::path summary_place(const VerifyArguments& a) {
+  if (!a.summary.empty()) return a.summary;
+  return a.output.parent_path() / (a.output.stem().string() + ".summary.json");
+}
+
+int verify_command(VerifyArguments a, const Session& session) {
+  const fs::path summary_file = summary_place(a);
+  require_writable_place(a.output, session.existing());
+  require_writable_place(summary_file, session.existing());
+  if (!a.failures.empty()) require_writable_place(a.failures, session.existing());
+  a.options.memory_limit_bytes = static_cast<std::size_t>(a.memory_limit_mb * 1e6);
+  const RegionOfInterest region = region_of_text(a.region);
+
+  std::optional<TerminalProgress> terminal(std::in_place, session.quiet);
+  const Progress progress = terminal->progress();
+  StageClock clock(progress);
+  clock.begin("reading the plan", unknown_time);
+  const Plan plan = read_plan(a.plan);
+  json summary;
+  std::string words;
+  if (a.method == "bitmap") {
+    clock.begin("verifying", unknown_time);
+    summary = write_bitmap(plan, region, a.samples_per_border, a.options.seed, a.output,
+                           session.existing());
+    clock.end();
+    words = fmt::format(
+        "From {:.3f} % of the states the region is reached, as samples of the borders have it: "
+        "evidence, not a proof.",
+        100.0 * summary["estimated_reach"].get<double>());
+  } else {
+    std::optional<Certificate> earlier;
+    if (!a.resume.empty()) earlier = read_certificate(a.resume);
+    clock.begin("verifying", unknown_time);
+    const Verification made =
+        verify_plan(plan, a.plan.string(), region, a.options, std::move(earlier), clock);
+    clock.begin("writing the certificate", unknown_time);
+    write_certificate(made.certificate, a.output, session.existing());
+    if (!a.failures.empty()) {
+      write_whole(a.failures, session.existing(), failing_states_csv(made, 100, a.options.seed));
+    }
+    clock.end();
+    summary = made.summary;
+    words = verification_words(made);
+  }
+  terminal.reset();
+  summary["plan"] = a.plan.string();
+  summary["certificate"] = a.output.string();
+  summary["region"] = a.region;
+  add_cost(summary, clock);
+  write_whole(summary_file, session.existing(), summary.dump(2) + "\n");
+  session.tell(summary, fmt::format("{} {}\nThe certificate is {}, in numbers {}.", words,
+                                    cost_words(summary), a.output.string(), summary_file.string()));
+  return exit_done;
+}
+
+}  // namespace
+
+Action declare_verify(CLI::App& options) {
+  auto arguments = std::make_shared<VerifyArguments>();
+  VerifyArguments& a = *arguments;
+  options.add_option("plan", a.plan, "the plan file")->required()->type_name("PLAN");
+  options.add_option("-o,--output", a.output, "the certificate to write")
+      ->required()
+      ->type_name("CERT.safetensors");
+  options
+      .add_option("--method", a.method,
+                  "certified: a proof; bitmap: the paper's, on samples of the borders, a picture")
+      ->check(CLI::IsMember({"certified", "bitmap"}))
+      ->type_name("METHOD")
+      ->capture_default_str();
+  options
+      .add_option("--region", a.region,
+                  "what is to be reached: goal, obstacle, or the cells wholly inside X0,Y0,X1,Y1")
+      ->check(region_argument())
+      ->type_name("REGION")
+      ->capture_default_str();
+  options
+      .add_option("--undecided-max", a.options.undecided_max,
+                  "stop once this share of the volume is undecided")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("F")
+      ->capture_default_str();
+  options.add_option("--time-limit", a.options.time_limit_s, "stop after this time, seconds")
+      ->check(finite_above(0.0))
+      ->type_name("S");
+  options.add_option("--memory-limit", a.memory_limit_mb, "stop before using more, megabytes")
+      ->check(finite_above(0.0))
+      ->type_name("MB");
+  options.add_option("--resume", a.resume, "go on from an earlier certificate of the same plan")
+      ->type_name("CERT");
+  options
+      .add_option("--failures", a.failures,
+                  "write states that fail or are undecided, for fairway simulate --states")
+      ->type_name("CSV");
+  options
+      .add_option("--summary", a.summary,
+                  "where to write the numbers (default: beside the certificate, .summary.json)")
+      ->type_name("JSON");
+  options
+      .add_option("--volume-samples", a.options.samples,
+                  "states that measure the volumes, at least one a cell")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}))
+      ->type_name("N")
+      ->capture_default_str();
+  options.add_option("--seed", a.options.seed, "of these")->type_name("S")->capture_default_str();
+  options
+      .add_option("--border-samples", a.samples_per_border,
+                  "bitmap: places and headings on a border, a multiple of four")
+      ->check(CLI::Range(4, 4000))
+      ->type_name("M")
+      ->capture_default_str();
+  options.final_callback([&a] {
+    if (a.samples_per_border % 4 != 0) {
+      throw CLI::ValidationError("--border-samples", "expected a multiple of four");
+    }
+    if (a.method == "bitmap" && (!a.resume.empty() || !a.failures.empty())) {
+      throw CLI::ValidationError("--method bitmap", "has no --resume and no --failures");
+    }
+  });
+  options.footer("Example: fairway verify out/demo/plan.safetensors -o demo.cert.safetensors");
+  return [arguments](const Session& session) { return verify_command(*arguments, session); };
+}
+
+}  // namespace fairway

@@ -1,0 +1,245 @@
+#include "fairway/certificate/certificate_file.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <span>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "fairway/base/digest.hpp"
+#include "fairway/base/error.hpp"
+#include "fairway/base/mapped_file.hpp"
+#include "fairway/base/parallel.hpp"
+#include "fairway/base/safetensors.hpp"
+#include "fairway/base/strict_json.hpp"
+
+namespace fairway {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* format_name = "fairway-certificate";
+constexpr int format_version = 1;
+
+std::array<double, 6> geometry_of(const Certificate& c) {
+  return {c.grid.x0_m,         c.grid.y0_m,   c.grid.cell_m, c.vehicle.turn_radius_m,
+          c.vehicle.speed_mps, units_per_side};
+}
+
+/// Wide types first, so that every array is aligned.
+std::vector<Tensor> tensors_of(const Certificate& c, const std::array<double, 6>& geometry) {
+  const std::vector<std::uint64_t> cells{static_cast<std::uint64_t>(c.grid.ny),
+                                         static_cast<std::uint64_t>(c.grid.nx)};
+  const std::vector<std::uint64_t> leaves{c.sections.leaves()};
+  const auto bytes = [](const auto& array) { return std::as_bytes(std::span(array)); };
+  return {{"geometry", "F64", {6}, bytes(geometry)},
+          {"heading_rad", "F32", cells, bytes(c.heading_rad)},
+          {"section_first", "U32", {c.sections.first.size()}, bytes(c.sections.first)},
+          {"leaf_begin", "U32", leaves, bytes(c.sections.begin)},
+          {"leaf_rank", "U32", leaves, bytes(c.sections.rank)},
+          {"leaf_time_s", "F32", leaves, bytes(c.sections.time_s)},
+          {"region", "I8", cells, bytes(c.region)},
+          {"cell_kind", "U8", cells, bytes(c.kind)},
+          {"leaf_verdict", "U8", leaves, bytes(c.sections.verdict)}};
+}
+
+json digests_of(const std::vector<Tensor>& tensors) {
+  std::vector<std::string> digest(tensors.size());
+  for_ranges(tensors.size(), 1, [&](std::size_t a, std::size_t b) {
+    for (std::size_t i = a; i < b; ++i) digest[i] = sha256_hex(tensors[i].data);
+  });
+  json all = json::object();
+  for (std::size_t i = 0; i < tensors.size(); ++i) all[tensors[i].name] = digest[i];
+  return all;
+}
+
+json json_of(const RegionOfInterest& region) {
+  switch (region.kind) {
+    case RegionOfInterest::Kind::goal:
+      return "goal";
+    case RegionOfInterest::Kind::obstacle:
+      return "obstacle";
+    case RegionOfInterest::Kind::rectangle:
+      return region.rectangle_m;
+  }
+  return {};
+}
+
+RegionOfInterest region_of(const json& value, const std::string& where) {
+  RegionOfInterest region;
+  if (value == "goal") return region;
+  region.kind = RegionOfInterest::Kind::obstacle;
+  if (value == "obstacle") return region;
+  region.kind = RegionOfInterest::Kind::rectangle;
+  if (!value.is_array() || value.size() != 4) {
+    throw InputError(where, "expected \"goal\", \"obstacle\" or [x0, y0, x1, y1]");
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!value[i].is_number()) throw InputError(where, "expected four numbers");
+    region.rectangle_m[i] = value[i].get<double>();
+  }
+  return region;
+}
+
+/// The array `name` of `file`, of this type and shape (0: any extent).
+template <typename T>
+std::vector<T> array_of(const Safetensors& file, const char* name, const char* dtype,
+                        const std::vector<std::uint64_t>& shape, const std::string& where) {
+  for (const Tensor& tensor : file.tensors) {
+    if (tensor.name != name) continue;
+    const std::string place = fmt::format("{}: \"{}\"", where, name);
+    if (tensor.dtype != dtype) {
+      throw InputError(place + ".dtype", fmt::format("is {}, expected {}", tensor.dtype, dtype));
+    }
+    bool fits = tensor.shape.size() == shape.size();
+    for (std::size_t i = 0; fits && i < shape.size(); ++i) {
+      fits = shape[i] == 0 ? tensor.shape[i] <= 0x7fffffff : tensor.shape[i] == shape[i];
+    }
+    if (!fits) throw InputError(place + ".shape", "does not fit the other arrays");
+    std::vector<T> values(tensor.data.size() / sizeof(T));
+    std::memcpy(values.data(), tensor.data.data(), values.size() * sizeof(T));
+    return values;
+  }
+  throw InputError(where, fmt::format("is not a certificate: lacks the array \"{}\"", name));
+}
+
+void take_cells(const Safetensors& file, const std::string& where, Certificate& c) {
+  for (const Tensor& tensor : file.tensors) {
+    if (tensor.name != "heading_rad" || tensor.shape.size() != 2) continue;
+    for (const std::uint64_t extent : tensor.shape) {
+      if (extent < 1 || extent > 0x7fffffff) {
+        throw InputError(where + ": \"heading_rad\".shape", "expected [ny, nx]");
+      }
+    }
+    c.grid.ny = static_cast<int>(tensor.shape[0]);
+    c.grid.nx = static_cast<int>(tensor.shape[1]);
+  }
+  const std::vector<std::uint64_t> cells{static_cast<std::uint64_t>(c.grid.ny),
+                                         static_cast<std::uint64_t>(c.grid.nx)};
+  c.heading_rad = array_of<float>(file, "heading_rad", "F32", cells, where);
+  c.region = array_of<Region>(file, "region", "I8", cells, where);
+  c.kind = array_of<CellKind>(file, "cell_kind", "U8", cells, where);
+  const auto g = array_of<double>(file, "geometry", "F64", {6}, where);
+  c.grid.x0_m = g[0];
+  c.grid.y0_m = g[1];
+  c.grid.cell_m = g[2];
+  c.vehicle.turn_radius_m = g[3];
+  c.vehicle.speed_mps = g[4];
+  const bool finite = std::isfinite(g[0]) && std::isfinite(g[1]) && std::isfinite(g[3]) &&
+                      std::isfinite(g[4]) && g[5] == units_per_side;
+  if (!finite || !(g[2] > 0.0 && g[3] > g[2] && g[4] > 0.0)) {
+    throw InputError(where + ": \"geometry\"",
+                     "expected finite numbers, 0 < cell_m < turn_radius_m, speed_mps > 0, 2^32");
+  }
+}
+
+void take_sections(const Safetensors& file, const std::string& where, Certificate& c) {
+  SectionVerdicts& s = c.sections;
+  s.first = array_of<std::uint32_t>(file, "section_first", "U32", {4 * c.grid.size() + 1}, where);
+  s.begin = array_of<std::uint32_t>(file, "leaf_begin", "U32", {0}, where);
+  const std::vector<std::uint64_t> leaves{s.begin.size()};
+  s.rank = array_of<std::uint32_t>(file, "leaf_rank", "U32", leaves, where);
+  s.time_s = array_of<float>(file, "leaf_time_s", "F32", leaves, where);
+  s.verdict = array_of<std::uint8_t>(file, "leaf_verdict", "U8", leaves, where);
+  bool fits = s.first.front() == 0 && s.first.back() == s.begin.size();
+  for (std::size_t i = 0; fits && i + 1 < s.first.size(); ++i) {
+    fits =
+        s.first[i] <= s.first[i + 1] && (s.first[i] == s.first[i + 1] || s.begin[s.first[i]] == 0);
+    for (std::size_t k = s.first[i] + 1; fits && k < s.first[i + 1]; ++k) {
+      fits = s.begin[k - 1] < s.begin[k];
+    }
+  }
+  for (std::size_t k = 0; fits && k < s.leaves(); ++k) {
+    fits = s.verdict[k] < verdict_count && s.time_s[k] >= 0.0F;
+  }
+  if (!fits) throw InputError(where, "has leaves that are out of order or out of range");
+}
+
+}  // namespace
+
+std::vector<CellKind> cell_kinds(const Grid& grid, const std::vector<Region>& region,
+                                 const RegionOfInterest& interest) {
+  using Of = RegionOfInterest::Kind;
+  std::vector<CellKind> kind(grid.size(), CellKind::ordinary);
+  const auto& [x0, y0, x1, y1] = interest.rectangle_m;
+  for (std::size_t i = 0; i < kind.size(); ++i) {
+    if (region[i] == Region::obstacle) {
+      kind[i] = interest.kind == Of::obstacle ? CellKind::target : CellKind::obstacle;
+    } else if (interest.kind == Of::goal) {
+      if (region[i] == Region::goal) kind[i] = CellKind::target;
+    } else if (interest.kind == Of::rectangle) {
+      const Vec2 low = grid.corner(grid.cell_at(i));
+      const Vec2 high{low.x + grid.cell_m, low.y + grid.cell_m};
+      if (low.x >= x0 && low.y >= y0 && high.x <= x1 && high.y <= y1) kind[i] = CellKind::target;
+    }
+  }
+  return kind;
+}
+
+std::string plan_digests_json(const Plan& plan) {
+  const auto digest = [](const auto& array) { return sha256_hex(std::as_bytes(std::span(array))); };
+  const json all = {{"heading_rad", digest(plan.heading_rad)},
+                    {"cost_m", digest(plan.cost_m)},
+                    {"region", digest(plan.region)}};
+  return all.dump();
+}
+
+void write_certificate(const Certificate& c, const std::filesystem::path& path, Existing existing) {
+  AtomicFile file(path, existing);
+  const std::array<double, 6> geometry = geometry_of(c);
+  const std::vector<Tensor> tensors = tensors_of(c, geometry);
+  json record = json::parse(c.record_json, nullptr, false);
+  require(record.is_object(), "record_json is one JSON object");
+  record["format"] = format_name;
+  record["format_version"] = format_version;
+  record["method"] = "certified";
+  record["region_of_interest"] = json_of(c.region_of_interest);
+  record["sha256"] = digests_of(tensors);
+  write_safetensors(file, {{{"fairway", record.dump(-1, ' ', true)}}, tensors});
+  file.commit();
+}
+
+Certificate read_certificate(const std::filesystem::path& path) {
+  const MappedFile mapped(path);
+  const std::string where = path.string();
+  const Safetensors file = parse_safetensors(mapped.bytes(), where);
+  const auto text = file.metadata.find("fairway");
+  if (text == file.metadata.end()) {
+    throw InputError(where, "is not a certificate: __metadata__ has no string \"fairway\"");
+  }
+  const std::string place = where + ": fairway";
+  json record = parse_strict_json(text->second, place);
+  if (!record.is_object() || record.value("format", json()) != json(format_name)) {
+    throw InputError(place + ".format",
+                     fmt::format("is not \"{}\": not a certificate", format_name));
+  }
+  if (record.value("format_version", json()) != json(format_version)) {
+    throw InputError(place + ".format_version", fmt::format("expected {}", format_version));
+  }
+  Certificate c;
+  take_cells(file, where, c);
+  take_sections(file, where, c);
+  c.region_of_interest =
+      region_of(member(record, "region_of_interest", place), place + ".region_of_interest");
+  if (file.tensors.size() != 9) throw InputError(where, "has arrays that no certificate has");
+  const json claimed = member(record, "sha256", place);
+  const json found = digests_of(file.tensors);
+  for (const auto& [name, digest] : found.items()) {
+    if (!claimed.is_object() || claimed.value(name, json()) != digest) {
+      throw InputError(place + ".sha256." + name,
+                       "is not the digest of the array: the file was damaged or altered");
+    }
+  }
+  if (cell_kinds(c.grid, c.region, c.region_of_interest) != c.kind) {
+    throw InputError(where + ": \"cell_kind\"", "does not follow from region");
+  }
+  for (const char* key : {"format", "format_version", "method", "region_of_interest", "sha256"}) {
+    record.erase(key);
+  }
+  c.record_json = record.dump(-1, ' ', true);
+  return c;
+}
+
+}  // namespace fairway

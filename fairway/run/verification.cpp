@@ -1,0 +1,221 @@
+#include "fairway/run/verification.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fairway/base/error.hpp"
+#include "fairway/base/random.hpp"
+#include "fairway/base/safetensors.hpp"
+#include "fairway/certificate/certificate_file.hpp"
+#include "fairway/run/version.hpp"
+#include "fairway/verify/bitmap_backward.hpp"
+#include "fairway/verify/bitmap_volume.hpp"
+#include "fairway/verify/images.hpp"
+
+namespace fairway {
+namespace {
+
+using nlohmann::json;
+
+json fractions_json(const std::array<double, verdict_count>& share) {
+  json by_name = json::object();
+  for (int v = 0; v < verdict_count; ++v) {
+    by_name[name_of(static_cast<Verdict>(v))] = share[static_cast<std::size_t>(v)];
+  }
+  return by_name;
+}
+
+json options_json(const CertifyOptions& o) {
+  return {
+      {"undecided_max", o.undecided_max},
+      {"time_limit_s", o.time_limit_s > 0.0 ? json(o.time_limit_s) : json()},
+      {"memory_limit_mb",
+       o.memory_limit_bytes > 0 ? json(static_cast<double>(o.memory_limit_bytes) / 1e6) : json()},
+      {"samples", o.samples},
+      {"seed", o.seed},
+      {"last_level", o.last_level}};
+}
+
+json record_of(const Plan& plan, const CertifyOptions& options, const Certified& outcome) {
+  json levels = json::array();
+  for (const LevelRecord& level : outcome.levels) {
+    levels.push_back({{"level", level.level},
+                      {"leaves", level.leaves},
+                      {"undecided_leaves", level.undecided},
+                      {"undecided_volume", level.undecided_volume}});
+  }
+  return {{"program", program_version},
+          {"plan_sha256", json::parse(plan_digests_json(plan))},
+          {"options", options_json(options)},
+          {"volume_fraction", fractions_json(outcome.volume.all)},
+          {"volume_fraction_free", fractions_json(outcome.volume.free)},
+          {"volume_fraction_buffer", fractions_json(outcome.volume.buffer)},
+          {"samples", outcome.volume.samples},
+          {"worst_time_s", outcome.volume.worst_time_s},
+          {"levels", std::move(levels)},
+          {"stopped_by", name_of(outcome.stopped_by)}};
+}
+
+void require_same(const Certificate& earlier, const Certificate& now, const json& digests,
+                  const std::string& where) {
+  const json record = json::parse(earlier.record_json, nullptr, false);
+  if (!record.is_object() || record.value("plan_sha256", json()) != digests ||
+      earlier.kind != now.kind) {
+    throw InputError(where, "is not a certificate of this plan and region: nothing to go on from");
+  }
+}
+
+std::string percent(double share) { return fmt::format("{:.3f} %", 100.0 * share); }
+
+double share_of(const std::array<double, verdict_count>& volume, Verdict verdict) {
+  return volume[static_cast<std::size_t>(verdict)];
+}
+
+}  // namespace
+
+Verification verify_plan(const Plan& plan, const std::string& where, const RegionOfInterest& region,
+                         const CertifyOptions& options, std::optional<Certificate> earlier,
+                         StageClock& clock) {
+  if (!(plan.grid.cell_m < plan.vehicle.turn_radius_m)) {
+    throw InputError(where, fmt::format("its cells of {:g} m are not smaller than the turning "
+                                        "radius, {:g} m: such a plan cannot be verified",
+                                        plan.grid.cell_m, plan.vehicle.turn_radius_m));
+  }
+  Verification made;
+  Certificate& c = made.certificate;
+  c.grid = plan.grid;
+  c.vehicle = plan.vehicle;
+  c.region_of_interest = region;
+  c.heading_rad = plan.heading_rad;
+  c.region = plan.region;
+  c.kind = cell_kinds(plan.grid, plan.region, region);
+  std::vector<bool> is_free(plan.grid.size());
+  for (std::size_t i = 0; i < is_free.size(); ++i) is_free[i] = plan.region[i] == Region::free;
+  SectionVerdicts start;
+  if (earlier) {
+    require_same(*earlier, c, json::parse(plan_digests_json(plan)), where);
+    start = std::move(earlier->sections);
+  }
+  made.outcome = certify(c.flow(), is_free, options, std::move(start), [&](const LevelRecord& l) {
+    clock.rename(fmt::format("verifying, {:.2f} % undecided", 100.0 * l.undecided_volume));
+    clock.tell(unknown_time);
+  });
+  c.sections = std::move(made.outcome.sections);
+  json record = record_of(plan, options, made.outcome);
+  c.record_json = record.dump(-1, ' ', true);
+  made.summary = std::move(record);
+  made.summary["method"] = "certified";
+  made.summary["cells"] = {plan.grid.nx, plan.grid.ny};
+  made.summary["leaves"] = c.sections.leaves();
+  return made;
+}
+
+std::string verification_words(const Verification& v) {
+  const VolumeFractions& volume = v.outcome.volume;
+  std::string words = fmt::format(
+      "Proved for every heading and place: of the safe-start states {} reach, of all states "
+      "outside "
+      "obstacles and target {} reach, {} collide, {} leave, {} circle forever; {} are undecided",
+      percent(share_of(volume.free, Verdict::reach)), percent(share_of(volume.all, Verdict::reach)),
+      percent(share_of(volume.all, Verdict::collide)),
+      percent(share_of(volume.all, Verdict::leave)),
+      percent(share_of(volume.all, Verdict::trapped)),
+      percent(share_of(volume.all, Verdict::undecided)));
+  words += fmt::format(" (shares of volume, from {} sampled states, each proved).", volume.samples);
+  if (volume.worst_time_s > 0.0) {
+    words += fmt::format(" No sampled state that reaches takes longer than {:.1f} s.",
+                         volume.worst_time_s);
+  }
+  switch (v.outcome.stopped_by) {
+    case StoppedBy::time_limit:
+      words += " The time limit ended the work.";
+      break;
+    case StoppedBy::memory_limit:
+      words += " The memory limit ended the work.";
+      break;
+    case StoppedBy::last_level:
+      words += " The finest leaves ended the work.";
+      break;
+    case StoppedBy::undecided_max:
+      break;
+  }
+  return words +
+         " Assumed: the exact kinematic model, without wind or delay, and a map that does not "
+         "change.";
+}
+
+std::string failing_states_csv(const Verification& v, std::size_t of_each, std::uint64_t seed) {
+  const Flow flow = v.certificate.flow();
+  std::vector<std::size_t> cells;
+  for (std::size_t i = 0; i < flow.cells(); ++i) {
+    if (flow.kind[i] == CellKind::ordinary) cells.push_back(i);
+  }
+  std::string text = "x_m,y_m,heading_rad,verdict\n";
+  if (cells.empty()) return text;
+  constexpr std::size_t draws = 200'000;
+  std::vector<Place> states(draws);
+  for (std::size_t k = 0; k < draws; ++k) {
+    Random random = Random::stream(seed, k);
+    const Cell cell = v.certificate.grid.cell_at(cells[random.below(cells.size())]);
+    const Vec2 corner = v.certificate.grid.corner(cell);
+    states[k] = {corner.x + random.unit() * flow.size.cell_m,
+                 corner.y + random.unit() * flow.size.cell_m, random.uniform(-pi, pi)};
+  }
+  const ImageStore images =
+      state_images(flow, states, CertifyOptions{}.most_crossings, [] { return true; });
+  std::array<std::string, verdict_count> lines;
+  std::array<std::size_t, verdict_count> count{};
+  for (std::size_t k = 0; k < draws; ++k) {
+    const Verdict verdict = verdicts_of(images[k], v.certificate.sections.view()).only();
+    const auto n = static_cast<std::size_t>(verdict);
+    if (verdict == Verdict::reach || count[n] == of_each) continue;
+    ++count[n];
+    lines[n] += fmt::format("{},{},{},{}\n", states[k].x_m, states[k].y_m, states[k].heading_rad,
+                            name_of(verdict));
+  }
+  for (const Verdict verdict :
+       {Verdict::collide, Verdict::leave, Verdict::trapped, Verdict::undecided}) {
+    text += lines[static_cast<std::size_t>(verdict)];
+  }
+  return text;
+}
+
+json write_bitmap(const Plan& plan, const RegionOfInterest& region, int samples, std::uint64_t seed,
+                  const std::filesystem::path& file, Existing existing) {
+  require_writable_place(file, existing);
+  const std::vector<CellKind> kind = cell_kinds(plan.grid, plan.region, region);
+  std::vector<std::uint8_t> target(kind.size());
+  for (std::size_t i = 0; i < kind.size(); ++i) target[i] = kind[i] == CellKind::target;
+  const BorderBitmap set = backward_reachable_set(plan, target, {samples});
+  constexpr std::size_t draws = 200'000;
+  const VolumeShare share = volume_share_reached(plan, target, set, draws, seed);
+  json record = {
+      {"format", "fairway-bitmap"},    {"format_version", 1},
+      {"program", program_version},    {"method", "bitmap"},
+      {"samples_per_border", samples}, {"plan_sha256", json::parse(plan_digests_json(plan))}};
+  std::vector<std::uint64_t> words(set.words.size());
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] = set.words[i];
+  AtomicFile out(file, existing);
+  write_safetensors(out, {{{"fairway", record.dump(-1, ' ', true)}},
+                          {{"border_words",
+                            "U64",
+                            {set.borders().count(), set.words_per_border()},
+                            std::as_bytes(std::span(words))}}});
+  out.commit();
+  record["cells"] = {plan.grid.nx, plan.grid.ny};
+  record["options"] = {{"samples_per_border", samples}, {"seed", seed}};
+  record["border_states"] = set.borders().count() * set.states_per_border();
+  record["share_of_border_states"] = set.share_reached();
+  record["stored_bytes"] = set.bytes();
+  record["estimated_reach"] = share.reached;
+  record["standard_error"] = share.standard_error;
+  record["proved"] = false;
+  return record;
+}
+
+}  // namespace fairway
