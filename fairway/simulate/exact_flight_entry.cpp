@@ -109,7 +109,12 @@ ExactFlights::Kind ExactFlights::settle(Position& position, bool at_start) const
   const std::ptrdiff_t beside = dx != 0 && u.x == 0.0 ? dx : dy != 0 && u.y == 0.0 ? dy : 0;
   const Kind here = kind_at(0);
   const Kind there = kind_at(beside);
-  if (beside == 0 || here == Kind::outside || there == Kind::outside) return here;
+  if (beside == 0 || here == Kind::outside) return here;
+  if (there == Kind::outside) {  // along the grid's edge: its command may turn the vehicle out
+    const double inwards = cross(u, Vec2{0.5 * d - p.x, 0.5 * d - p.y});
+    const int turn = turn_towards(position.state.heading, command_at(position.place));
+    return here == Kind::open && turn * inwards < 0.0 ? there : here;
+  }
   choose_side(position, beside, at_start);
   return there == Kind::goal ? there : here;
 }

@@ -125,6 +125,17 @@ TEST(ExactFlight, stays_inside_when_it_starts_on_the_edge_heading_in_or_along) {
   EXPECT_EQ(flights.fly(state(4.0, 64.0, 0.0)).length_m, 60.0);
 }
 
+TEST(ExactFlight, leaves_at_once_when_it_starts_along_the_edge_and_is_commanded_out) {
+  const ExactFlights up(plan_of(3, 3, 2.0, 5.0, [](Vec2) { return 1.0F; }));
+  for (const State& start : {state(3.0, 6.0, 0.0), state(3.0, 6.0, pi), state(6.0, 3.0, pi / 2)}) {
+    const FlightRun run = up.run(start);
+    EXPECT_EQ(run.result.outcome, Outcome::leave);
+    EXPECT_EQ(run.ended_by, EndedBy::grid_edge);
+    EXPECT_EQ(run.flown_m, 0.0);
+  }
+  EXPECT_GT(up.run(state(3.0, 0.0, 0.0)).flown_m, 1.0) << "commanded in";
+}
+
 TEST(ExactFlight, collides_with_the_touch_of_a_corner) {
   // Straight up the diagonal, no commands: between two obstacle cells that share a corner, and past
   // a single one.
