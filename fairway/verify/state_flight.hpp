@@ -3,6 +3,8 @@
 // Properties that always hold: those of section_flight.hpp; and a state on a border, exactly or
 // within rounding, is followed in every cell it may belong to: the one its heading points into,
 // both when it may run along the border. Contact with a closed obstacle cell is told as `collide`.
+// Within rounding means of the numbers given, too: who computes the place of a border or a heading
+// opposite to a command in doubles is told what holds for the border and both turns.
 #pragma once
 
 #include <cmath>
@@ -29,10 +31,25 @@ inline Interval border(double origin, int cell, double cell_m) {
   return exact ? sum(origin, product) : Interval(origin) + outward(product, product);
 }
 
-/// `position` in the coordinates of `cell` along one axis.
+inline Interval after(double position, Interval border) {
+  return border.lo == border.hi ? sum(position, -border.lo) : Interval(position) - border;
+}
+
+/// `position` in the coordinates of `cell` along one axis, reckoned from both borders unless both
+/// are exact.
 inline Interval local(double position, double origin, int cell, double cell_m) {
-  const Interval at = border(origin, cell, cell_m);
-  return at.lo == at.hi ? sum(position, -at.lo) : Interval(position) - at;
+  const Interval low = after(position, border(origin, cell, cell_m));
+  const Interval high = after(position, border(origin, cell + 1, cell_m));
+  if (low.lo == low.hi && high.lo == high.hi) return low;
+  return hull(low, Interval(cell_m) + high);
+}
+
+/// Unit vectors within 2^-50 of a heading: 8 units of rounding of a number near pi. 0 is exact.
+inline IntervalVec2 direction(double rad) {
+  const IntervalVec2 u = unit_enclosure(rad);
+  if (rad == 0.0) return u;
+  const Interval slack{-0x1p-50, 0x1p-50};
+  return {intersection(u.x + slack, {-1.0, 1.0}), intersection(u.y + slack, {-1.0, 1.0})};
 }
 
 /// False when a state at `p`, exactly on a side of the cell, heads out of it: another's state.
@@ -49,7 +66,7 @@ template <typename Visitor>
 void follow_state(const Flow& flow, double x_m, double y_m, double heading_rad, int most_crossings,
                   Visitor& visitor) {
   const double d = flow.size.cell_m;
-  const IntervalVec2 u = unit_enclosure(heading_rad);
+  const IntervalVec2 u = state_flight::direction(heading_rad);
   const int cx = static_cast<int>(std::floor((x_m - flow.x0_m) / d));
   const int cy = static_cast<int>(std::floor((y_m - flow.y0_m) / d));
   for (int iy = cy - 1; iy <= cy + 1; ++iy) {

@@ -1,0 +1,377 @@
+// Falsification: certifies plans and looks for a state whose proved verdict an exact flight
+// contradicts. None is expected; docs/trust.md.
+//
+//   fairway-falsify [PLAN.safetensors ...] [--random-plans N] [--states N] [--seed S]
+//                   [--undecided-max F] [--time-limit S] [--last-level L]
+//
+// Half of the states of a plan are drawn at random, degenerate ones among them; half lie where the
+// verdict or the flight's outcome changes, found by halving the way between two states. What
+// differs from the flight in double is flown again in 113 bits, both ways where the model leaves a
+// choice. Exit code 1 on any contradiction.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "fairway/base/random.hpp"
+#include "fairway/plan/plan_file.hpp"
+#include "fairway/simulate/exact_flight.hpp"
+#include "fairway/verify/certify.hpp"
+#include "fairway/verify/images.hpp"
+#include "fairway/verify/sample_plans.hpp"
+#include "fairway/verify/state_flight.hpp"
+#include "fairway/verify/wide_flight.hpp"
+
+namespace fairway {
+namespace {
+
+struct Settings {
+  std::vector<std::string> plans;
+  std::uint64_t random_plans = 0;
+  std::size_t states = 100000;
+  std::uint64_t seed = 1;
+  CertifyOptions certify;
+};
+
+struct Totals {
+  std::size_t states = 0;
+  std::size_t aimed = 0;
+  std::size_t undecided = 0;
+  std::size_t contradictions = 0;
+  std::size_t late = 0;     // flown longer than the bound
+  std::size_t refuted = 0;  // the flight in double was wrong, the one in 113 bits agrees
+  std::size_t unknown = 0;  // not settled in 113 bits either
+  std::array<std::size_t, verdict_count> by_verdict{};
+
+  void add(const Totals& other) {
+    states += other.states;
+    aimed += other.aimed;
+    undecided += other.undecided;
+    contradictions += other.contradictions;
+    late += other.late;
+    refuted += other.refuted;
+    unknown += other.unknown;
+    for (std::size_t v = 0; v < by_verdict.size(); ++v) by_verdict[v] += other.by_verdict[v];
+  }
+  std::string line() const {
+    return fmt::format(
+        "{} states ({} aimed), {} undecided, {} reach, {} collide, {} leave, {} trapped; "
+        "{} contradictions, {} late, {} refuted in 113 bits, {} unknown",
+        states, aimed, undecided, by_verdict[1], by_verdict[2], by_verdict[3], by_verdict[4],
+        contradictions, late, refuted, unknown);
+  }
+};
+
+class Falsifier {
+ public:
+  Falsifier(std::string name, const Plan& plan, const Settings& settings)
+      : name_(std::move(name)),
+        plan_flow_(plan),
+        flow_(plan_flow_.flow()),
+        settings_(settings),
+        flights_(plan),
+        random_(Random::stream(settings.seed, 77)) {
+    CertifyOptions options = settings.certify;
+    options.samples = std::min<std::size_t>(200000, 20 * flow_.cells());
+    certified_ = certify(flow_, plan_flow_.is_free, options);
+  }
+
+  Totals run() {
+    fmt::print("{}: {} x {} cells, cell / radius {:.6g}, undecided {:.5f}, {} leaves\n", name_,
+               flow_.nx, flow_.ny, flow_.size.cell_m / flow_.size.turn_radius_m,
+               certified_.volume.all[0], certified_.sections.leaves());
+    constexpr std::size_t batch = 20000;
+    while (totals_.states < settings_.states) {
+      std::vector<Place> states;
+      for (std::size_t i = 0; i < batch / 2; ++i) states.push_back(random_state());
+      check(states);
+      aim(batch / 2);
+    }
+    fmt::print("  {}\n", totals_.line());
+    std::fflush(stdout);
+    return totals_;
+  }
+
+ private:
+  double degenerate_place(double free, double cell_m) {
+    static constexpr std::array<double, 9> shares{0.0,   1.0,  0.5,     1e-8,         1.0 - 1e-8,
+                                                  1e-15, 0.25, 0x1p-34, 1.0 - 0x1p-33};
+    return random_.below(3) != 0 ? free * cell_m : shares[random_.below(shares.size())] * cell_m;
+  }
+  double degenerate_heading(std::size_t cell) {
+    static constexpr std::array<double, 6> axes{0.0, pi / 2, pi, -pi / 2, pi / 4, -3 * pi / 4};
+    static constexpr std::array<double, 7> near{0.0, 1e-16, -1e-16, 1e-8, -1e-8, 1e-12, -1e-4};
+    const auto command = [&](std::size_t c) {
+      const auto h = static_cast<double>(flow_.heading_rad[c]);
+      return std::isnan(h) ? 0.0 : h;
+    };
+    const double free = random_.uniform(-pi, pi);
+    double h = free;
+    switch (random_.below(6)) {
+      case 0:
+        h = axes[random_.below(axes.size())];
+        break;
+      case 1:
+        h = command(cell);
+        break;
+      case 2:
+        h = command(cell) + pi;
+        break;
+      case 3:
+        h = command(random_.below(flow_.cells()));
+        break;
+      default:
+        return free;
+    }
+    return Heading::from_rad(h + near[random_.below(near.size())]).rad();
+  }
+  Place random_state() {
+    const double d = flow_.size.cell_m;
+    for (;;) {
+      const std::size_t cell = random_.below(flow_.cells());
+      if (flow_.kind[cell] != CellKind::ordinary && random_.below(50) != 0) continue;
+      const double x =
+          flow_.x0_m + d * static_cast<double>(cell % static_cast<std::size_t>(flow_.nx));
+      const double y =
+          flow_.y0_m + d * static_cast<double>(cell / static_cast<std::size_t>(flow_.nx));
+      if (random_.below(4) != 0) {
+        return {x + d * random_.unit(), y + d * random_.unit(), random_.uniform(-pi, pi)};
+      }
+      return {x + degenerate_place(random_.unit(), d), y + degenerate_place(random_.unit(), d),
+              degenerate_heading(cell)};
+    }
+  }
+  Place near(const Place& s) {
+    const double scale = std::exp(-12.0 * random_.unit());
+    const double d = flow_.size.cell_m;
+    Place t{s.x_m + scale * d * random_.uniform(-1.0, 1.0),
+            s.y_m + scale * d * random_.uniform(-1.0, 1.0),
+            Heading::from_rad(s.heading_rad + scale * pi * random_.uniform(-1.0, 1.0)).rad()};
+    t.x_m = std::clamp(t.x_m, flow_.x0_m, flow_.x0_m + flow_.nx * d);
+    t.y_m = std::clamp(t.y_m, flow_.y0_m, flow_.y0_m + flow_.ny * d);
+    return t;
+  }
+
+  std::vector<VerdictSet> query(const std::vector<Place>& states) const {
+    const ImageStore images =
+        state_images(flow_, states, settings_.certify.most_crossings, [] { return true; });
+    std::vector<VerdictSet> found;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      found.push_back(verdicts_of(images[i], certified_.sections.view()));
+    }
+    return found;
+  }
+  std::vector<FlightRun> fly(const std::vector<Place>& states) const {
+    std::vector<State> starts;
+    for (const Place& s : states) {
+      starts.push_back({{s.x_m, s.y_m}, Heading::from_rad(s.heading_rad)});
+    }
+    return flights_.run_all(starts);
+  }
+
+  /// Pairs of states with different verdicts (or outcomes), halved; every middle is checked.
+  void aim(std::size_t count) {
+    struct Pair {
+      Place a, b;
+      Verdict verdict;
+      Outcome outcome;
+      bool by_verdict;
+    };
+    std::vector<Place> a;
+    std::vector<Place> b;
+    for (std::size_t i = 0; i < count / 8; ++i) {
+      a.push_back(random_state());
+      b.push_back(near(a.back()));
+    }
+    const auto va = query(a);
+    const auto vb = query(b);
+    const auto fa = fly(a);
+    const auto fb = fly(b);
+    std::vector<Pair> pairs;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const bool differ = va[i].only() != vb[i].only();
+      if (!differ && fa[i].result.outcome == fb[i].result.outcome) continue;
+      pairs.push_back({a[i], b[i], va[i].only(), fa[i].result.outcome, differ && i % 2 == 0});
+    }
+    for (int halving = 0; halving < 44 && !pairs.empty(); ++halving) {
+      std::vector<Place> middle;
+      for (const Pair& p : pairs) {
+        const double turn =
+            Heading::from_rad(p.a.heading_rad).turn_to(Heading::from_rad(p.b.heading_rad));
+        middle.push_back({0.5 * (p.a.x_m + p.b.x_m), 0.5 * (p.a.y_m + p.b.y_m),
+                          Heading::from_rad(p.a.heading_rad + 0.5 * turn).rad()});
+      }
+      const auto [verdicts, runs] = check(middle);
+      totals_.aimed += middle.size();
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const bool like_a = pairs[i].by_verdict ? verdicts[i].only() == pairs[i].verdict
+                                                : runs[i].result.outcome == pairs[i].outcome;
+        (like_a ? pairs[i].a : pairs[i].b) = middle[i];
+      }
+    }
+  }
+
+  struct Checked {
+    std::vector<VerdictSet> verdicts;
+    std::vector<FlightRun> runs;
+  };
+  Checked check(const std::vector<Place>& states) {
+    Checked checked{query(states), fly(states)};
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const Verdict verdict = checked.verdicts[i].only();
+      const FlightResult& flown = checked.runs[i].result;
+      ++totals_.states;
+      ++totals_.by_verdict[static_cast<std::size_t>(verdict)];
+      if (verdict == Verdict::undecided) {
+        ++totals_.undecided;
+      } else if (static_cast<int>(verdict) != static_cast<int>(flown.outcome) + 1) {
+        judge(states[i], verdict, flown, infinite, static_cast<int>(checked.runs[i].ended_by));
+      } else if (verdict == Verdict::reach &&
+                 checked.verdicts[i].time_s < flown.time_s * (1.0 - 1e-9)) {
+        judge(states[i], verdict, flown, checked.verdicts[i].time_s, 0);
+      }
+    }
+    return checked;
+  }
+
+  /// In 113 bits, from every cell the state belongs to, with several draws of the choices.
+  void judge(const Place& s, Verdict verdict, const FlightResult& flown, double bound_s, int by) {
+    if (!commands_) commands_ = std::make_unique<WideCommands<Quad>>(flow_);
+    const double d = flow_.size.cell_m;
+    bool contradicted = false;
+    bool late = false;
+    bool unknown = false;
+    std::string ends;
+    const auto fly_from = [&](int ix, int iy) {
+      const WideVec<Quad> p{Quad(s.x_m) - (Quad(flow_.x0_m) + Quad(ix) * Quad(d)),
+                            Quad(s.y_m) - (Quad(flow_.y0_m) + Quad(iy) * Quad(d))};
+      const WideVec<Quad> u = wide_unit<Quad>(s.heading_rad);
+      if (p.x < 0 || p.x > d || p.y < 0 || p.y > d) return;
+      const CellKind kind = flow_.kind_at(ix, iy);
+      ends += fmt::format(" [{},{}:{} at {:.17g},{:.17g}]", ix, iy, static_cast<int>(kind),
+                          static_cast<double>(p.x / d), static_cast<double>(p.y / d));
+      if (kind == CellKind::obstacle) contradicted = contradicted || verdict != Verdict::collide;
+      if ((p.x == 0 && u.x < 0) || (p.x == d && u.x > 0)) return;
+      if ((p.y == 0 && u.y < 0) || (p.y == d && u.y > 0)) return;
+      if (kind != CellKind::ordinary) {
+        contradicted = contradicted || verdict != (kind == CellKind::target     ? Verdict::reach
+                                                   : kind == CellKind::obstacle ? Verdict::collide
+                                                                                : Verdict::leave);
+        return;
+      }
+      for (int draw = 0; draw < 2; ++draw) {
+        Random picks(static_cast<std::uint64_t>(draw));
+        WideFlight<Quad> flight(*commands_, ix, iy, p, u, [&](std::size_t n) {
+          return draw == 0 ? std::size_t{0} : static_cast<std::size_t>(picks.below(n));
+        });
+        const auto end = flight.fly_to_end(40000);
+        ends += fmt::format(" {}@{:.9g}s", name_of(end.end),
+                            static_cast<double>(end.length_m) / flow_.speed_mps);
+        if (end.end == Verdict::undecided) {
+          unknown = true;
+        } else if (end.end != verdict) {
+          contradicted = true;
+        } else if (static_cast<double>(end.length_m) / flow_.speed_mps > bound_s) {
+          late = true;
+        }
+      }
+    };
+    const int cx = static_cast<int>(std::floor((s.x_m - flow_.x0_m) / d));
+    const int cy = static_cast<int>(std::floor((s.y_m - flow_.y0_m) / d));
+    for (int iy = cy - 1; iy <= cy + 1; ++iy) {
+      for (int ix = cx - 1; ix <= cx + 1; ++ix) fly_from(ix, iy);
+    }
+    (contradicted ? totals_.contradictions
+     : late       ? totals_.late
+     : unknown    ? totals_.unknown
+                  : totals_.refuted) += 1;
+    if (++told_ <= 3 || ((contradicted || late) && told_ <= 40)) {
+      fmt::print(
+          "  {} {} state {:.17g},{:.17g},{:.17g}: proved {} (bound {:.9g} s), flown {} in "
+          "{:.9g} s ({}); in 113 bits:{}\n",
+          contradicted ? "CONTRADICTION"
+          : late       ? "LATE"
+          : unknown    ? "unknown"
+                       : "refuted",
+          name_, s.x_m, s.y_m, s.heading_rad, name_of(verdict), bound_s, name_of(flown.outcome),
+          flown.time_s, by, ends);
+    }
+  }
+
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+  std::string name_;
+  PlanFlow plan_flow_;
+  Flow flow_;
+  const Settings& settings_;
+  ExactFlights flights_;
+  Random random_;
+  Certified certified_;
+  std::unique_ptr<WideCommands<Quad>> commands_;
+  Totals totals_;
+  int told_ = 0;
+};
+
+Settings settings_of(int argc, char** argv) {
+  Settings settings;
+  settings.certify.undecided_max = 0.01;
+  settings.certify.time_limit_s = 60.0;
+  settings.certify.last_level = 22;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word.rfind("--", 0) != 0) {
+      settings.plans.push_back(word);
+      continue;
+    }
+    if (i + 1 == argc) {
+      fmt::print(stderr, "{}: a number is expected after it\n", word);
+      std::exit(64);
+    }
+    const double number = std::strtod(argv[++i], nullptr);
+    const auto whole = static_cast<std::uint64_t>(number);
+    if (word == "--random-plans") {
+      settings.random_plans = whole;
+    } else if (word == "--states") {
+      settings.states = whole;
+    } else if (word == "--seed") {
+      settings.seed = whole;
+    } else if (word == "--undecided-max") {
+      settings.certify.undecided_max = number;
+    } else if (word == "--time-limit") {
+      settings.certify.time_limit_s = number;
+    } else if (word == "--last-level") {
+      settings.certify.last_level = static_cast<int>(number);
+    } else {
+      fmt::print(stderr, "{}: unknown option\n", word);
+      std::exit(64);
+    }
+  }
+  return settings;
+}
+
+int falsify(int argc, char** argv) {
+  const Settings settings = settings_of(argc, argv);
+  Totals totals;
+  for (const std::string& path : settings.plans) {
+    totals.add(Falsifier(path, read_plan(path), settings).run());
+  }
+  for (std::uint64_t k = 0; k < settings.random_plans; ++k) {
+    const std::uint64_t number = 1000003 * settings.seed + k;
+    const Plan plan = random_plan(number);
+    totals.add(Falsifier(fmt::format("random plan {}", number), plan, settings).run());
+  }
+  fmt::print("in all: {}\n", totals.line());
+  return totals.contradictions + totals.late == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace fairway
+
+int main(int argc, char** argv) { return fairway::falsify(argc, argv); }
