@@ -16,6 +16,9 @@
 
 namespace fairway {
 
+/// These few instructions are the inner loop of every proof.
+#define FAIRWAY_INLINE [[gnu::always_inline]] inline
+
 struct Interval {
   double lo = 0.0;
   double hi = 0.0;
@@ -34,14 +37,18 @@ struct Interval {
 };
 
 /// One step of the error bound above, downwards and upwards.
-inline double below(double x) { return x - (std::abs(x) * 0x1p-52 + 0x1p-1000); }
-inline double above(double x) { return x + (std::abs(x) * 0x1p-52 + 0x1p-1000); }
-inline Interval outward(double lo, double hi) { return {below(lo), above(hi)}; }
+FAIRWAY_INLINE double below(double x) { return x - (std::abs(x) * 0x1p-52 + 0x1p-1000); }
+FAIRWAY_INLINE double above(double x) { return x + (std::abs(x) * 0x1p-52 + 0x1p-1000); }
+FAIRWAY_INLINE Interval outward(double lo, double hi) { return {below(lo), above(hi)}; }
 
-inline Interval operator-(Interval a) { return {-a.hi, -a.lo}; }
-inline Interval operator+(Interval a, Interval b) { return outward(a.lo + b.lo, a.hi + b.hi); }
-inline Interval operator-(Interval a, Interval b) { return outward(a.lo - b.hi, a.hi - b.lo); }
-inline Interval operator*(Interval a, Interval b) {
+FAIRWAY_INLINE Interval operator-(Interval a) { return {-a.hi, -a.lo}; }
+FAIRWAY_INLINE Interval operator+(Interval a, Interval b) {
+  return outward(a.lo + b.lo, a.hi + b.hi);
+}
+FAIRWAY_INLINE Interval operator-(Interval a, Interval b) {
+  return outward(a.lo - b.hi, a.hi - b.lo);
+}
+FAIRWAY_INLINE Interval operator*(Interval a, Interval b) {
   const double p = a.lo * b.lo;
   const double q = a.lo * b.hi;
   const double s = a.hi * b.lo;
@@ -49,13 +56,17 @@ inline Interval operator*(Interval a, Interval b) {
   return outward(std::min(std::min(p, q), std::min(s, t)),
                  std::max(std::max(p, q), std::max(s, t)));
 }
-inline Interval operator*(double k, Interval a) {
+/// `a` or its mirror image: exact.
+FAIRWAY_INLINE Interval with_sign(double sign, Interval a) { return sign > 0.0 ? a : -a; }
+FAIRWAY_INLINE Interval operator*(double k, Interval a) {
   const double p = k * a.lo;
   const double q = k * a.hi;
   return outward(std::min(p, q), std::max(p, q));
 }
+/// `k` > 0.
+FAIRWAY_INLINE Interval operator/(Interval a, double k) { return outward(a.lo / k, a.hi / k); }
 /// `b` has a certain sign.
-inline Interval operator/(Interval a, Interval b) {
+FAIRWAY_INLINE Interval operator/(Interval a, Interval b) {
   const double p = a.lo / b.lo;
   const double q = a.lo / b.hi;
   const double s = a.hi / b.lo;
@@ -64,14 +75,14 @@ inline Interval operator/(Interval a, Interval b) {
                  std::max(std::max(p, q), std::max(s, t)));
 }
 
-inline Interval square(Interval a) {
+FAIRWAY_INLINE Interval square(Interval a) {
   const double p = a.lo * a.lo;
   const double q = a.hi * a.hi;
   const double least = a.lo <= 0.0 && a.hi >= 0.0 ? 0.0 : below(std::min(p, q));
   return {std::max(0.0, least), above(std::max(p, q))};
 }
 /// Of the part of `a` that is not negative; `a.hi` >= 0.
-inline Interval sqrt(Interval a) {
+FAIRWAY_INLINE Interval sqrt(Interval a) {
   const double low = a.lo > 0.0 ? below(std::sqrt(a.lo)) : 0.0;
   return {std::max(0.0, low), above(std::sqrt(a.hi))};
 }
@@ -92,8 +103,10 @@ struct IntervalVec2 {
   friend IntervalVec2 operator-(IntervalVec2 a, IntervalVec2 b) { return {a.x - b.x, a.y - b.y}; }
   friend IntervalVec2 operator-(IntervalVec2 a) { return {-a.x, -a.y}; }
 };
-inline Interval dot(const IntervalVec2& a, const IntervalVec2& b) { return a.x * b.x + a.y * b.y; }
-inline Interval cross(const IntervalVec2& a, const IntervalVec2& b) {
+FAIRWAY_INLINE Interval dot(const IntervalVec2& a, const IntervalVec2& b) {
+  return a.x * b.x + a.y * b.y;
+}
+FAIRWAY_INLINE Interval cross(const IntervalVec2& a, const IntervalVec2& b) {
   return a.x * b.y - a.y * b.x;
 }
 
@@ -113,5 +126,7 @@ inline IntervalVec2 unit_enclosure(double rad) {
   if (std::abs(s) < 2e-16) u.y = hull(u.y, 0.0);
   return u;
 }
+
+#undef FAIRWAY_INLINE
 
 }  // namespace fairway

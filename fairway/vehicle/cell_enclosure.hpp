@@ -23,10 +23,10 @@
 // No include but the standard's and the project's own toolboxes, no heap, no exception.
 #pragma once
 
-#include <array>
 #include <cmath>
 
 #include "fairway/base/interval.hpp"
+#include "fairway/base/short_list.hpp"
 #include "fairway/vehicle/side.hpp"
 
 namespace fairway {
@@ -60,19 +60,14 @@ struct CellDeparture {
 };
 
 struct CellDepartures {
-  static constexpr int most = 16;
-  std::array<CellDeparture, most> of;
-  int count = 0;
+  ShortList<CellDeparture, 16> of;
   bool too_wide = false;  ///< the entry is too large to say anything
 
-  const CellDeparture* begin() const { return of.data(); }
-  const CellDeparture* end() const { return of.data() + count; }
+  const CellDeparture* begin() const { return of.begin(); }
+  const CellDeparture* end() const { return of.end(); }
+  int count() const { return of.size(); }
   void add(const CellDeparture& departure) {
-    if (count == most) {
-      too_wide = true;
-    } else {
-      of[static_cast<std::size_t>(count++)] = departure;
-    }
+    if (!of.add(departure)) too_wide = true;
   }
 };
 
@@ -104,10 +99,10 @@ inline Interval outward_part(const IntervalVec2& v, Side s) {
 /// Huygens: 3 x <= 2 sin x + tan x, for x half the angle; sin and cos of x from the cosine.
 inline double angle_bound(const IntervalVec2& a, const IntervalVec2& b) {
   const double cosine = std::clamp(dot(a, b).lo, -1.0, 1.0);
-  const Interval half_cos = sqrt(0.5 * (Interval(1.0) + Interval(cosine)));
-  const Interval half_sin = sqrt(0.5 * (Interval(1.0) - Interval(cosine)));
-  if (half_cos.lo < 0.1) return 3.2;
-  return above(2.0 * ((2.0 * half_sin + half_sin / half_cos) / Interval(3.0)).hi);
+  const double half_cos = below(std::sqrt(below(0.5 * below(1.0 + cosine))));
+  const double half_sin = above(std::sqrt(above(0.5 * above(1.0 - cosine))));
+  if (half_cos < 0.1) return 3.2;
+  return above(2.0 / 3.0 * above(above(2.0 * half_sin) + above(half_sin / half_cos)));
 }
 
 /// An event on an arc: the heading there tells its order.
@@ -175,22 +170,26 @@ inline ArcEvent crossing(const Turn& turn, Side side) {
   const double outwards = is_far(side) ? 1.0 : -1.0;
   const Interval line = line_of(side, d);
   ArcEvent event;
-  const Interval tangent = (k * (line - across(turn.centre_m, side))) / Interval(r);
+  const Interval tangent = with_sign(k, line - across(turn.centre_m, side)) / r;
   if (tangent.lo > 1.0 || tangent.hi < -1.0) return event;
-  event.certain = tangent.lo > -1.0 && tangent.hi < 1.0;
   ExitHeading exit;
   exit.along = intersection(tangent, {-1.0, 1.0});
   exit.across = sqrt(Interval(1.0) - square(exit.along));
-  event.heading = exit.of(side);
-  const Interval turned = turn.sign * cross(turn.entry.heading, event.heading);
-  const Interval ahead = dot(turn.entry.heading, event.heading);
-  if (turned.hi < 0.0 || ahead.hi < 0.0) return {};
-  event.certain = event.certain && turned.lo >= 0.0 && ahead.lo > 0.0;
-
-  if (turn.must_align) cut_at_command(turn, side, exit);
-  if (exit.empty()) return event;
   Interval offset = (-k * r * outwards) * exit.across;
-  const Interval place = along(turn.centre_m, side) + offset;
+  Interval place = along(turn.centre_m, side) + offset;
+  // Off the side: whoever gets there has left through another side before.
+  if (place.hi < 0.0 || place.lo > d) return event;
+  event.heading = exit.of(side);
+  const Interval turned = with_sign(turn.sign, cross(turn.entry.heading, event.heading));
+  const Interval ahead = dot(turn.entry.heading, event.heading);
+  if (turned.hi < 0.0 || ahead.hi < 0.0) return event;
+  event.certain = tangent.lo > -1.0 && tangent.hi < 1.0 && turned.lo >= 0.0 && ahead.lo > 0.0;
+  if (turn.must_align) {
+    cut_at_command(turn, side, exit);
+    if (exit.empty()) return event;
+    offset = (-k * r * outwards) * exit.across;
+    place = along(turn.centre_m, side) + offset;
+  }
   CellDeparture& leave = event.departure;
   leave.along_m = intersection(place, {0.0, d});
   if (leave.along_m.empty()) return event;
@@ -261,17 +260,56 @@ inline void leave_straight(const IntervalVec2& from, const CellDeparture& model,
   }
 }
 
+/// Whether all headings between two sets less than 90 degrees apart lie in one closed quadrant.
+inline bool keeps_quadrant(const IntervalVec2& u, const IntervalVec2& c) {
+  const auto one_sign = [](const Interval& a, const Interval& b) {
+    return (a.lo >= 0.0 && b.lo >= 0.0) || (a.hi <= 0.0 && b.hi <= 0.0);
+  };
+  return one_sign(u.x, c.x) && one_sign(u.y, c.y);
+}
+
+/// Where the turn ends that reaches the command: (a).
+inline IntervalVec2 aligned_at(const Turn& turn) {
+  const IntervalVec2& c = turn.order.heading;
+  const double kr = turn.sign * turn.size.turn_radius_m;
+  return {turn.centre_m.x + kr * c.y, turn.centre_m.y - kr * c.x};
+}
+
+inline bool is_inside(const IntervalVec2& p, double cell_m) {
+  return p.x.lo > 0.0 && p.x.hi < cell_m && p.y.lo > 0.0 && p.y.hi < cell_m;
+}
+
+/// The states that have turned to the command at `at`, straight on.
+inline void leave_aligned(const Turn& turn, const IntervalVec2& at, CellDepartures& departures) {
+  const double d = turn.size.cell_m;
+  const IntervalVec2 inside{intersection(at.x, {0.0, d}), intersection(at.y, {0.0, d})};
+  if (inside.x.empty() || inside.y.empty()) return;
+  CellDeparture leave;
+  leave.heading = turn.order.heading;
+  leave.aligned = true;
+  leave.length_m =
+      above(turn.size.turn_radius_m * angle_bound(turn.entry.heading, turn.order.heading));
+  leave_straight(inside, leave, turn.size, departures);
+}
+
 /// All departures of one turn.
 inline void leave_turning(const Turn& turn, CellDepartures& departures) {
-  const double d = turn.size.cell_m;
   const double r = turn.size.turn_radius_m;
-  std::array<ArcEvent, 5> events;
-  int count = 0;
+  if (turn.must_align && keeps_quadrant(turn.entry.heading, turn.order.heading)) {
+    // x and y run one way along the arc: it stays inside when its end does.
+    const IntervalVec2 at = aligned_at(turn);
+    if (is_inside(at, turn.size.cell_m)) {
+      leave_aligned(turn, at, departures);
+      return;
+    }
+  }
+  ShortList<ArcEvent, 5> events;
   if (turn.may_align) {
-    ArcEvent& align = events[static_cast<std::size_t>(count++)];
+    ArcEvent align;
     align.heading = turn.order.heading;
     align.certain = turn.must_align;
     align.possible = true;
+    events.add(align);
   }
   for (const Side side : {Side::right, Side::top, Side::left, Side::bottom}) {
     // Every heading on an arc of at most 90 degrees is a sum of its ends with weights >= 0, the
@@ -279,36 +317,30 @@ inline void leave_turning(const Turn& turn, CellDepartures& departures) {
     // and the last points in. (A touch at the very start is for those who brought the state.)
     const double k = turn.sign;
     const Interval first = outward_part(turn.entry.heading, side);
-    const Interval last =
-        turn.must_align ? outward_part(turn.order.heading, side)
-                        : (is_far(side) ? k : -k) *
-                              (is_vertical(side) ? -turn.entry.heading.y : turn.entry.heading.x);
+    const Interval last = turn.must_align ? outward_part(turn.order.heading, side)
+                                          : with_sign(is_far(side) ? k : -k,
+                                                      is_vertical(side) ? -turn.entry.heading.y
+                                                                        : turn.entry.heading.x);
     if (first.hi <= 0.0 && last.negative()) continue;
     const ArcEvent event = crossing(turn, side);
-    if (event.possible || event.certain) events[static_cast<std::size_t>(count++)] = event;
+    if (event.possible || event.certain) events.add(event);
   }
-  for (int i = 0; i < count; ++i) {
-    const ArcEvent& event = events[static_cast<std::size_t>(i)];
+  for (int i = 0; i < events.size(); ++i) {
+    const ArcEvent& event = events[i];
     bool first = event.possible;
-    for (int j = 0; j < count && first; ++j) {
-      const ArcEvent& other = events[static_cast<std::size_t>(j)];
+    for (int j = 0; j < events.size() && first; ++j) {
+      const ArcEvent& other = events[j];
       if (j == i || !other.certain) continue;
-      first = !(turn.sign * cross(other.heading, event.heading)).positive();
+      first = !with_sign(turn.sign, cross(other.heading, event.heading)).positive();
     }
     if (!first) continue;
-    CellDeparture leave = event.departure;
-    leave.length_m = above(r * angle_bound(turn.entry.heading, event.heading));
-    if (!turn.may_align || i > 0) {
-      departures.add(leave);
+    if (turn.may_align && i == 0) {
+      leave_aligned(turn, aligned_at(turn), departures);
       continue;
     }
-    const IntervalVec2& c = turn.order.heading;
-    const IntervalVec2 at{intersection(turn.centre_m.x + (turn.sign * r) * c.y, {0.0, d}),
-                          intersection(turn.centre_m.y - (turn.sign * r) * c.x, {0.0, d})};  // (a)
-    if (at.x.empty() || at.y.empty()) continue;
-    leave.heading = c;
-    leave.aligned = true;
-    leave_straight(at, leave, turn.size, departures);
+    CellDeparture leave = event.departure;
+    leave.length_m = above(r * angle_bound(turn.entry.heading, event.heading));
+    departures.add(leave);
   }
 }
 

@@ -25,11 +25,11 @@
 // A section is named 4 * cell + side.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "fairway/base/short_list.hpp"
 #include "fairway/vehicle/cell_enclosure.hpp"
 #include "fairway/verify/flow.hpp"
 #include "fairway/verify/verdict.hpp"
@@ -87,15 +87,11 @@ class Follower {
       : flow_(flow), most_crossings_(most_crossings), visitor_(visitor) {}
 
   void push(const Front& front) {
-    if (count_ == most_fronts) {
-      gave_up_ = true;
-    } else {
-      fronts_[static_cast<std::size_t>(count_++)] = front;
-    }
+    if (!fronts_.add(front)) gave_up_ = true;
   }
   void run() {
-    for (int crossings = 0; count_ > 0 && !gave_up_; ++crossings) {
-      const Front front = fronts_[static_cast<std::size_t>(--count_)];
+    for (int crossings = 0; !fronts_.empty() && !gave_up_; ++crossings) {
+      const Front front = fronts_.take();
       gave_up_ = crossings == most_crossings_;
       if (!gave_up_) cross(front);
     }
@@ -110,14 +106,14 @@ class Follower {
     const float command = flow_.heading_rad[cell];
     const CellOrder order = order_for(command, front.heading_rad);
     const CellDepartures departures = enclose_departures(front.entry, order, flow_.size);
-    if (departures.too_wide || departures.count == 0) {
+    if (departures.too_wide || departures.count() == 0) {
       gave_up_ = true;
       return;
     }
     for (const CellDeparture& leave : departures) {
       if (leave.grazes && static_cast<int>(leave.side) == front.grazed) continue;
       depart(front, cell, order.has_command ? (leave.aligned ? command : NAN) : front.heading_rad,
-             leave, departures.count == 1);
+             leave, departures.count() == 1);
     }
   }
 
@@ -259,8 +255,7 @@ class Follower {
   const Flow& flow_;
   int most_crossings_;
   Visitor& visitor_;
-  std::array<Front, most_fronts> fronts_;
-  int count_ = 0;
+  ShortList<Front, most_fronts> fronts_;
   bool gave_up_ = false;
 };
 
