@@ -1,65 +1,34 @@
 // fairway check: hands a certificate to the independent program beside this one.
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "fairway/app/command.hpp"
-#include "fairway/base/error.hpp"
+#include "fairway/run/checker.hpp"
 
 namespace fairway {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct CheckArguments {
-  fs::path certificate;
-  fs::path plan;
+  std::filesystem::path certificate;
+  std::filesystem::path plan;
 };
 
-/// `fairway-check` beside this program, else wherever the shell finds it.
-std::string checker() {
-  std::error_code error;
-  const fs::path self = fs::read_symlink("/proc/self/exe", error);
-  const fs::path beside = self.parent_path() / "fairway-check";
-  return !error && fs::exists(beside) ? beside.string() : "fairway-check";
-}
-
 int check_command(const CheckArguments& a, const Session& session) {
-  std::vector<std::string> words{checker(), a.certificate.string()};
+  std::vector<std::string> words{a.certificate.string()};
   if (!a.plan.empty()) words.insert(words.end(), {"--plan", a.plan.string()});
   if (session.json) words.emplace_back("--json");
   if (session.quiet) words.emplace_back("--quiet");
   if (session.threads > 0) {
     words.insert(words.end(), {"--threads", std::to_string(session.threads)});
   }
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-
-  const pid_t child = ::fork();
-  if (child == 0) {
-    // The signals that this program keeps for a thread of its own are the child's again.
-    sigset_t none;
-    sigemptyset(&none);
-    pthread_sigmask(SIG_SETMASK, &none, nullptr);
-    ::execvp(argv[0], argv.data());
-    fmt::print(stderr, "fairway: cannot run {}: {}\n", words[0], std::strerror(errno));
-    ::_exit(exit_fault);
-  }
-  int status = 0;
-  if (child < 0 || ::waitpid(child, &status, 0) != child) {
-    throw std::system_error(errno, std::generic_category(), "running " + words[0]);
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(exit_fault);
+  const CheckRun run = run_checker(std::move(words), false);
+  if (run.exit_code != 127) return run.exit_code;
+  fmt::print(stderr, "fairway: cannot run {}: it is installed beside fairway\n", checker_program());
+  return exit_fault;
 }
 
 }  // namespace

@@ -1,21 +1,25 @@
 #include "fairway/run/run.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 #include <variant>
 
 #include <fmt/format.h>
 
 #include "fairway/base/digest.hpp"
+#include "fairway/certificate/certificate_file.hpp"
 #include "fairway/field/compute_field.hpp"
 #include "fairway/map/read_map.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/run/checker.hpp"
 #include "fairway/run/mission_on_map.hpp"
 #include "fairway/run/plan_record.hpp"
 #include "fairway/run/run_pictures.hpp"
 #include "fairway/run/scenario_flights.hpp"
 #include "fairway/run/stage_clock.hpp"
 #include "fairway/run/summary.hpp"
+#include "fairway/run/verification.hpp"
 #include "fairway/simulate/flight_files.hpp"
 
 namespace fairway {
@@ -108,9 +112,49 @@ void write_flights(const ScenarioFlights& flown, const ObstacleMap& map, double 
   write_whole(place / "outcomes.csv", Existing::keep, outcomes_csv(flown.starts, flown.results));
 }
 
+/// The verdicts into `certificate.safetensors`, re-proved by the independent program.
+json verify_and_check(const Plan& plan, const Scenario& scenario, const fs::path& place,
+                      StageClock& clock) {
+  const fs::path file = place / "certificate.safetensors";
+  clock.begin("verifying", unknown_time);
+  if (scenario.verify.method == VerifyMethod::bitmap) {
+    constexpr int samples = 200;
+    json summary = write_bitmap(plan, {}, samples, scenario.simulate.seed,
+                                place / "bitmap.safetensors", Existing::keep);
+    summary["words"] =
+        fmt::format("By samples of the borders, which prove nothing, {:.2f} % of all states reach.",
+                    100.0 * summary["estimated_reach"].get<double>());
+    return summary;
+  }
+  CertifyOptions options;
+  options.undecided_max = scenario.verify.undecided_max;
+  options.time_limit_s = scenario.verify.time_limit_s;
+  options.memory_limit_bytes =
+      static_cast<std::size_t>(scenario.verify.memory_limit_mb.value_or(0.0) * 1e6);
+  options.seed = scenario.simulate.seed;
+  const Verification made =
+      verify_plan(plan, scenario.file.string(), {}, options, std::nullopt, clock);
+  write_certificate(made.certificate, file, Existing::keep);
+  write_whole(place / "failures.csv", Existing::keep, failing_states_csv(made, 100, options.seed));
+
+  clock.begin("checking the certificate", unknown_time);
+  const CheckRun check = run_checker({file.string(), "--quiet"}, true);
+  if (check.exit_code == 1) {
+    throw std::runtime_error("the certificate was refused by fairway-check: " + check.output);
+  }
+  json summary = made.summary;
+  summary["checked"] = check.exit_code == 0;
+  summary["words"] = verification_words(made) +
+                     (check.exit_code == 0 ? " A separate program re-proved the certificate."
+                                           : " The certificate was NOT checked: fairway-check "
+                                             "could not be run.");
+  return summary;
+}
+
 std::vector<std::string> product_names() {
-  std::vector<std::string> names{"plan.safetensors", "flights.csv", "flights.geojson",
-                                 "outcomes.csv", summary_name};
+  std::vector<std::string> names{
+      "plan.safetensors",        "flights.csv",        "flights.geojson", "outcomes.csv",
+      "certificate.safetensors", "bitmap.safetensors", "failures.csv",    summary_name};
   for (const std::string picture : run_pictures) {
     names.push_back(picture + ".svg");
     names.push_back(picture + ".png");
@@ -147,20 +191,24 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   const ScenarioFlights flown = fly_scenario(scenario, plan, mission, clock, left.pictures_s);
   write_flights(flown, map, plan.vehicle.speed_mps, place);
 
+  const json verified = verify_and_check(plan, scenario, place, clock);
+
   clock.begin("drawing", left.pictures_s);
   write_run_pictures(plan, mission, flown, scenario.file.stem().string(), place);
   clock.end();
 
   RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
   add_flights(result.summary, scenario, flown);
+  result.summary["verify"] = verified;
   result.summary["products"] = product_digests(place);
   add_cost(result.summary, clock);
   write_whole(place / summary_name, Existing::keep, result.summary.dump(2) + "\n");
   products.commit();
-  result.paragraph = fmt::format(
-      "{} {}Flights are evidence, not a proof. {}\nLook at {}, {} and {}.", plan_words(plan),
-      flight_words(flown), cost_words(result.summary), (folder / "plan.svg").string(),
-      (folder / "flights.svg").string(), (folder / summary_name).string());
+  result.paragraph =
+      fmt::format("{} {}Flights are evidence, not a proof. {} {}\nLook at {}, {} and {}.",
+                  plan_words(plan), flight_words(flown), verified["words"].get<std::string>(),
+                  cost_words(result.summary), (folder / "plan.svg").string(),
+                  (folder / "flights.svg").string(), (folder / summary_name).string());
   return result;
 }
 

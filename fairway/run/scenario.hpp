@@ -17,6 +17,7 @@
 #include "fairway/map/read_map.hpp"
 #include "fairway/vehicle/mission.hpp"
 #include "fairway/vehicle/vehicle.hpp"
+#include "fairway/verify/certify.hpp"
 
 namespace fairway {
 
@@ -44,11 +45,11 @@ struct SimulateRequest {
 
 enum class VerifyMethod { certified, bitmap };
 
-/// The [verify] table: read and checked, for the stage that is to come.
+/// The [verify] table.
 struct VerifyRequest {
   VerifyMethod method = VerifyMethod::certified;
-  double undecided_max = 0.005;
-  std::optional<double> time_limit_s;
+  double undecided_max = CertifyOptions{}.undecided_max;
+  double time_limit_s = 600.0;  ///< a run ends some day, on any map; 0: none
   std::optional<double> memory_limit_mb;
 };
 

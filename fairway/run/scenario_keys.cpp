@@ -236,13 +236,14 @@ std::vector<ScenarioKey> simulate_and_verify_keys() {
       choice<VerifyMethod>(
           "verify.method",
           {{"certified", VerifyMethod::certified}, {"bitmap", VerifyMethod::bitmap}},
-          FAIRWAY_MEMBER(verify.method), "for the verification to come: how to prove"),
+          FAIRWAY_MEMBER(verify.method),
+          "a proof for every state, or the paper's samples of the borders: a picture"),
       number("verify.undecided_max", Range{0.0, 1.0}, FAIRWAY_MEMBER(verify.undecided_max),
-             "for the verification to come: stop refining once this share of the volume is left"),
-      number("verify.time_limit_s", positive, FAIRWAY_MEMBER(verify.time_limit_s),
-             "for the verification to come: stop after this time, seconds"),
+             "stop refining once this share of the volume is undecided"),
+      number("verify.time_limit_s", Range{0.0, 1e9}, FAIRWAY_MEMBER(verify.time_limit_s),
+             "stop refining after this time, seconds; 0: no limit"),
       number("verify.memory_limit_mb", positive, FAIRWAY_MEMBER(verify.memory_limit_mb),
-             "for the verification to come: stop before using more memory, megabytes"),
+             "stop refining before using more memory, megabytes"),
   };
 }
 

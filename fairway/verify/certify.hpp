@@ -20,7 +20,7 @@
 namespace fairway {
 
 struct CertifyOptions {
-  double undecided_max = 0.005;       ///< of the configuration volume; stop there, [0, 1]
+  double undecided_max = 0.005;        ///< of the configuration volume; stop there, [0, 1]
   double time_limit_s = 0.0;           ///< 0: none
   std::size_t memory_limit_bytes = 0;  ///< 0: none
   std::size_t samples = 1000000;       ///< states that measure the volumes, at least one a cell
