@@ -101,7 +101,7 @@ inline double angle_bound(const IntervalVec2& a, const IntervalVec2& b) {
   const double cosine = std::clamp(dot(a, b).lo, -1.0, 1.0);
   const double half_cos = below(std::sqrt(below(0.5 * below(1.0 + cosine))));
   const double half_sin = above(std::sqrt(above(0.5 * above(1.0 - cosine))));
-  if (half_cos < 0.1) return 3.2;
+  if (!(half_cos >= 0.1)) return 3.2;  // perhaps not a number: the root of less than 0
   return above(2.0 / 3.0 * above(above(2.0 * half_sin) + above(half_sin / half_cos)));
 }
 

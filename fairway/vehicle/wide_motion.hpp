@@ -2,8 +2,8 @@
 // model section alone. No source of geometry is shared with the code under test: every candidate
 // event is a point of the circle, ordered by the tangent of half the angle turned.
 //
-// `Real` is boost::multiprecision::cpp_bin_float_quad where a proof is attacked (113 bits), long
-// double where a second opinion will do.
+// `Real` is boost::multiprecision::cpp_bin_float_oct where a proof is attacked (237 bits: near a
+// touch half of them are lost), long double where a second opinion will do.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace fairway {
 
-using Quad = boost::multiprecision::cpp_bin_float_quad;
+using Wide = boost::multiprecision::cpp_bin_float_oct;
 
 template <typename Real>
 struct WideVec {

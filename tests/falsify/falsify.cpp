@@ -6,7 +6,7 @@
 //
 // Half of the states of a plan are drawn at random, degenerate ones among them; half lie where the
 // verdict or the flight's outcome changes, found by halving the way between two states. What
-// differs from the flight in double is flown again in 113 bits, both ways where the model leaves a
+// differs from the flight in double is flown again in 237 bits, both ways where the model leaves a
 // choice. Exit code 1 on any contradiction.
 #include <algorithm>
 #include <array>
@@ -46,8 +46,8 @@ struct Totals {
   std::size_t undecided = 0;
   std::size_t contradictions = 0;
   std::size_t late = 0;     // flown longer than the bound
-  std::size_t refuted = 0;  // the flight in double was wrong, the one in 113 bits agrees
-  std::size_t unknown = 0;  // not settled in 113 bits either
+  std::size_t refuted = 0;  // the flight in double was wrong, the one in 237 bits agrees
+  std::size_t unknown = 0;  // not settled in 237 bits either
   std::array<std::size_t, verdict_count> by_verdict{};
 
   void add(const Totals& other) {
@@ -63,7 +63,7 @@ struct Totals {
   std::string line() const {
     return fmt::format(
         "{} states ({} aimed), {} undecided, {} reach, {} collide, {} leave, {} trapped; "
-        "{} contradictions, {} late, {} refuted in 113 bits, {} unknown",
+        "{} contradictions, {} late, {} refuted in 237 bits, {} unknown",
         states, aimed, undecided, by_verdict[1], by_verdict[2], by_verdict[3], by_verdict[4],
         contradictions, late, refuted, unknown);
   }
@@ -241,18 +241,18 @@ class Falsifier {
     return checked;
   }
 
-  /// In 113 bits, from every cell the state belongs to, with several draws of the choices.
+  /// In 237 bits, from every cell the state belongs to, with several draws of the choices.
   void judge(const Place& s, Verdict verdict, const FlightResult& flown, double bound_s, int by) {
-    if (!commands_) commands_ = std::make_unique<WideCommands<Quad>>(flow_);
+    if (!commands_) commands_ = std::make_unique<WideCommands<Wide>>(flow_);
     const double d = flow_.size.cell_m;
     bool contradicted = false;
     bool late = false;
     bool unknown = false;
     std::string ends;
     const auto fly_from = [&](int ix, int iy) {
-      const WideVec<Quad> p{Quad(s.x_m) - (Quad(flow_.x0_m) + Quad(ix) * Quad(d)),
-                            Quad(s.y_m) - (Quad(flow_.y0_m) + Quad(iy) * Quad(d))};
-      const WideVec<Quad> u = wide_unit<Quad>(s.heading_rad);
+      const WideVec<Wide> p{Wide(s.x_m) - (Wide(flow_.x0_m) + Wide(ix) * Wide(d)),
+                            Wide(s.y_m) - (Wide(flow_.y0_m) + Wide(iy) * Wide(d))};
+      const WideVec<Wide> u = wide_unit<Wide>(s.heading_rad);
       if (p.x < 0 || p.x > d || p.y < 0 || p.y > d) return;
       const CellKind kind = flow_.kind_at(ix, iy);
       ends += fmt::format(" [{},{}:{} at {:.17g},{:.17g}]", ix, iy, static_cast<int>(kind),
@@ -268,7 +268,7 @@ class Falsifier {
       }
       for (int draw = 0; draw < 2; ++draw) {
         Random picks(static_cast<std::uint64_t>(draw));
-        WideFlight<Quad> flight(*commands_, ix, iy, p, u, [&](std::size_t n) {
+        WideFlight<Wide> flight(*commands_, ix, iy, p, u, [&](std::size_t n) {
           return draw == 0 ? std::size_t{0} : static_cast<std::size_t>(picks.below(n));
         });
         const auto end = flight.fly_to_end(40000);
@@ -295,7 +295,7 @@ class Falsifier {
     if (++told_ <= 3 || ((contradicted || late) && told_ <= 40)) {
       fmt::print(
           "  {} {} state {:.17g},{:.17g},{:.17g}: proved {} (bound {:.9g} s), flown {} in "
-          "{:.9g} s ({}); in 113 bits:{}\n",
+          "{:.9g} s ({}); in 237 bits:{}\n",
           contradicted ? "CONTRADICTION"
           : late       ? "LATE"
           : unknown    ? "unknown"
@@ -314,7 +314,7 @@ class Falsifier {
   ExactFlights flights_;
   Random random_;
   Certified certified_;
-  std::unique_ptr<WideCommands<Quad>> commands_;
+  std::unique_ptr<WideCommands<Wide>> commands_;
   Totals totals_;
   int told_ = 0;
 };
