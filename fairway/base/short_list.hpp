@@ -16,6 +16,7 @@ class ShortList {
 
   int size() const { return size_; }
   bool empty() const { return size_ == 0; }
+  bool is_full() const { return size_ == most; }
   /// False, and nothing done, when it is full.
   bool add(const T& item) {
     if (size_ == most) return false;
@@ -23,6 +24,13 @@ class ShortList {
     ++size_;
     return true;
   }
+  /// One more, to be filled in place: its members have their defaults. Not full.
+  T& grow() {
+    T* place = ::new (static_cast<void*>(places_ + size_)) T;
+    ++size_;
+    return *place;
+  }
+  void drop_last() { --size_; }
   /// Removes the last; not empty.
   T take() { return places_[--size_]; }
   const T& operator[](int i) const { return places_[i]; }

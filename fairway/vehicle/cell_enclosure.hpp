@@ -105,12 +105,17 @@ inline double angle_bound(const IntervalVec2& a, const IntervalVec2& b) {
   return above(2.0 / 3.0 * above(above(2.0 * half_sin) + above(half_sin / half_cos)));
 }
 
-/// An event on an arc: the heading there tells its order.
+/// An event on an arc: the heading there tells its order. For one that is `possible` also where
+/// the side is left.
 struct ArcEvent {
   IntervalVec2 heading;
   bool possible = false;  ///< some state may meet it as its first
   bool certain = false;   ///< every state meets it or another before turning 90 degrees
-  CellDeparture departure;
+  Side side = Side::right;
+  bool low_corner = false;
+  bool high_corner = false;
+  Interval along_m;
+  IntervalVec2 centre_m;
 };
 
 struct Turn {
@@ -163,58 +168,53 @@ inline void cut_at_command(const Turn& turn, Side side, ExitHeading& exit) {
 }
 
 /// Where the arc crosses the line of `side` outwards: (b) and (c).
-inline ArcEvent crossing(const Turn& turn, Side side) {
+inline void crossing(const Turn& turn, Side side, ArcEvent& event) {
   const double d = turn.size.cell_m;
   const double r = turn.size.turn_radius_m;
   const double k = is_vertical(side) ? turn.sign : -turn.sign;
   const double outwards = is_far(side) ? 1.0 : -1.0;
   const Interval line = line_of(side, d);
-  ArcEvent event;
   const Interval tangent = with_sign(k, line - across(turn.centre_m, side)) / r;
-  if (tangent.lo > 1.0 || tangent.hi < -1.0) return event;
+  if (tangent.lo > 1.0 || tangent.hi < -1.0) return;
   ExitHeading exit;
   exit.along = intersection(tangent, {-1.0, 1.0});
   exit.across = sqrt(Interval(1.0) - square(exit.along));
   Interval offset = (-k * r * outwards) * exit.across;
   Interval place = along(turn.centre_m, side) + offset;
   // Off the side: whoever gets there has left through another side before.
-  if (place.hi < 0.0 || place.lo > d) return event;
+  if (place.hi < 0.0 || place.lo > d) return;
   event.heading = exit.of(side);
   const Interval turned = with_sign(turn.sign, cross(turn.entry.heading, event.heading));
   const Interval ahead = dot(turn.entry.heading, event.heading);
-  if (turned.hi < 0.0 || ahead.hi < 0.0) return event;
+  if (turned.hi < 0.0 || ahead.hi < 0.0) return;
   event.certain = tangent.lo > -1.0 && tangent.hi < 1.0 && turned.lo >= 0.0 && ahead.lo > 0.0;
   if (turn.must_align) {
     cut_at_command(turn, side, exit);
-    if (exit.empty()) return event;
+    if (exit.empty()) return;
     offset = (-k * r * outwards) * exit.across;
     place = along(turn.centre_m, side) + offset;
   }
-  CellDeparture& leave = event.departure;
-  leave.along_m = intersection(place, {0.0, d});
-  if (leave.along_m.empty()) return event;
-  leave.side = side;
-  leave.low_corner = place.lo <= corner_reach_m(d);
-  leave.high_corner = place.hi >= d - corner_reach_m(d);
-  leave.turn = turn.sign;
-  if (leave.low_corner || leave.high_corner) {
+  event.along_m = intersection(place, {0.0, d});
+  if (event.along_m.empty()) return;
+  event.side = side;
+  event.low_corner = place.lo <= corner_reach_m(d);
+  event.high_corner = place.hi >= d - corner_reach_m(d);
+  if (event.low_corner || event.high_corner) {
     // What passes between the corners tells the headings that do ...
     exit.across = intersection(
-        exit.across, (leave.along_m - along(turn.centre_m, side)) / Interval(-k * r * outwards));
+        exit.across, (event.along_m - along(turn.centre_m, side)) / Interval(-k * r * outwards));
     exit.to_circle();
-    if (exit.empty()) return event;
+    if (exit.empty()) return;
     offset = (-k * r * outwards) * exit.across;
   }
   // ... and the centres: along the side at once, across it through the heading.
-  const Interval centre_along = intersection(along(turn.centre_m, side), leave.along_m - offset);
+  const Interval centre_along = intersection(along(turn.centre_m, side), event.along_m - offset);
   const Interval centre_across =
       intersection(across(turn.centre_m, side), line - (k * r) * exit.along);
-  if (centre_along.empty() || centre_across.empty()) return event;
+  if (centre_along.empty() || centre_across.empty()) return;
   event.possible = true;
   event.heading = exit.of(side);
-  leave.heading = event.heading;
-  leave.centre_m = from_parts(centre_across, centre_along, side);
-  return event;
+  event.centre_m = from_parts(centre_across, centre_along, side);
 }
 
 /// Straight on from `from` (a part of the closed cell) along `model.heading` to every side that may
@@ -305,11 +305,10 @@ inline void leave_turning(const Turn& turn, CellDepartures& departures) {
   }
   ShortList<ArcEvent, 5> events;
   if (turn.may_align) {
-    ArcEvent align;
+    ArcEvent& align = events.grow();
     align.heading = turn.order.heading;
     align.certain = turn.must_align;
     align.possible = true;
-    events.add(align);
   }
   for (const Side side : {Side::right, Side::top, Side::left, Side::bottom}) {
     // Every heading on an arc of at most 90 degrees is a sum of its ends with weights >= 0, the
@@ -322,8 +321,9 @@ inline void leave_turning(const Turn& turn, CellDepartures& departures) {
                                                       is_vertical(side) ? -turn.entry.heading.y
                                                                         : turn.entry.heading.x);
     if (first.hi <= 0.0 && last.negative()) continue;
-    const ArcEvent event = crossing(turn, side);
-    if (event.possible || event.certain) events.add(event);
+    ArcEvent& event = events.grow();
+    crossing(turn, side, event);
+    if (!event.possible && !event.certain) events.drop_last();
   }
   for (int i = 0; i < events.size(); ++i) {
     const ArcEvent& event = events[i];
@@ -338,9 +338,19 @@ inline void leave_turning(const Turn& turn, CellDepartures& departures) {
       leave_aligned(turn, aligned_at(turn), departures);
       continue;
     }
-    CellDeparture leave = event.departure;
+    if (departures.of.is_full()) {
+      departures.too_wide = true;
+      return;
+    }
+    CellDeparture& leave = departures.of.grow();
+    leave.side = event.side;
+    leave.along_m = event.along_m;
+    leave.low_corner = event.low_corner;
+    leave.high_corner = event.high_corner;
+    leave.heading = event.heading;
+    leave.turn = turn.sign;
+    leave.centre_m = event.centre_m;
     leave.length_m = above(r * angle_bound(turn.entry.heading, event.heading));
-    departures.add(leave);
   }
 }
 
