@@ -1,0 +1,246 @@
+#include "fairway/verify/section_flight.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "fairway/base/random.hpp"
+#include "fairway/verify/certify.hpp"
+#include "fairway/verify/images.hpp"
+#include "fairway/verify/sample_plans.hpp"
+#include "fairway/verify/told_flights.hpp"
+
+namespace fairway {
+namespace {
+
+constexpr int most_crossings = 3000;
+
+/// The sections of a flow that have leaves.
+std::vector<std::size_t> live_sections(const Flow& flow) {
+  const SectionVerdicts sections = undecided_sections(flow, 0);
+  std::vector<std::size_t> live;
+  for (std::size_t s = 0; s + 1 < sections.first.size(); ++s) {
+    if (sections.first[s] < sections.first[s + 1]) live.push_back(s);
+  }
+  return live;
+}
+
+/// The exact flight of the state of a section at `along_m`.
+WideMeeting<Wide> fly_from(const WideCommands<Wide>& commands, std::size_t section,
+                           const Wide& along_m, std::uint64_t crossings, Random& random) {
+  const Flow& flow = commands.flow;
+  const Front start = front_of_section(flow, section, 0.0);
+  const auto side = static_cast<Side>(section % 4);
+  const Wide line(cell_enclosure::is_far(side) ? 0.0 : flow.size.cell_m);
+  const bool vertical = cell_enclosure::is_vertical(side);
+  const WideVec<Wide> p{vertical ? line : along_m, vertical ? along_m : line};
+  WideFlight<Wide> flight(commands, start.ix, start.iy, p, commands.unit[section / 4],
+                          [&](std::size_t n) { return random.below(n); });
+  return flight.fly(crossings);
+}
+
+Interval part_of_side(Random& random, double cell_m) {
+  static constexpr std::array<double, 7> widths{0.0, 0x1p-32, 1e-8, 1e-4, 0.02, 0.25, 1.0};
+  const double width = widths[random.below(widths.size())];
+  double low = random.unit() * (1.0 - width);
+  if (random.below(4) == 0) low = 0.0;
+  if (random.below(4) == 0) low = 1.0 - width;
+  return {low * cell_m, std::min(low + width, 1.0) * cell_m};
+}
+
+double member(Random& random, Interval x) {
+  if (random.below(4) == 0) return x.lo;
+  if (random.below(3) == 0) return x.hi;
+  return std::min(x.hi, x.lo + random.unit() * x.width());
+}
+
+TEST(SectionFlight, meets_one_of_the_things_told_from_every_place_of_the_start) {
+  Random random(1);
+  int flown = 0;
+  int given_up = 0;
+  int sets = 0;
+  for (std::uint64_t number = 0; number < 150; ++number) {
+    const Plan plan = random_plan(number);
+    const PlanFlow plan_flow(plan);
+    const Flow flow = plan_flow.flow();
+    const WideCommands<Wide> commands(flow);
+    const std::vector<std::size_t> live = live_sections(flow);
+    for (int i = 0; i < 24 && !live.empty(); ++i) {
+      const std::size_t section = live[random.below(live.size())];
+      const Interval along_m = part_of_side(random, flow.size.cell_m);
+      Told told;
+      follow_to_section(flow, front_of_section(flow, section, along_m), most_crossings, told);
+      ASSERT_FALSE(told.nothing()) << "plan " << number << " section " << section;
+      ++sets;
+      given_up += told.gave_up;
+      if (told.gave_up) continue;
+      for (int k = 0; k < 3; ++k) {
+        const double place = member(random, along_m);
+        const auto met = fly_from(commands, section, Wide(place), 300, random);
+        if (met.section == WideMeeting<Wide>::none && met.end == Verdict::undecided) continue;
+        ++flown;
+        ASSERT_TRUE(told.has(met))
+            << "plan " << number << " section " << section << " from [" << along_m.lo << ", "
+            << along_m.hi << "] at " << place << ": met " << text_of(met) << told.text();
+      }
+    }
+  }
+  EXPECT_GT(flown, 7000);
+  EXPECT_LT(given_up, sets / 10);
+}
+
+/// Two rows whose commands weave over the border between them.
+Plan weave(double below_rad, double above_rad, double ratio) {
+  Plan plan = empty_plan(6, 2, 1.0, 1.0 / ratio);
+  for (int ix = 0; ix < 6; ++ix) {
+    plan.heading_rad[plan.grid.index({ix, 0})] = Heading::stored(below_rad);
+    plan.heading_rad[plan.grid.index({ix, 1})] = Heading::stored(-above_rad);
+  }
+  return plan;
+}
+
+TEST(SectionFlight, hops_move_every_place_by_the_same_distance) {
+  Random random(2);
+  int hops = 0;
+  for (const double angle : {0.3, 0.1, 0.01, 1e-3, 1e-4, 1e-5}) {
+    for (const double steeper : {1.0, 1.3, 3.0}) {
+      for (const double ratio : {0.5, 0.1, 0.99}) {
+        for (const bool back : {false, true}) {
+          const double turned = angle * steeper;
+          const Plan plan =
+              back ? weave(pi - angle, pi - turned, ratio) : weave(angle, turned, ratio);
+          const PlanFlow plan_flow(plan);
+          const Flow flow = plan_flow.flow();
+          const WideCommands<Wide> commands(flow);
+          const std::size_t section = section_of(2, Side::top);
+          // Of the command as it is stored.
+          const double move = 4.0 / ratio * std::sin(static_cast<double>(plan.heading_rad[2]));
+          const Interval along_m = part_of_side(random, 1.0);
+          Told told;
+          follow_to_section(flow, front_of_section(flow, section, along_m), most_crossings, told);
+          for (const Told::Arrival& a : told.arrivals) {
+            if (!a.hop) continue;
+            ++hops;
+            ASSERT_EQ(a.section, section);
+            // From a leaf, as the prover asks: never more than the true move.
+            const UnitRange leaf = units_of(along_m, 1.0);
+            const double least = least_move({0, units_of(a.along_m, 1.0), 0.0F, true}, leaf);
+            ASSERT_LE(least, move * 0x1p32 * (1.0 + 1e-6) + 4.0) << angle << " " << ratio;
+          }
+          for (int k = 0; k < 4; ++k) {
+            const double place = member(random, along_m);
+            const auto met = fly_from(commands, section, Wide(place), 40, random);
+            if (met.section != section) continue;
+            const double moved = static_cast<double>(met.along_m - Wide(place));
+            ASSERT_NEAR(moved, back ? -move : move, 1e-6 * move);
+            ASSERT_TRUE(told.has(met)) << text_of(met) << told.text();
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(hops, 60);
+}
+
+TEST(SectionFlight, leaps_over_waves_to_where_flying_them_one_by_one_comes) {
+  Random random(3);
+  int leapt = 0;
+  for (const double angle : {0.02, 5e-3, 1e-3, 3e-4}) {
+    for (const bool back : {false, true}) {
+      // The vehicle comes from the left (right) with a flatter heading than both commands.
+      Plan plan = weave(back ? pi - 1.0 : 1.0, back ? pi - 1.2 : 1.2, 0.5);
+      const std::size_t from = back ? 5 : 0;
+      plan.heading_rad[from] = Heading::stored(back ? pi - angle : angle);
+      const PlanFlow plan_flow(plan);
+      const Flow flow = plan_flow.flow();
+      const WideCommands<Wide> commands(flow);
+      const std::size_t section = section_of(from, back ? Side::left : Side::right);
+      for (int i = 0; i < 12; ++i) {
+        const double low = 1.0 - 4e-6 * random.unit();
+        const Interval along_m{low, std::min(1.0, low + 1e-9 * random.unit())};
+        Told told;
+        follow_to_section(flow, front_of_section(flow, section, along_m), most_crossings, told);
+        ASSERT_FALSE(told.nothing());
+        if (told.gave_up) continue;
+        const auto met = fly_from(commands, section, Wide(member(random, along_m)), 20000, random);
+        leapt += met.crossings > 100;
+        ASSERT_TRUE(told.has(met)) << angle << ": met " << text_of(met) << told.text();
+      }
+    }
+  }
+  EXPECT_GT(leapt, 20);
+}
+
+TEST(SectionFlight, recognises_a_circle_and_only_that) {
+  // A command always behind the vehicle keeps it on one circle: cells on a ring of radius 2.5.
+  Plan plan = empty_plan(8, 8, 1.0, 2.5);
+  for (std::size_t i = 0; i < plan.grid.size(); ++i) {
+    const Vec2 p = plan.grid.center(plan.grid.cell_at(i)) - Vec2{4.0, 4.0};
+    plan.heading_rad[i] = Heading::stored(std::atan2(p.y, p.x) + pi / 2 + 1.2);
+  }
+  const PlanFlow plan_flow(plan);
+  const Flow flow = plan_flow.flow();
+  Front front;
+  front.ix = 6;
+  front.iy = 4;
+  front.entry.position_m = {0.5, 0.01};
+  front.entry.heading = unit_enclosure(pi / 2);
+  Told told;
+  follow_to_section(flow, front, most_crossings, told);
+  ASSERT_FALSE(told.gave_up);
+  ASSERT_EQ(told.ends.size(), 1U) << told.text();
+  EXPECT_EQ(told.ends[0].verdict, Verdict::trapped);
+  EXPECT_TRUE(told.arrivals.empty());
+  // A target on the ring ends it.
+  std::vector<CellKind> kind = plan_flow.kind;
+  kind[flow.index(1, 4)] = CellKind::target;
+  Flow with_target = flow;
+  with_target.kind = kind.data();
+  Told other;
+  follow_to_section(with_target, front, most_crossings, other);
+  ASSERT_EQ(other.ends.size(), 1U) << other.text();
+  EXPECT_EQ(other.ends[0].verdict, Verdict::reach);
+}
+
+TEST(SectionFlight, tells_of_every_cell_around_a_corner_it_passes_through) {
+  Plan plan = empty_plan(4, 4, 1.0, 2.0);
+  for (float& h : plan.heading_rad) h = std::numeric_limits<float>::quiet_NaN();
+  for (const std::size_t blocked : {std::size_t{6}, std::size_t{9}}) {  // either beside the corner
+    plan.region.assign(plan.grid.size(), Region::free);
+    plan.region[blocked] = Region::obstacle;
+    const PlanFlow plan_flow(plan);
+    const Flow flow = plan_flow.flow();
+    Front front;
+    front.ix = 1;
+    front.iy = 1;
+    front.entry.position_m = {0.5, 0.5};
+    const double diagonal = std::sqrt(0.5);  // straight to the corner (2, 2)
+    front.entry.heading = {{below(diagonal), above(diagonal)}, {below(diagonal), above(diagonal)}};
+    Told told;
+    follow_to_section(flow, front, most_crossings, told);
+    bool collides = false;
+    bool goes_on = false;
+    for (const Told::End& end : told.ends) {
+      collides = collides || end.verdict == Verdict::collide;
+      goes_on = goes_on || end.verdict == Verdict::leave;
+    }
+    EXPECT_TRUE(collides) << blocked << told.text();
+    EXPECT_TRUE(goes_on) << blocked << told.text();
+  }
+}
+
+TEST(SectionFlight, gives_up_rather_than_say_half) {
+  const Plan plan = random_plan(0);
+  const PlanFlow plan_flow(plan);
+  const Flow flow = plan_flow.flow();
+  for (const std::size_t section : live_sections(flow)) {
+    Told told;
+    follow_to_section(flow, front_of_section(flow, section, {0.0, flow.size.cell_m}), 0, told);
+    ASSERT_TRUE(told.gave_up);
+  }
+}
+
+}  // namespace
+}  // namespace fairway
