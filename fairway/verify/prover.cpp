@@ -90,24 +90,29 @@ void Prover::fly(const std::vector<Id>& ids) {
 }
 
 /// A weave that moves every state of the leaf one way along the border leaves the leaf after
-/// finitely many hops, at that end: its hop may touch the leaf itself, and the bound of the time
-/// counts the hops.
+/// finitely many hops, at that end: its hop may touch the leaf itself. Whatever else a state does,
+/// it may have done all those hops before: the bound of the time counts them with everything.
 VerdictSet Prover::verdicts_of(Id id) const {
   const Leaf& leaf = leaf_[id];
   VerdictSet found = leaf.ends;
   if (leaf.gave_up) found.add(Verdict::undecided, 0.0);
+  double hops_s = 0.0;
   for (const ImagePiece& piece : pieces_of(leaf)) {
-    double flown_s = static_cast<double>(piece.flown_s);
+    const auto flown_s = static_cast<double>(piece.flown_s);
     const double move = piece.hop && piece.section == leaf.place.section
                             ? least_move(piece, leaf.place.range)
                             : 0.0;
-    if (move > 0.0) flown_s *= std::floor(width_of(leaf.place.range) / move) + 1.0;
     if (on_section_[piece.section].empty()) found.add(Verdict::undecided, 0.0);
     for_leaves(piece.section, piece.range, [&](Id other) {
-      if (other == id && move > 0.0) return;
+      if (other == id && move > 0.0) {
+        const double hops = std::floor(width_of(leaf.place.range) / move);
+        hops_s = std::max(hops_s, above(hops * flown_s));
+        return;
+      }
       found.add(leaf_[other].verdict, above(flown_s + static_cast<double>(leaf_[other].time_s)));
     });
   }
+  found.time_s = above(found.time_s + hops_s);
   return found;
 }
 
