@@ -1,0 +1,220 @@
+#include "check/flight.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace fairway_check {
+
+const char* const verdict_name[verdict_count]{"undecided", "reach", "collide", "leave", "trapped"};
+
+namespace {
+
+constexpr std::size_t none = ~std::size_t{0};
+constexpr int most_cells = 20000;
+constexpr double most_waves = 0x1p50;
+
+/// A set in a cell, and what its past allows to conclude. Every state of it shares this past.
+struct Part {
+  int ix = 0;
+  int iy = 0;
+  Bundle set;
+  float flown_rad = NAN;  ///< the heading, when it is a command, as a number
+  double length = 0.0;
+  std::size_t began_at = none;     ///< just left this section
+  std::size_t mirror_of = none;    ///< just came back over this section, which it left before
+  std::size_t circle_from = none;  ///< the first side crossed on the present circle
+  std::size_t wave_from = none;    ///< the side crossed at the begin of a wave, ...
+  double wave_length = 0.0;        ///< ... what was flown until then, ...
+  bool wave_returned = false;      ///< ... and whether it was crossed back since
+  int skimmed_side = -1;           ///< the set runs along this side, and is followed beyond as well
+};
+
+Verdict verdict_in(CellKind kind) {
+  return kind == target ? reach : kind == obstacle ? collide : leave;
+}
+
+class Follower {
+ public:
+  Follower(const Loop& loop, Listener& listener) : loop_(loop), listener_(listener) {}
+
+  void follow(const Part& first) {
+    push(first);
+    for (int cells = 0; count_ > 0 && !lost_; ++cells) {
+      const Part part = stack_[--count_];
+      lost_ = cells == most_cells;
+      if (!lost_) cross(part);
+    }
+    if (lost_) listener_.give_up();
+  }
+
+ private:
+  void push(const Part& part) {
+    if (count_ == stack_.size()) {
+      lost_ = true;
+    } else {
+      stack_[count_++] = part;
+    }
+  }
+
+  std::size_t section(int ix, int iy, int side) const {
+    return 4 * loop_.index(ix, iy) + static_cast<std::size_t>(side);
+  }
+
+  void cross(const Part& part) {
+    const std::size_t cell = loop_.index(part.ix, part.iy);
+    const float rad = loop_.command_rad[cell];
+    const Command command{loop_.direction[cell], !std::isnan(rad), rad == part.flown_rad};
+    Ways ways;
+    find_ways(part.set, command, loop_.radius, ways);
+    if (ways.lost || ways.count == 0) {
+      lost_ = true;
+      return;
+    }
+    for (int i = 0; i < ways.count; ++i) {
+      Way& way = ways.way[static_cast<std::size_t>(i)];
+      // Along this side it is followed on its other side already.
+      if (way.skims && way.side == part.skimmed_side) continue;
+      const float flown_rad = !command.exists ? part.flown_rad : way.aligned ? rad : NAN;
+      go(part, way, flown_rad, ways.count == 1);
+    }
+  }
+
+  void go(const Part& part, Way& way, float flown_rad, bool alone) {
+    const std::size_t off = section(part.ix, part.iy, way.side);
+    // On its way back to the section it began at, the set aligns where it leaves: told as a hop.
+    const bool hop = part.mirror_of == off;
+    if (hop && way.aligned) return;
+    Part next;
+    next.ix = part.ix + step_x[way.side];
+    next.iy = part.iy + step_y[way.side];
+    next.set.heading = way.heading;
+    next.flown_rad = hop ? loop_.command_rad[off / 4] : flown_rad;
+    next.length = (Real(part.length) + way.length).upper();
+    if (way.at_low) go_through_corner(part, way, next, -1);
+    if (way.at_high) go_through_corner(part, way, next, 1);
+
+    const CellKind kind = loop_.kind_at(next.ix, next.iy);
+    if (kind != ordinary) {
+      listener_.end(verdict_in(kind), next.length);
+      return;
+    }
+    if (way.skims && is_turned_away(next, way.side)) return;
+    if (hop || (way.aligned && !way.skims)) {
+      listener_.arrive(off, way.place, next.length, hop);
+      return;
+    }
+    const std::size_t back = section(next.ix, next.iy, (way.side + 2) & 3);
+    if (way.turn != 0) {
+      if (alone) ride_waves(part, way, off, back, next);
+      const bool same_circle = part.set.turn == way.turn;
+      if (same_circle && part.circle_from == off) {
+        listener_.end(trapped, next.length);
+        return;
+      }
+      next.circle_from = same_circle && part.circle_from != none ? part.circle_from : off;
+      next.set.turn = way.turn;
+      next.set.centre = {way.centre.x - static_cast<double>(step_x[way.side]),
+                         way.centre.y - static_cast<double>(step_y[way.side])};
+      if (part.began_at == back) next.mirror_of = back;
+    }
+    if (way.skims) next.skimmed_side = (way.side + 2) & 3;
+    next.set.at = from_frame(way.side, {Real(-0.5), way.place});
+    push(next);
+  }
+
+  /// What leaves through a corner (end -1 or 1 of the side) touches the two cells beyond the end,
+  /// too, and may go on in the one across. Headings that come from beyond the end do not leave
+  /// here.
+  void go_through_corner(const Part& part, const Way& way, Part next, int end) {
+    const Real onwards = static_cast<double>(end) * into_frame(way.side, way.heading).y;
+    if (negative(onwards)) return;
+    const int over = (way.side + end) & 3;  // the side of the cell left that lies at the end
+    const int beside_x = part.ix + step_x[over];
+    const int beside_y = part.iy + step_y[over];
+    next.ix += step_x[over];
+    next.iy += step_y[over];
+    const CellKind beside = loop_.kind_at(beside_x, beside_y);
+    const CellKind across = loop_.kind_at(next.ix, next.iy);
+    if (beside != ordinary) listener_.end(verdict_in(beside), next.length);
+    if (across != ordinary) {
+      listener_.end(verdict_in(across), next.length);
+      return;
+    }
+    if (is_turned_away(next, over)) return;
+    next.set.at = from_frame(way.side, {Real(-0.5), Real(-0.5 * end)});
+    push(next);
+  }
+
+  /// Exactly along the side `over` through which it would come in, where the command turns it out
+  /// again at once: nothing moves in that cell for any time.
+  bool is_turned_away(const Part& next, int over) const {
+    const std::size_t cell = loop_.index(next.ix, next.iy);
+    return is_zero(into_frame(over, next.set.heading).x) && !std::isnan(loop_.command_rad[cell]) &&
+           negative(into_frame(over, loop_.direction[cell]).x);
+  }
+
+  /// Lemma 5 for any weave: out over a side, back over it and out again, each time on one arc and
+  /// by all states of the set, is repeated while it lands between the same two cells: every wave
+  /// moves a state by 4 R sin n. Waves that are sure to are ridden at once.
+  void ride_waves(const Part& part, Way& way, std::size_t off, std::size_t back, Part& next) const {
+    if (part.wave_from == back && !part.wave_returned) {
+      next.wave_from = back;
+      next.wave_length = part.wave_length;
+      next.wave_returned = true;
+      return;
+    }
+    if (part.wave_from != off || !part.wave_returned) {
+      next.wave_from = off;
+      next.wave_length = next.length;
+      return;
+    }
+    const Vec u = into_frame(way.side, way.heading);
+    const bool up = positive(u.y);
+    Real step = 4.0 * loop_.radius * u.x;
+    if ((!up && !negative(u.y)) || !cut(step, Real(0.0, 4.0 * loop_.radius.upper()))) return;
+    const double room =
+        (up ? 0.5 - Real(way.place.upper()) : Real(way.place.lower()) + 0.5).lower();
+    const double waves = std::floor((Real(room) / step.upper()).lower()) - 2.0;
+    if (!(waves >= 1.0 && waves < most_waves)) return;
+    const Real moved = (up ? waves : -waves) * step;
+    Vec centre = into_frame(way.side, way.centre);
+    way.place += moved;
+    centre.y += moved;
+    way.centre = from_frame(way.side, centre);
+    const Real wave_length = Real(next.length) - part.wave_length;
+    next.length = (next.length + waves * wave_length).upper();
+  }
+
+  const Loop& loop_;
+  Listener& listener_;
+  std::array<Part, 64> stack_;
+  std::size_t count_ = 0;
+  bool lost_ = false;
+};
+
+}  // namespace
+
+void follow_section(const Loop& loop, std::size_t section, const Real& place, Listener& listener) {
+  const std::size_t cell = section / 4;
+  const int side = static_cast<int>(section % 4);
+  Part part;
+  part.ix = static_cast<int>(cell % static_cast<std::size_t>(loop.nx)) + step_x[side];
+  part.iy = static_cast<int>(cell / static_cast<std::size_t>(loop.nx)) + step_y[side];
+  part.set.at = from_frame(side, {Real(-0.5), place});
+  part.set.heading = loop.direction[cell];
+  part.flown_rad = loop.command_rad[cell];
+  part.began_at = section;
+  Follower(loop, listener).follow(part);
+}
+
+void follow_states(const Loop& loop, int ix, int iy, const Vec& at, const Vec& heading,
+                   Listener& listener) {
+  Part part;
+  part.ix = ix;
+  part.iy = iy;
+  part.set.at = at;
+  part.set.heading = heading;
+  Follower(loop, listener).follow(part);
+}
+
+}  // namespace fairway_check

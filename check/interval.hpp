@@ -1,0 +1,92 @@
+// Intervals with ends rounded outwards by the processor (Boost.Interval), pairs of them, and
+// frames.
+//
+// All arithmetic on `Real` must run while an `Upwards` lives in the same thread: the rounding mode
+// is then upwards throughout, and a lower end is computed as the negative of an upper one.
+#pragma once
+
+#include <cfenv>
+
+#include <boost/numeric/interval.hpp>
+
+namespace fairway_check {
+
+/// Keeps the compiler from seeing through a rounded result; cheaper than a trip through memory.
+struct RoundingControl : boost::numeric::interval_lib::rounding_control<double> {
+  static double force_rounding(double r) {
+#if defined(__x86_64__)
+    asm("" : "+x"(r));
+    return r;
+#else
+    volatile double kept = r;
+    return kept;
+#endif
+  }
+};
+using Rounding = boost::numeric::interval_lib::save_state_nothing<
+    boost::numeric::interval_lib::rounded_arith_opp<double, RoundingControl>>;
+using Real =
+    boost::numeric::interval<double,
+                             boost::numeric::interval_lib::policies<
+                                 Rounding, boost::numeric::interval_lib::checking_base<double>>>;
+
+/// Sets the rounding mode of this thread, proves that the arithmetic obeys, and sets it back in the
+/// end. Throws std::runtime_error when the machine or the compiler does not round as told.
+class Upwards {
+ public:
+  Upwards();
+  ~Upwards();
+  Upwards(const Upwards&) = delete;
+  Upwards& operator=(const Upwards&) = delete;
+
+ private:
+  int before_;
+};
+
+inline bool positive(const Real& a) { return a.lower() > 0.0; }
+inline bool negative(const Real& a) { return a.upper() < 0.0; }
+inline bool is_zero(const Real& a) { return a.lower() == 0.0 && a.upper() == 0.0; }
+/// False as well where an end is not a number.
+inline bool holds_something(const Real& a) { return a.lower() <= a.upper(); }
+/// Keeps of `a` what `b` holds; false when nothing is left.
+inline bool cut(Real& a, const Real& b) {
+  const double low = a.lower() > b.lower() ? a.lower() : b.lower();
+  const double high = a.upper() < b.upper() ? a.upper() : b.upper();
+  if (!(low <= high)) return false;
+  a.assign(low, high);
+  return true;
+}
+/// Square root of the part that is not negative: x / sqrt(x), rounded up below the line, is no more
+/// than sqrt(x), so that the mode need not be turned.
+Real root(const Real& a);
+
+/// In the world: east, north. In the frame of a side: outwards across it, and along it with the
+/// outward direction to the right hand.
+struct Vec {
+  Real x;
+  Real y;
+};
+inline Real dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y; }
+inline Real cross(const Vec& a, const Vec& b) { return a.x * b.y - a.y * b.x; }
+
+/// Sides: 0 right, 1 top, 2 left, 3 bottom; each frame is the one before, turned by 90 degrees.
+inline Vec into_frame(int side, const Vec& v) {
+  switch (side) {
+    case 0:
+      return v;
+    case 1:
+      return {v.y, -v.x};
+    case 2:
+      return {-v.x, -v.y};
+    default:
+      return {-v.y, v.x};
+  }
+}
+inline Vec from_frame(int side, const Vec& v) { return into_frame((4 - side) & 3, v); }
+constexpr int step_x[4]{1, 0, -1, 0};
+constexpr int step_y[4]{0, 1, 0, -1};
+
+/// Cosine and sine of a finite angle, by MPFR; needs no rounding mode. Exact at 0.
+Vec unit_vector(double angle_rad);
+
+}  // namespace fairway_check
