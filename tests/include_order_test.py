@@ -17,7 +17,7 @@ NOUNS = {
     "plan": {"plan.hpp"},
     "simulate": {"flight.hpp"},
     "verify": {"border_bitmap.hpp", "verdict.hpp", "flow.hpp", "section_view.hpp",
-               "section_verdicts.hpp"},
+               "section_verdicts.hpp", "verdict_map.hpp"},
     "certificate": {"certificate.hpp"},
     "report": {"picture.hpp"},
 }

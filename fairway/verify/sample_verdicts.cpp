@@ -1,0 +1,111 @@
+#include "fairway/verify/sample_verdicts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fairway/base/error.hpp"
+#include "fairway/base/heading.hpp"
+#include "fairway/base/parallel.hpp"
+#include "fairway/base/random.hpp"
+#include "fairway/verify/state_flight.hpp"
+
+namespace fairway {
+namespace {
+
+/// Gathers the verdicts of all ends that one state's flights may have.
+struct Reader {
+  const Flow& flow;
+  const SectionView& sections;
+  VerdictSet found;
+
+  void arrive(std::size_t section, Interval along_m, double, bool) {
+    sections.look_up(section, units_of(along_m, flow.size.cell_m), 0.0, found);
+  }
+  void end(Verdict verdict, double) { found.add(verdict, 0.0); }
+  void give_up() { found.add(Verdict::undecided, 0.0); }
+};
+
+/// `n` mirrored at the point, in `base`: spreads 0, 1, 2, ... evenly over [0, 1).
+double radical_inverse(unsigned n, unsigned base) {
+  double inverse = 0.0;
+  double digit = 1.0 / base;
+  for (; n > 0; n /= base, digit /= base) inverse += digit * (n % base);
+  return inverse;
+}
+
+double fraction(double x) { return x - std::floor(x); }
+
+class Sampler {
+ public:
+  Sampler(const Flow& flow, const SectionView& sections, const VerdictMapOptions& options)
+      : flow_(flow), sections_(sections), options_(options) {}
+
+  Verdict verdict(Vec2 p, double heading_rad) const {
+    Reader reader{flow_, sections_, {}};
+    follow_state(flow_, p.x, p.y, heading_rad, options_.most_crossings, reader);
+    return reader.found.only();
+  }
+
+  /// One heading in each of equal slices; places of a Halton sequence, shifted at random so that
+  /// no two cells are looked at in the same places.
+  std::array<std::uint16_t, verdict_count> counts(const Grid& grid, Cell cell) const {
+    Random random = Random::stream(options_.seed, grid.index(cell));
+    const double shift_x = random.unit();
+    const double shift_y = random.unit();
+    const Vec2 corner = grid.corner(cell);
+    std::array<std::uint16_t, verdict_count> count{};
+    for (int k = 0; k < options_.states_per_sample; ++k) {
+      const auto n = static_cast<unsigned>(k);
+      const Vec2 within{fraction(shift_x + radical_inverse(n, 2)),
+                        fraction(shift_y + radical_inverse(n, 3))};
+      const double turn = (k + random.unit()) / options_.states_per_sample;
+      const Verdict found = verdict(corner + grid.cell_m * within, pi * (2.0 * turn - 1.0));
+      ++count[static_cast<std::size_t>(found)];
+    }
+    return count;
+  }
+
+ private:
+  const Flow& flow_;
+  const SectionView& sections_;
+  const VerdictMapOptions& options_;
+};
+
+}  // namespace
+
+VerdictMap verdict_map_of(const Flow& flow, const SectionView& sections,
+                          const VerdictMapOptions& options) {
+  require(options.headings >= 1 && options.most_across >= 1 && options.most_crossings >= 1,
+          "a verdict map has at least one heading, one sample across, and flights that may cross");
+  require(options.states_per_sample >= 0 && options.states_per_sample <= 65535,
+          "0 to 65535 states a sample");
+  VerdictMap map;
+  map.grid = {flow.nx, flow.ny, flow.x0_m, flow.y0_m, flow.size.cell_m};
+  const int most = options.most_across;
+  map.cells_per_sample = std::max(1, (std::max(flow.nx, flow.ny) + most - 1) / most);
+  map.nx = (flow.nx + map.cells_per_sample - 1) / map.cells_per_sample;
+  map.ny = (flow.ny + map.cells_per_sample - 1) / map.cells_per_sample;
+  map.states_per_sample = options.states_per_sample;
+  for (int k = 0; k < options.headings; ++k) {
+    map.heading_rad.push_back(Heading::from_rad(two_pi * k / options.headings).rad());
+  }
+  map.kind.resize(map.samples());
+  map.verdict.assign(map.samples() * map.heading_rad.size(), Verdict::undecided);
+  map.count.assign(map.samples(), {});
+  const Sampler sampler(flow, sections, options);
+  for_ranges(map.samples(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Cell cell = map.cell_of_sample(i);
+      map.kind[i] = flow.kind_at(cell.ix, cell.iy);
+      if (map.kind[i] != CellKind::ordinary) continue;
+      for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
+        map.verdict[h * map.samples() + i] =
+            sampler.verdict(map.grid.center(cell), map.heading_rad[h]);
+      }
+      map.count[i] = sampler.counts(map.grid, cell);
+    }
+  });
+  return map;
+}
+
+}  // namespace fairway

@@ -1,0 +1,28 @@
+// Certificate -> verdicts of sampled states, place by place.
+//
+// Properties that always hold: those of verdict_map.hpp; every verdict but undecided is proved, as
+// a query of the certificate would answer; the map depends on its arguments alone, not on threads.
+// Cost: about a microsecond a state and core.
+#pragma once
+
+#include <cstdint>
+
+#include "fairway/verify/flow.hpp"
+#include "fairway/verify/section_view.hpp"
+#include "fairway/verify/verdict_map.hpp"
+
+namespace fairway {
+
+struct VerdictMapOptions {
+  int headings = 8;            ///< evenly spaced from east, counter-clockwise; at least 1
+  int states_per_sample = 32;  ///< 0 to 65535
+  int most_across = 256;       ///< samples along the longer side, at least 1
+  std::uint64_t seed = 1;      ///< of the states' places
+  int most_crossings = 3000;   ///< of borders by one flight, else undecided
+};
+
+/// Throws ContractViolation when an option is out of range.
+[[nodiscard]] VerdictMap verdict_map_of(const Flow& flow, const SectionView& sections,
+                                        const VerdictMapOptions& options);
+
+}  // namespace fairway
