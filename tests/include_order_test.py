@@ -7,8 +7,8 @@ import pathlib
 import re
 import sys
 
-STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "verify", "certificate", "report", "run",
-          "app"]
+STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "verify", "certificate", "steer", "report",
+          "run", "app"]
 TOOLBOXES = {"base", "vehicle"}
 JOINERS = {"run", "app"}
 NOUNS = {

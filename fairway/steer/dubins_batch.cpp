@@ -1,0 +1,113 @@
+// Many shortest lengths at once. A block of pairs goes through the four words with a straight part
+// without a branch, several pairs to an instruction; the few for which RLR or LRL could be shorter
+// are looked at one by one. Compiled for AVX-512, AVX2 and the plain machine, chosen when the
+// program starts; no operation is fused, so the bits are the same.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "fairway/base/error.hpp"
+#include "fairway/base/parallel.hpp"
+#include "fairway/steer/dubins_cases.hpp"
+#include "fairway/steer/dubins_words.hpp"
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define FAIRWAY_WIDE [[gnu::target_clones("arch=x86-64-v4", "avx2", "default")]]
+#else
+#define FAIRWAY_WIDE
+#endif
+
+namespace fairway {
+namespace {
+
+using namespace dubins;
+
+constexpr std::size_t block = 256;
+
+/// A block's inputs, copied so that the compiler sees arrays that do not overlap.
+struct Block {
+  std::array<double, block> x0, y0, h0, x1, y1, h1;
+  std::array<double, block> length;  ///< of the best word with a straight part, radii
+  std::array<double, block> bound;   ///< of RLR and LRL
+};
+
+[[gnu::always_inline]] inline double least(double a, double b) { return b < a ? b : a; }
+
+[[gnu::always_inline]] inline double lsr_length(const Pair& p) {
+  const Vec2 lr = p.lr();
+  const double square = crossing_square(p, lr);
+  const double straight = std::sqrt(square < 0.0 ? 0.0 : square);
+  const double turn = lsr_turn(p, lr, straight);
+  const double length = straight + turn + lsr_last(p, turn);
+  return square >= 0.0 ? length : std::numeric_limits<double>::infinity();
+}
+
+FAIRWAY_WIDE void straight_words(Block& b, double turn_radius_m) {
+  for (std::size_t i = 0; i < block; ++i) {
+    const Pair pair = pair_of(b.x0[i], b.y0[i], b.h0[i], b.x1[i], b.y1[i], b.h1[i], turn_radius_m);
+    const Pair mirror = mirrored(pair);
+    double length = least(lsl_length(pair), lsl_length(mirror));
+    length = least(length, least(lsr_length(pair), lsr_length(mirror)));
+    b.bound[i] =
+        least(lrl_bound(std::sqrt(norm2(pair.ll()))), lrl_bound(std::sqrt(norm2(mirror.ll()))));
+    const bool fits = (std::abs(pair.d.x) <= farthest_radii) &
+                      (std::abs(pair.d.y) <= farthest_radii) & (std::abs(b.h0[i]) <= pi) &
+                      (std::abs(b.h1[i]) <= pi);
+    b.length[i] = fits ? length : std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+double with_three_turns(const Block& b, std::size_t i, double turn_radius_m) {
+  const Pair pair = pair_of(b.x0[i], b.y0[i], b.h0[i], b.x1[i], b.y1[i], b.h1[i], turn_radius_m);
+  const Pair mirror = mirrored(pair);
+  double length = b.length[i];
+  if (lrl_bound(std::sqrt(norm2(mirror.ll()))) < length) {
+    length = least(length, lrl_parts(mirror).length());
+  }
+  if (lrl_bound(std::sqrt(norm2(pair.ll()))) < length) {
+    length = least(length, lrl_parts(pair).length());
+  }
+  return length;
+}
+
+void fill(std::array<double, block>& place, std::span<const double> from, std::size_t begin,
+          std::size_t count) {
+  std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(begin), count, place.begin());
+  std::fill(place.begin() + static_cast<std::ptrdiff_t>(count), place.end(), 0.0);
+}
+
+}  // namespace
+
+void shortest_lengths_m(const PoseArrays& from, const PoseArrays& to, double turn_radius_m,
+                        std::span<double> length_m) {
+  const std::size_t size = length_m.size();
+  for (const auto& array : {from.x_m, from.y_m, from.heading_rad, to.x_m, to.y_m, to.heading_rad}) {
+    require(array.size() == size, "the arrays are equally long");
+  }
+  require(can_steer({}, {}, turn_radius_m), "the turning radius is positive and finite");
+  const std::size_t blocks = (size + block - 1) / block;
+  for_ranges(blocks, 8, [&](std::size_t first, std::size_t last) {
+    Block b;
+    for (std::size_t k = first; k < last; ++k) {
+      const std::size_t begin = k * block;
+      const std::size_t count = std::min(block, size - begin);
+      fill(b.x0, from.x_m, begin, count);
+      fill(b.y0, from.y_m, begin, count);
+      fill(b.h0, from.heading_rad, begin, count);
+      fill(b.x1, to.x_m, begin, count);
+      fill(b.y1, to.y_m, begin, count);
+      fill(b.h1, to.heading_rad, begin, count);
+      straight_words(b, turn_radius_m);
+      for (std::size_t i = 0; i < count; ++i) {
+        const bool may_turn_thrice = b.bound[i] < b.length[i];
+        const double length = may_turn_thrice ? with_three_turns(b, i, turn_radius_m) : b.length[i];
+        length_m[begin + i] = turn_radius_m * length;
+      }
+    }
+  });
+}
+
+}  // namespace fairway
