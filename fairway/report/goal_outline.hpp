@@ -1,5 +1,7 @@
-// The border of the goal's cells, as few straight lines.
+// The border of the goal's cells, or of others, as few straight lines.
 #pragma once
+
+#include <functional>
 
 #include "fairway/plan/plan.hpp"
 #include "fairway/report/plot_frame.hpp"
@@ -8,5 +10,9 @@ namespace fairway {
 
 /// Every cell side between a goal cell and one that is not, neighbouring sides joined.
 [[nodiscard]] DrawingPath goal_outline(const Plan& plan, const PlotFrame& frame);
+
+/// The same for the cells of which `inside` is true; it is asked of cells just outside, too.
+[[nodiscard]] DrawingPath outline_of_cells(const Grid& grid, const PlotFrame& frame,
+                                           const std::function<bool(Cell)>& inside);
 
 }  // namespace fairway

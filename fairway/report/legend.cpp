@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "fairway/report/hatch.hpp"
+
 namespace fairway {
 namespace {
 
@@ -38,6 +40,17 @@ LegendEntry line_entry(std::string name, const Pen& pen) {
 LegendEntry area_entry(std::string name, const Color& color) {
   return {std::move(name), [color](Canvas& canvas, const Rect& box) {
             canvas.fill(box.outline(), color);
+            canvas.stroke(box.outline(), {palette::ink, 0.5, {}});
+          }};
+}
+
+LegendEntry hatched_entry(std::string name, const Color& ground, const Pen& pen, bool rising,
+                          bool falling) {
+  return {std::move(name), [=](Canvas& canvas, const Rect& box) {
+            canvas.fill(box.outline(), ground);
+            const auto everywhere = [](Vec2) { return true; };
+            if (rising) canvas.stroke(hatch(box, 3.0, true, everywhere), pen);
+            if (falling) canvas.stroke(hatch(box, 3.0, false, everywhere), pen);
             canvas.stroke(box.outline(), {palette::ink, 0.5, {}});
           }};
 }

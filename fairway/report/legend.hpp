@@ -24,5 +24,8 @@ void draw_legend(Canvas& canvas, Vec2 corner, const std::vector<LegendEntry>& en
 /// Ready samples.
 [[nodiscard]] LegendEntry line_entry(std::string name, const Pen& pen);
 [[nodiscard]] LegendEntry area_entry(std::string name, const Color& color);
+/// An area under strokes that rise, fall (to the right), or both.
+[[nodiscard]] LegendEntry hatched_entry(std::string name, const Color& ground, const Pen& pen,
+                                        bool rising, bool falling);
 
 }  // namespace fairway

@@ -12,6 +12,7 @@
 #include "fairway/report/contours.hpp"
 #include "fairway/report/goal_outline.hpp"
 #include "fairway/report/hatch.hpp"
+#include "fairway/report/map_frame.hpp"
 #include "fairway/report/mission_marks.hpp"
 #include "fairway/report/ticks.hpp"
 
@@ -24,8 +25,6 @@ constexpr double gap_to_side_pt = 16.0;
 constexpr double color_bar_width_pt = 14.0;
 constexpr double color_bar_height_pt = 130.0;
 constexpr double color_bar_room_pt = color_bar_height_pt + 34.0;
-constexpr double scale_bar_room_pt = 34.0;
-constexpr double longest_aspect = 5.0;
 constexpr int most_contour_samples = 500;
 constexpr int contours_wanted = 7;
 
@@ -43,29 +42,6 @@ void check(const Plan& plan, const MapPageOptions& options) {
   require(options.frame_pt >= 100.0 && options.frame_pt <= 2000.0, "frame_pt is in 100..2000");
   require(options.pixels_per_pt >= 0.5 && options.pixels_per_pt <= 8.0,
           "pixels_per_pt is in 0.5..8");
-}
-
-/// The world that the frame shows: the grid, or more where the grid is thin or empty.
-void frame_world(const Grid& grid, PlotFrame& frame) {
-  const double width = grid.size() > 0 ? grid.width_m() : grid.cell_m;
-  const double height = grid.size() > 0 ? grid.height_m() : grid.cell_m;
-  const double shown_width = std::max(width, height / longest_aspect);
-  const double shown_height = std::max(height, width / longest_aspect);
-  frame.x = {grid.x0_m - 0.5 * (shown_width - width), grid.x0_m + 0.5 * (shown_width + width),
-             "x (m)", shown_width >= 0.5 * shown_height ? 6 : 3};
-  frame.y = {grid.y0_m - 0.5 * (shown_height - height), grid.y0_m + 0.5 * (shown_height + height),
-             "y (m)", shown_height >= 0.5 * shown_width ? 6 : 3};
-}
-
-LegendEntry hatched_entry(std::string name, const Color& ground, const Pen& pen, bool rising,
-                          bool falling) {
-  return {std::move(name), [=](Canvas& canvas, const Rect& box) {
-            canvas.fill(box.outline(), ground);
-            const auto everywhere = [](Vec2) { return true; };
-            if (rising) canvas.stroke(hatch(box, 3.0, true, everywhere), pen);
-            if (falling) canvas.stroke(hatch(box, 3.0, false, everywhere), pen);
-            canvas.stroke(box.outline(), {palette::ink, 0.5, {}});
-          }};
 }
 
 std::size_t count_if_cell(const Plan& plan, auto&& test) {
@@ -109,12 +85,10 @@ MapPage::MapPage(const Plan& plan, const MapPageOptions& options, std::vector<Le
 }
 
 void MapPage::lay_out() {
-  frame_world(plan_.grid, frame_);
-  const double width_m = frame_.x.high - frame_.x.low;
-  const double height_m = frame_.y.high - frame_.y.low;
-  const double scale = options_.frame_pt / std::max(width_m, height_m);
+  frame_world(frame_, plan_.grid);
+  const Vec2 size = size_of_world_pt(frame_, options_.frame_pt);
   const double top = margin_pt + (options_.title.empty() ? 0.0 : title_room_pt);
-  frame_.rect = {margin_pt + y_axis_room_pt(frame_.y), top, scale * width_m, scale * height_m};
+  frame_.rect = {margin_pt + y_axis_room_pt(frame_.y), top, size.x, size.y};
   side_x_pt_ = frame_.rect.right() + gap_to_side_pt;
   const double side_height = (options_.cost ? color_bar_room_pt : 0.0) +
                              legend_row_pt * static_cast<double>(entries_.size()) +
@@ -215,16 +189,7 @@ void MapPage::draw_side_column() {
   draw_legend(*canvas_, {side_x_pt_, y}, entries_);
   y += legend_row_pt * static_cast<double>(entries_.size());
 
-  const auto layer = canvas_->layer("scale-bar");
-  const double length_m = round_length_below(70.0 / pt_per_m());
-  const double length_pt = length_m * pt_per_m();
-  const double at = y + 12.0;
-  DrawingPath bar;
-  bar.move_to({side_x_pt_, at - 3.0}).line_to({side_x_pt_, at + 3.0});
-  bar.move_to({side_x_pt_, at}).line_to({side_x_pt_ + length_pt, at});
-  bar.move_to({side_x_pt_ + length_pt, at - 3.0}).line_to({side_x_pt_ + length_pt, at + 3.0});
-  canvas_->stroke(bar, {palette::ink, 1.2, {}});
-  canvas_->text(tick_label(length_m, length_m) + " m", {side_x_pt_, at + 14.0});
+  draw_scale_bar(*canvas_, {side_x_pt_, y}, pt_per_m());
 }
 
 void MapPage::mark_mission() {

@@ -1,0 +1,27 @@
+// A verdict map as pictures.
+#pragma once
+
+#include <string>
+
+#include "fairway/report/picture.hpp"
+#include "fairway/verify/verdict_map.hpp"
+
+namespace fairway {
+
+struct VerdictPictureOptions {
+  std::string title = {};
+  double panel_pt = 0.0;       ///< longer side of a panel, points, 30..1000; 0: what suits a page
+  double pixels_per_pt = 2.0;  ///< resolution of the PNG, 0.5..8
+};
+
+/// A panel for each heading, four in a row: the verdict of the vehicle at each cell's middle with
+/// that heading, by colour and pattern. Throws ContractViolation when an option is out of range,
+/// the map's arrays do not fit, or it has no heading.
+[[nodiscard]] Picture draw_verdicts(const VerdictMap& map, const VerdictPictureOptions& options);
+
+/// Three panels: of the states of each cell, over all headings, the share proved to reach, the
+/// share proved to fail, and the share undecided; in classes, so that one state among all shows.
+[[nodiscard]] Picture draw_proved_shares(const VerdictMap& map,
+                                         const VerdictPictureOptions& options);
+
+}  // namespace fairway

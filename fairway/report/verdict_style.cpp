@@ -1,0 +1,29 @@
+#include "fairway/report/verdict_style.hpp"
+
+#include <utility>
+
+namespace fairway {
+
+/// Hues are those of the flights' outcomes.
+VerdictStyle style_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::reach:
+      return {color_of_oklch(0.86, 0.06, 255.0), {}, false, false};
+    case Verdict::collide:
+      return {color_of_oklch(0.62, 0.19, 40.0), {palette::white, 0.5, {}}, true, false};
+    case Verdict::leave:
+      return {color_of_oklch(0.74, 0.14, 75.0), {palette::ink, 0.4, {}}, false, true};
+    case Verdict::trapped:
+      return {color_of_oklch(0.46, 0.18, 335.0), {palette::white, 0.5, {}}, true, true};
+    case Verdict::undecided:
+      return {color_of_oklch(0.98, 0.12, 105.0), {palette::ink, 0.7, {0.7, 1.8}}, false, true};
+  }
+  return {};
+}
+
+LegendEntry verdict_entry(std::string name, Verdict verdict) {
+  const VerdictStyle style = style_of(verdict);
+  return hatched_entry(std::move(name), style.ground, style.pen, style.rising, style.falling);
+}
+
+}  // namespace fairway
