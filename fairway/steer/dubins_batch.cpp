@@ -1,7 +1,7 @@
 // Many shortest lengths at once. A block of pairs goes through the four words with a straight part
-// without a branch, several pairs to an instruction; the few for which RLR or LRL could be shorter
-// are looked at one by one. Compiled for AVX-512, AVX2 and the plain machine, chosen when the
-// program starts; no operation is fused, so the bits are the same.
+// without a branch, several pairs to an instruction; those for which RLR or LRL could be shorter
+// are gathered and go through these two in the same way. Compiled for AVX-512, AVX2 and the plain
+// machine, chosen when the program starts; no operation is fused, so the bits are the same.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -60,18 +60,70 @@ FAIRWAY_WIDE void straight_words(Block& b, double turn_radius_m) {
   }
 }
 
-double with_three_turns(const Block& b, std::size_t i, double turn_radius_m) {
-  const Pair pair = pair_of(b.x0[i], b.y0[i], b.h0[i], b.x1[i], b.y1[i], b.h1[i], turn_radius_m);
-  const Pair mirror = mirrored(pair);
-  double length = b.length[i];
-  if (lrl_bound(std::sqrt(norm2(mirror.ll()))) < length) {
-    length = least(length, lrl_parts(mirror).length());
-  }
-  if (lrl_bound(std::sqrt(norm2(pair.ll()))) < length) {
-    length = least(length, lrl_parts(pair).length());
-  }
-  return length;
+[[gnu::always_inline]] inline double lrl_length(const Pair& p) {
+  const Vec2 ll = p.ll();
+  const double length = std::sqrt(norm2(ll));
+  const bool possible = (length < 4.0) & (length > 0.0);
+  const double within = possible ? length : 1.0;
+  const double parts = lrl_parts_of(p, three_circles_of(ll, within)).length();
+  return possible ? parts : std::numeric_limits<double>::infinity();
 }
+
+/// Improves `length`; `bound` becomes -1 where more digits are needed.
+FAIRWAY_WIDE void three_turns(Block& b, double turn_radius_m) {
+  for (std::size_t i = 0; i < block; ++i) {
+    const Pair pair = pair_of(b.x0[i], b.y0[i], b.h0[i], b.x1[i], b.y1[i], b.h1[i], turn_radius_m);
+    const Pair mirror = mirrored(pair);
+    const bool near = is_nearly_straight(std::sqrt(norm2(pair.ll()))) |
+                      is_nearly_straight(std::sqrt(norm2(mirror.ll())));
+    const double length = least(lrl_length(pair), lrl_length(mirror));
+    b.bound[i] = near ? -1.0 : 0.0;
+    b.length[i] = near ? b.length[i] : least(b.length[i], length);
+  }
+}
+
+double in_more_digits(const Block& b, std::size_t i, double turn_radius_m) {
+  const Pair pair = pair_of(b.x0[i], b.y0[i], b.h0[i], b.x1[i], b.y1[i], b.h1[i], turn_radius_m);
+  return least(b.length[i], least(lrl_parts(mirrored(pair)).length(), lrl_parts(pair).length()));
+}
+
+/// Collects the pairs for which three turns may be shorter, works on them when the block is full,
+/// and puts their lengths where they belong.
+class ThreeTurns {
+ public:
+  ThreeTurns(double turn_radius_m, std::span<double> length_m)
+      : turn_radius_m_(turn_radius_m), length_m_(length_m) {}
+
+  void add(const Block& from, std::size_t i, std::size_t place) {
+    const std::size_t k = count_++;
+    block_.x0[k] = from.x0[i];
+    block_.y0[k] = from.y0[i];
+    block_.h0[k] = from.h0[i];
+    block_.x1[k] = from.x1[i];
+    block_.y1[k] = from.y1[i];
+    block_.h1[k] = from.h1[i];
+    block_.length[k] = from.length[i];
+    place_[k] = place;
+    if (count_ == block) finish();
+  }
+  void finish() {
+    if (count_ == 0) return;
+    three_turns(block_, turn_radius_m_);
+    for (std::size_t k = 0; k < count_; ++k) {
+      const double length =
+          block_.bound[k] < 0.0 ? in_more_digits(block_, k, turn_radius_m_) : block_.length[k];
+      length_m_[place_[k]] = turn_radius_m_ * length;
+    }
+    count_ = 0;
+  }
+
+ private:
+  Block block_{};
+  std::array<std::size_t, block> place_{};
+  std::size_t count_ = 0;
+  double turn_radius_m_;
+  std::span<double> length_m_;
+};
 
 void fill(std::array<double, block>& place, std::span<const double> from, std::size_t begin,
           std::size_t count) {
@@ -91,6 +143,7 @@ void shortest_lengths_m(const PoseArrays& from, const PoseArrays& to, double tur
   const std::size_t blocks = (size + block - 1) / block;
   for_ranges(blocks, 8, [&](std::size_t first, std::size_t last) {
     Block b;
+    ThreeTurns three(turn_radius_m, length_m);
     for (std::size_t k = first; k < last; ++k) {
       const std::size_t begin = k * block;
       const std::size_t count = std::min(block, size - begin);
@@ -102,11 +155,14 @@ void shortest_lengths_m(const PoseArrays& from, const PoseArrays& to, double tur
       fill(b.h1, to.heading_rad, begin, count);
       straight_words(b, turn_radius_m);
       for (std::size_t i = 0; i < count; ++i) {
-        const bool may_turn_thrice = b.bound[i] < b.length[i];
-        const double length = may_turn_thrice ? with_three_turns(b, i, turn_radius_m) : b.length[i];
-        length_m[begin + i] = turn_radius_m * length;
+        if (b.bound[i] < b.length[i]) {
+          three.add(b, i, begin + i);
+        } else {
+          length_m[begin + i] = turn_radius_m * b.length[i];
+        }
       }
     }
+    three.finish();
   });
 }
 

@@ -106,6 +106,36 @@ Parts lsl_parts(const Pair& p);
 Parts lsr_parts(const Pair& p);
 Parts lrl_parts(const Pair& p);
 
+/// What LRL is made of: the vector between its outer centres, and how far it is from straight.
+struct ThreeCircles {
+  Vec2 ll;
+  double length;
+  double sine;  ///< of half the angle that the middle arc lacks: |ll| / 4
+  double cosine;
+};
+
+/// Whether lrl_parts() must work with more digits.
+[[gnu::always_inline]] inline bool is_nearly_straight(double ll_length) {
+  return std::abs(ll_length - 4.0) < 1e-3;
+}
+
+[[gnu::always_inline]] inline ThreeCircles three_circles_of(Vec2 ll, double length) {
+  const double sine = 0.25 * length;
+  return {ll, length, sine, length < 4.0 ? std::sqrt((1.0 - sine) * (1.0 + sine)) : -1.0};
+}
+
+/// The middle circle touches both others, on the side that makes its arc the long way round: with e
+/// from the first centre to the touch, e = ll / 4 + left(ll) / |ll| sqrt(1 - (|ll| / 4)^2).
+[[gnu::always_inline]] inline Parts lrl_parts_of(const Pair& p, const ThreeCircles& of) {
+  const double middle = two_pi - 2.0 * left_turn_to({of.cosine, of.sine});
+  const Vec2 e = 0.25 * of.ll + (of.cosine / of.length) * left_of(of.ll);
+  const double turn = left_turn(p.u0, left_of(e));
+  const double sum = p.left + middle;
+  const double both = sum >= two_pi ? sum - two_pi : sum;
+  const double last = both - turn;
+  return {turn, middle, last < 0.0 ? last + two_pi : last};
+}
+
 /// A lower bound of LRL's length: its middle arc is 2 pi - 2 asin(|ll| / 4).
 [[gnu::always_inline]] inline double lrl_bound(double ll_length) {
   return ll_length <= 4.001 ? two_pi - pi / 4 * ll_length : std::numeric_limits<double>::infinity();

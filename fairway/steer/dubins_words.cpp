@@ -38,14 +38,6 @@ Parts lsr_parts(const Pair& p) {
 
 namespace {
 
-/// What LRL is made of: the vector between its outer centres, and how far it is from straight.
-struct ThreeCircles {
-  Vec2 ll;
-  double length;
-  double sine;  ///< of half the angle that the middle arc lacks: |ll| / 4
-  double cosine;
-};
-
 /// Near |ll| = 4 the three centres are nearly in line and the length of LRL grows as the root of
 /// what is missing: the rounding of `ll` would cost half the digits. So it is worked out again from
 /// the poses, in long double.
@@ -67,24 +59,15 @@ ThreeCircles in_more_digits(const Pair& p) {
 ThreeCircles three_circles(const Pair& p) {
   const Vec2 ll = p.ll();
   const double length = std::sqrt(norm2(ll));
-  if (std::abs(length - 4.0) < 1e-3) return in_more_digits(p);
-  const double sine = 0.25 * length;
-  return {ll, length, sine, sine < 1.0 ? std::sqrt((1.0 - sine) * (1.0 + sine)) : -1.0};
+  return is_nearly_straight(length) ? in_more_digits(p) : three_circles_of(ll, length);
 }
 
 }  // namespace
 
-/// The middle circle touches both others, on the side that makes its arc the long way round: with e
-/// from the first centre to the touch, e = ll / 4 + left(ll) / |ll| sqrt(1 - (|ll| / 4)^2).
 Parts lrl_parts(const Pair& p) {
   const ThreeCircles of = three_circles(p);
   if (!(of.cosine >= 0.0) || of.length == 0.0) return {};
-  const double middle = two_pi - 2.0 * left_turn_to({of.cosine, of.sine});
-  const Vec2 e = 0.25 * of.ll + (of.cosine / of.length) * left_of(of.ll);
-  const double turn = left_turn(p.u0, left_of(e));
-  double last = std::fmod(p.left + middle, two_pi) - turn;
-  if (last < 0.0) last += two_pi;
-  return {turn, middle, last};
+  return lrl_parts_of(p, of);
 }
 
 namespace {
