@@ -141,6 +141,9 @@ std::string verification_words(const Verification& v) {
     case StoppedBy::last_level:
       words += " The finest leaves ended the work.";
       break;
+    case StoppedBy::stalled:
+      words += " Smaller leaves had stopped deciding more.";
+      break;
     case StoppedBy::undecided_max:
       break;
   }

@@ -105,6 +105,13 @@ class VolumeMeter {
   std::vector<VerdictSet> found_;
 };
 
+/// The last levels decided next to nothing: what is left does not get easier by smaller leaves.
+bool has_stalled(const std::vector<LevelRecord>& levels, int without_gain) {
+  const auto n = static_cast<std::size_t>(without_gain);
+  if (levels.size() <= n) return false;
+  return levels.back().undecided_volume > 0.999 * levels[levels.size() - 1 - n].undecided_volume;
+}
+
 }  // namespace
 
 const char* name_of(StoppedBy reason) {
@@ -117,6 +124,8 @@ const char* name_of(StoppedBy reason) {
       return "memory_limit";
     case StoppedBy::last_level:
       return "last_level";
+    case StoppedBy::stalled:
+      return "stalled";
   }
   return "";
 }
@@ -175,6 +184,8 @@ Certified certify(const Flow& flow, const std::vector<bool>& is_free, const Cert
       answer.stopped_by = StoppedBy::memory_limit;
     } else if (level >= options.last_level) {
       answer.stopped_by = StoppedBy::last_level;
+    } else if (has_stalled(answer.levels, options.stall_levels)) {
+      answer.stopped_by = StoppedBy::stalled;
     } else {
       continue;
     }

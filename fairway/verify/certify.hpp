@@ -27,10 +27,17 @@ struct CertifyOptions {
   std::uint64_t seed = 1;
   int most_crossings = 3000;  ///< of borders, in one flight to the section
   int first_level = 2;        ///< a section begins as 2^first_level leaves
+  int stall_levels = 5;       ///< levels without any gain after which to stop
   int last_level = 26;        ///< and no leaf is smaller than cell_m / 2^last_level
 };
 
-enum class StoppedBy : std::uint8_t { undecided_max, time_limit, memory_limit, last_level };
+enum class StoppedBy : std::uint8_t {
+  undecided_max,
+  time_limit,
+  memory_limit,
+  last_level,
+  stalled
+};
 const char* name_of(StoppedBy reason);
 
 /// Shares of the configuration volume by verdict, [Verdict]; each sums to 1, or to 0 when there is
