@@ -241,13 +241,14 @@ inline void leave_straight(const IntervalVec2& from, const CellDeparture& model,
       const double least = gap.lo <= 0.0 ? 0.0 : gap.lo / speed.hi * 0.5;  // |pace| > 1 / 2
       if (pace.lo > 0.5) {
         place = {below(start.lo + least), d};
+        leave.length_m = std::min(1.5 * d, above(above(d - start.lo) / pace.lo));
       } else if (pace.hi < -0.5) {
         place = {0.0, above(start.hi - least)};
+        leave.length_m = std::min(1.5 * d, above(start.hi / -pace.hi));
       } else {
         departures.too_wide = true;
         return;
       }
-      leave.length_m = 1.5 * d;
     }
     leave.along_m = intersection(place, {0.0, d});
     if (leave.along_m.empty()) continue;
