@@ -30,6 +30,8 @@ OUTSIDE = [
     (re.compile(r"CLI/|CLI11"), {"app"}),
     (re.compile(r"openssl"), {"base"}),
 ]
+RUNTIME = "fairway/runtime.hpp"  # beside the stages: what a vehicle needs of them
+RUNTIME_STAGES = {"base", "vehicle", "verify"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]')
 
 
@@ -41,6 +43,8 @@ def violation(stage, is_test, is_header, quoted, target):
         if stage == "map" and is_header and target.startswith(("gdal", "ogr", "yaml", "cpl_")):
             return None if "gdal_" in target else "readers keep their libraries out of map headers"
         return None
+    if target == RUNTIME:
+        return None if stage in JOINERS or is_test else "runtime.hpp is for programs, not for stages"
     parts = pathlib.PurePosixPath(target).parts
     if len(parts) != 3 or parts[0] != "fairway" or parts[1] not in STAGES:
         return f'project headers are included as "fairway/STAGE/name.hpp", not "{target}"'
@@ -62,6 +66,13 @@ def main():
     found = []
     for path in files:
         stage = path.relative_to(root / "fairway").parts[0]
+        if path.parent == root / "fairway":
+            for line in path.read_text().splitlines():
+                match = INCLUDE.match(line)
+                if match and match[1] == '"' and match[2] != RUNTIME and path.suffix == ".hpp":
+                    if match[2].split("/")[1] not in RUNTIME_STAGES:
+                        found.append(f"{path}: {match[2]} is not for vehicles")
+            continue
         if stage not in STAGES:
             found.append(f"{path}: {stage} is not among the stages {' '.join(STAGES)}")
             continue

@@ -1,0 +1,169 @@
+#include "fairway/runtime.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "fairway/base/random.hpp"
+#include "fairway/certificate/certificate_file.hpp"
+#include "fairway/simulate/exact_flight.hpp"
+#include "fairway/verify/certify.hpp"
+
+namespace {
+std::atomic<std::size_t> allocations{0};
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* place = std::malloc(size == 0 ? 1 : size)) return place;
+  throw std::bad_alloc();
+}
+void operator delete(void* place) noexcept { std::free(place); }
+void operator delete(void* place, std::size_t) noexcept { std::free(place); }
+
+namespace fairway {
+namespace {
+
+Plan plan_towards_the_middle() {
+  Plan plan;
+  plan.grid = {12, 10, -20.0, 5.0, 4.0};
+  plan.vehicle = {10.0, 9.0};
+  plan.region.assign(plan.grid.size(), Region::free);
+  plan.cost_m.assign(plan.grid.size(), 1.0F);
+  plan.heading_rad.resize(plan.grid.size());
+  for (std::size_t i = 0; i < plan.grid.size(); ++i) {
+    const Cell c = plan.grid.cell_at(i);
+    const Vec2 to_goal = plan.grid.corner({6, 5}) - plan.grid.center(c);
+    plan.heading_rad[i] = Heading::stored(std::atan2(to_goal.y, to_goal.x) + 0.1);
+    if (norm(to_goal) < 9.0) plan.region[i] = Region::goal;
+    if (c.ix == 2 && c.iy > 6) plan.region[i] = Region::obstacle;
+  }
+  return plan;
+}
+
+class RuntimeTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const Plan plan = plan_towards_the_middle();
+    Certificate c;
+    c.grid = plan.grid;
+    c.vehicle = plan.vehicle;
+    c.heading_rad = plan.heading_rad;
+    c.region = plan.region;
+    c.kind = cell_kinds(plan.grid, plan.region, {});
+    CertifyOptions options;
+    options.samples = 20'000;
+    options.undecided_max = 0.001;
+    Certified outcome = certify(c.flow(), std::vector<bool>(plan.grid.size(), true), options);
+    c.sections = std::move(outcome.sections);
+    const auto file = std::filesystem::temp_directory_path() / "fairway_runtime_test.safetensors";
+    write_certificate(c, file, Existing::replace);
+    std::ifstream in(file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    bytes() = text;
+    std::filesystem::remove(file);
+  }
+  static std::string& bytes() {
+    static std::string all;
+    return all;
+  }
+  /// A copy aligned as a mapped file is.
+  static std::vector<std::uint64_t> aligned(const std::string& text) {
+    std::vector<std::uint64_t> words((text.size() + 7) / 8);
+    std::copy(text.begin(), text.end(), reinterpret_cast<char*>(words.data()));
+    return words;
+  }
+};
+
+TEST_F(RuntimeTest, AnswersAgreeWithExactFlightsAndBoundTheirTimes) {
+  const auto words = aligned(bytes());
+  runtime::Certificate certificate;
+  ASSERT_EQ(certificate.open(words.data(), bytes().size()), runtime::Status::ok);
+  const Plan plan = plan_towards_the_middle();
+  const ExactFlights flights(plan);
+  Random random(3);
+  int undecided = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const State s{{plan.grid.x0_m + random.unit() * plan.grid.width_m(),
+                   plan.grid.y0_m + random.unit() * plan.grid.height_m()},
+                  Heading::from_rad(random.uniform(-pi, pi))};
+    const auto answer = certificate.query(s.position_m.x, s.position_m.y, s.heading.rad());
+    const FlightResult flown = flights.fly(s);
+    if (answer.verdict == Verdict::undecided) {
+      ++undecided;
+      continue;
+    }
+    ASSERT_STREQ(name_of(answer.verdict), name_of(flown.outcome))
+        << s.position_m.x << "," << s.position_m.y << "," << s.heading.rad();
+    if (answer.verdict == Verdict::reach) {
+      ASSERT_GE(answer.time_bound_s, flown.time_s * (1.0 - 1e-12));
+    } else {
+      ASSERT_TRUE(std::isinf(answer.time_bound_s));
+    }
+  }
+  EXPECT_LT(undecided, 200);
+}
+
+TEST_F(RuntimeTest, QueriesTouchNoHeap) {
+  const auto words = aligned(bytes());
+  runtime::Certificate certificate;
+  const std::size_t before = allocations;
+  ASSERT_EQ(certificate.open(words.data(), bytes().size()), runtime::Status::ok);
+  for (int i = 0; i < 1000; ++i) {
+    static_cast<void>(certificate.query(-20.0 + 0.04 * i, 20.0, 0.006 * i));
+    static_cast<void>(certificate.command(-20.0 + 0.04 * i, 20.0, 0.006 * i));
+  }
+  EXPECT_EQ(allocations, before);
+}
+
+TEST_F(RuntimeTest, ACommandTurnsTheShortWay) {
+  const auto words = aligned(bytes());
+  runtime::Certificate certificate;
+  ASSERT_EQ(certificate.open(words.data(), bytes().size()), runtime::Status::ok);
+  const Plan plan = plan_towards_the_middle();
+  const double psi = static_cast<double>(plan.heading_rad[0]);
+  const double rate = plan.vehicle.speed_mps / plan.vehicle.turn_radius_m;
+  EXPECT_EQ(certificate.command(-19.0, 6.0, psi - 0.1).turn_rate_radps, rate);
+  EXPECT_EQ(certificate.command(-19.0, 6.0, psi + 0.1).turn_rate_radps, -rate);
+  EXPECT_EQ(certificate.command(-19.0, 6.0, psi).turn_rate_radps, 0.0);
+  EXPECT_TRUE(std::isnan(certificate.command(-100.0, 6.0, 0.0).heading_rad));
+}
+
+TEST_F(RuntimeTest, StatesOffTheGridOrNotFiniteAreNotMisjudged) {
+  const auto words = aligned(bytes());
+  runtime::Certificate certificate;
+  EXPECT_EQ(certificate.query(0.0, 20.0, 0.0).verdict, Verdict::undecided);  // not open
+  ASSERT_EQ(certificate.open(words.data(), bytes().size()), runtime::Status::ok);
+  EXPECT_EQ(certificate.query(-100.0, 20.0, 0.0).verdict, Verdict::leave);
+  EXPECT_EQ(certificate.query(NAN, 20.0, 0.0).verdict, Verdict::undecided);
+  EXPECT_EQ(certificate.query(0.0, INFINITY, 0.0).verdict, Verdict::undecided);
+  EXPECT_EQ(certificate.query(0.0, 20.0, NAN).verdict, Verdict::undecided);
+  EXPECT_EQ(certificate.query(1e300, 20.0, 0.0).verdict, Verdict::undecided);
+}
+
+TEST_F(RuntimeTest, NoDamagedFileMakesItReadBesideTheBytes) {
+  runtime::Certificate certificate;
+  EXPECT_EQ(certificate.open(nullptr, 0), runtime::Status::too_short);
+  for (std::size_t size = 0; size < bytes().size(); size += 1 + size / 7) {  // cut short
+    const auto words = aligned(bytes().substr(0, size));
+    EXPECT_NE(certificate.open(words.data(), size), runtime::Status::ok) << size;
+  }
+  Random random(5);
+  for (int i = 0; i < 3000; ++i) {  // a byte of the header or the first arrays altered
+    std::string text = bytes();
+    text[random.below(std::min<std::size_t>(text.size(), 6000))] = static_cast<char>(random.bits());
+    const auto words = aligned(text);
+    if (certificate.open(words.data(), text.size()) != runtime::Status::ok) continue;
+    static_cast<void>(certificate.query(0.0, 20.0, 1.0));  // under the sanitizers: nothing beside
+  }
+}
+
+}  // namespace
+}  // namespace fairway
