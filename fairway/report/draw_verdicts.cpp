@@ -62,7 +62,7 @@ int class_of(std::size_t part, std::size_t of) {
 /// White to the deep colour of its share, lightness falling evenly: it survives grey print.
 Color share_color(Share share, int rank) {
   if (rank == 0) return palette::white;
-  static constexpr std::array<double, shares> hue{255.0, 40.0, 335.0};
+  static constexpr std::array<double, shares> hue{255.0, 40.0, 105.0};
   const double depth = rank / (share_classes - 1.0);
   return color_of_oklch(0.98 - 0.46 * depth, 0.02 + 0.13 * depth, hue[share]);
 }

@@ -12,6 +12,8 @@
 namespace fairway {
 namespace {
 
+constexpr double aside_rad = 0.0005;  // verdict_map.hpp, property 2
+
 /// Gathers the verdicts of all ends that one state's flights may have.
 struct Reader {
   const Flow& flow;
@@ -87,7 +89,7 @@ VerdictMap verdict_map_of(const Flow& flow, const SectionView& sections,
   map.ny = (flow.ny + map.cells_per_sample - 1) / map.cells_per_sample;
   map.states_per_sample = options.states_per_sample;
   for (int k = 0; k < options.headings; ++k) {
-    map.heading_rad.push_back(Heading::from_rad(two_pi * k / options.headings).rad());
+    map.heading_rad.push_back(Heading::from_rad(aside_rad + two_pi * k / options.headings).rad());
   }
   map.kind.resize(map.samples());
   map.verdict.assign(map.samples() * map.heading_rad.size(), Verdict::undecided);
@@ -99,8 +101,7 @@ VerdictMap verdict_map_of(const Flow& flow, const SectionView& sections,
       map.kind[i] = flow.kind_at(cell.ix, cell.iy);
       if (map.kind[i] != CellKind::ordinary) continue;
       for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
-        map.verdict[h * map.samples() + i] =
-            sampler.verdict(map.grid.center(cell), map.heading_rad[h]);
+        map.verdict[h * map.samples() + i] = sampler.verdict(map.place_m(i), map.heading_rad[h]);
       }
       map.count[i] = sampler.counts(map.grid, cell);
     }

@@ -14,7 +14,7 @@
 namespace fairway {
 
 struct VerdictMapOptions {
-  int headings = 8;            ///< evenly spaced from east, counter-clockwise; at least 1
+  int headings = 8;            ///< evenly spaced, the first (all but) east; at least 1
   int states_per_sample = 32;  ///< 0 to 65535
   int most_across = 256;       ///< samples along the longer side, at least 1
   std::uint64_t seed = 1;      ///< of the states' places

@@ -50,7 +50,7 @@ TEST_P(VerdictMapOf, SaysOfEveryStateWhatTheCertificateSays) {
   std::vector<Place> states;
   for (const double heading : map.heading_rad) {
     for (std::size_t i = 0; i < plan.grid.size(); ++i) {
-      const Vec2 p = plan.grid.center(plan.grid.cell_at(i));
+      const Vec2 p = map.place_m(i);
       states.push_back({p.x, p.y, heading});
     }
   }
@@ -71,8 +71,8 @@ TEST_P(VerdictMapOf, IsNeverContradictedByAFlight) {
     for (std::size_t i = 0; i < map.samples(); ++i) {
       const Verdict verdict = map.verdict_at(h, i);
       if (verdict == Verdict::undecided) continue;
-      const FlightResult flown = flights.fly(
-          {plan.grid.center(plan.grid.cell_at(i)), Heading::from_rad(map.heading_rad[h])});
+      const FlightResult flown =
+          flights.fly({map.place_m(i), Heading::from_rad(map.heading_rad[h])});
       ASSERT_EQ(std::string(name_of(verdict)), name_of(flown.outcome));
     }
   }
@@ -113,30 +113,34 @@ TEST_P(VerdictMapOf, ACoarserOneIsTheFineOneAtTheMiddleCells) {
   }
 }
 
-TEST(VerdictMap, OfAMirroredPlanIsMirrored) {
-  const Plan plan = corridor();  // its own mirror image about the middle row
+TEST(VerdictMap, OfAMirroredPlanIsMirroredButForTheStepAside) {
+  Plan plan = corridor();             // its own mirror image about the middle row
+  plan.vehicle.turn_radius_m = 22.3;  // quarter turns from the middles touch no row of cells
   const PlanFlow pf(plan);
   const VerdictMap map = map_of(pf, proved(pf, 9));
   int decided = 0;
+  int other_way = 0;
   for (std::size_t h = 0; h < 8; ++h) {
+    if (h == 4) continue;  // opposite to the commands: the step aside decides the way to turn
     for (int iy = 0; iy < map.ny; ++iy) {
       for (int ix = 0; ix < map.nx; ++ix) {
         const Verdict one = map.verdict_at(h, map.index(ix, iy));
         const Verdict other = map.verdict_at((8 - h) % 8, map.index(ix, map.ny - 1 - iy));
         if (one == Verdict::undecided || other == Verdict::undecided) continue;
         ++decided;
-        EXPECT_EQ(one, other) << h << " " << ix << " " << iy;
+        other_way += one == other ? 0 : 1;
       }
     }
   }
-  EXPECT_GT(decided, 8 * 9 * 12 / 2);
+  EXPECT_GT(decided, 7 * 9 * 12 / 2);
+  EXPECT_LT(other_way, decided / 50);
 }
 
 TEST(VerdictMap, OfStatesThatAreAlignedIsKnownByHand) {
   const Plan plan = corridor();
   const PlanFlow pf(plan);
   const VerdictMap map = map_of(pf, proved(pf));
-  ASSERT_EQ(map.heading_rad[0], 0.0);
+  ASSERT_NEAR(map.heading_rad[0], 0.0, 0.001);
   for (int iy = 0; iy < 9; ++iy) {
     for (int ix = 0; ix < 11; ++ix) {
       if (iy == 4 && ix == 6) continue;
@@ -146,6 +150,22 @@ TEST(VerdictMap, OfStatesThatAreAlignedIsKnownByHand) {
   }
   EXPECT_EQ(map.kind[map.index(6, 4)], CellKind::obstacle);
   EXPECT_EQ(map.kind[map.index(11, 2)], CellKind::target);
+}
+
+TEST(VerdictMap, LooksAtStatesCloseToTheMiddlesOfCells) {
+  const Plan plan = corridor();
+  const PlanFlow pf(plan);
+  const VerdictMap map = map_of(pf, undecided_sections(pf.flow(), 2));
+  for (std::size_t i = 0; i < map.samples(); ++i) {
+    const Vec2 aside = map.place_m(i) - plan.grid.center(plan.grid.cell_at(i));
+    EXPECT_LT(norm(aside), plan.grid.cell_m / 30.0);
+  }
+  for (int h = 0; h < 8; ++h) {
+    const Heading nominal = Heading::from_rad(pi / 4 * h);
+    const double turn =
+        nominal.turn_to(Heading::from_rad(map.heading_rad[static_cast<std::size_t>(h)]));
+    EXPECT_LT(std::abs(turn), 0.00051) << h;
+  }
 }
 
 TEST(VerdictMap, DoesNotDependOnTheNumberOfThreads) {

@@ -3,7 +3,11 @@
 // Properties that always hold:
 //   1. Sample (ix, iy) looks at one cell: the middle one of its block of cells_per_sample^2 cells
 //      (of those that lie in the grid).
-//   2. Where that cell is not ordinary there are no states: verdicts are undecided, counts 0.
+//   2. It looks at a state beside the cell's middle, by less than a thirtieth of a cell and half a
+//      thousandth of a radian: from the middle itself, flights at multiples of 45 degrees go
+//      through corners and meet their commands exactly reversed. Such ties are of no volume, but a
+//      picture would show them as areas.
+//   3. Where that cell is not ordinary there are no states: verdicts are undecided, counts 0.
 //      Elsewhere the counts sum to states_per_sample.
 #pragma once
 
@@ -23,9 +27,9 @@ struct VerdictMap {
   int cells_per_sample = 1;
   int nx = 0;  ///< samples: cells / cells_per_sample, rounded up
   int ny = 0;
-  std::vector<double> heading_rad;  ///< [headings]
+  std::vector<double> heading_rad;  ///< [headings], of the states looked at
   std::vector<CellKind> kind;       ///< [ny][nx], of the cell looked at
-  std::vector<Verdict> verdict;     ///< [headings][ny][nx], at the cell's middle
+  std::vector<Verdict> verdict;     ///< [headings][ny][nx], at place_m
   int states_per_sample = 0;
   /// [ny][nx][Verdict]: verdicts of states spread evenly over the cell's places and all headings.
   std::vector<std::array<std::uint16_t, verdict_count>> count;
@@ -45,6 +49,11 @@ struct VerdictMap {
     const auto columns = static_cast<std::size_t>(nx);
     return {middle(static_cast<int>(sample % columns), grid.nx),
             middle(static_cast<int>(sample / columns), grid.ny)};
+  }
+  /// Where the states of `verdict` are.
+  Vec2 place_m(std::size_t sample) const {
+    const Vec2 middle_m = grid.center(cell_of_sample(sample));
+    return {middle_m.x + grid.cell_m / 37.0, middle_m.y - grid.cell_m / 53.0};
   }
 
  private:
