@@ -13,6 +13,7 @@
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/run/summary.hpp"
+#include "fairway/run/verdict_pictures.hpp"
 #include "fairway/run/verification.hpp"
 
 namespace fairway {
@@ -26,6 +27,7 @@ struct VerifyArguments {
   fs::path output;
   fs::path resume;
   fs::path failures;
+  fs::path pictures;
   fs::path summary;
   std::string method = "certified";
   std::string region = "goal";
@@ -73,6 +75,9 @@ int verify_command(VerifyArguments a, const Session& session) {
   require_writable_place(a.output, session.existing());
   require_writable_place(summary_file, session.existing());
   if (!a.failures.empty()) require_writable_place(a.failures, session.existing());
+  std::optional<AtomicFolder> pictures;
+  if (!a.pictures.empty())
+    pictures.emplace(a.pictures, session.existing(), "proved.png", verdict_picture_files());
   a.options.memory_limit_bytes = static_cast<std::size_t>(a.memory_limit_mb * 1e6);
   const RegionOfInterest region = region_of_text(a.region);
 
@@ -100,8 +105,18 @@ int verify_command(VerifyArguments a, const Session& session) {
         verify_plan(plan, a.plan.string(), region, a.options, std::move(earlier), clock);
     clock.begin("writing the certificate", unknown_time);
     write_certificate(made.certificate, a.output, session.existing());
+    std::vector<FailingState> failing;
+    if (!a.failures.empty() || pictures) {
+      failing = failing_states(made.certificate, 100, a.options.seed);
+    }
     if (!a.failures.empty()) {
-      write_whole(a.failures, session.existing(), failing_states_csv(made, 100, a.options.seed));
+      write_whole(a.failures, session.existing(), failing_states_csv(failing));
+    }
+    if (pictures) {
+      clock.begin("drawing", unknown_time);
+      write_verdict_pictures(plan, made.certificate, failing, a.options.seed,
+                             a.plan.stem().string(), pictures->temporary_path());
+      pictures->commit();
     }
     clock.end();
     summary = made.summary;
@@ -158,6 +173,10 @@ Action declare_verify(CLI::App& options) {
                   "write states that fail or are undecided, for fairway simulate --states")
       ->type_name("CSV");
   options
+      .add_option("--pictures", a.pictures,
+                  "draw the verdicts, the shares proved, and a flight to each kind of failure")
+      ->type_name("DIR");
+  options
       .add_option("--summary", a.summary,
                   "where to write the numbers (default: beside the certificate, .summary.json)")
       ->type_name("JSON");
@@ -178,8 +197,8 @@ Action declare_verify(CLI::App& options) {
     if (a.samples_per_border % 4 != 0) {
       throw CLI::ValidationError("--border-samples", "expected a multiple of four");
     }
-    if (a.method == "bitmap" && (!a.resume.empty() || !a.failures.empty())) {
-      throw CLI::ValidationError("--method bitmap", "has no --resume and no --failures");
+    if (a.method == "bitmap" && (!a.resume.empty() || !a.failures.empty() || !a.pictures.empty())) {
+      throw CLI::ValidationError("--method bitmap", "has no --resume, --failures or --pictures");
     }
   });
   options.footer("Example: fairway verify out/demo/plan.safetensors -o demo.cert.safetensors");

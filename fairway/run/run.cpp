@@ -1,6 +1,7 @@
 #include "fairway/run/run.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <variant>
@@ -19,6 +20,7 @@
 #include "fairway/run/scenario_flights.hpp"
 #include "fairway/run/stage_clock.hpp"
 #include "fairway/run/summary.hpp"
+#include "fairway/run/verdict_pictures.hpp"
 #include "fairway/run/verification.hpp"
 #include "fairway/simulate/flight_files.hpp"
 
@@ -112,9 +114,16 @@ void write_flights(const ScenarioFlights& flown, const ObstacleMap& map, double 
   write_whole(place / "outcomes.csv", Existing::keep, outcomes_csv(flown.starts, flown.results));
 }
 
+/// What verifying left for the summary, and for the pictures when verdicts were proved.
+struct Verified {
+  json summary;
+  std::optional<Certificate> certificate;
+  std::vector<FailingState> failing;
+};
+
 /// The verdicts into `certificate.safetensors`, re-proved by the independent program.
-json verify_and_check(const Plan& plan, const Scenario& scenario, const fs::path& place,
-                      StageClock& clock) {
+Verified verify_and_check(const Plan& plan, const Scenario& scenario, const fs::path& place,
+                          StageClock& clock) {
   const fs::path file = place / "certificate.safetensors";
   clock.begin("verifying", unknown_time);
   if (scenario.verify.method == VerifyMethod::bitmap) {
@@ -124,7 +133,7 @@ json verify_and_check(const Plan& plan, const Scenario& scenario, const fs::path
     summary["words"] =
         fmt::format("By samples of the borders, which prove nothing, {:.2f} % of all states reach.",
                     100.0 * summary["estimated_reach"].get<double>());
-    return summary;
+    return {std::move(summary), std::nullopt, {}};
   }
   CertifyOptions options;
   options.undecided_max = scenario.verify.undecided_max;
@@ -132,10 +141,10 @@ json verify_and_check(const Plan& plan, const Scenario& scenario, const fs::path
   options.memory_limit_bytes =
       static_cast<std::size_t>(scenario.verify.memory_limit_mb.value_or(0.0) * 1e6);
   options.seed = scenario.simulate.seed;
-  const Verification made =
-      verify_plan(plan, scenario.file.string(), {}, options, std::nullopt, clock);
+  Verification made = verify_plan(plan, scenario.file.string(), {}, options, std::nullopt, clock);
   write_certificate(made.certificate, file, Existing::keep);
-  write_whole(place / "failures.csv", Existing::keep, failing_states_csv(made, 100, options.seed));
+  std::vector<FailingState> failing = failing_states(made.certificate, 100, options.seed);
+  write_whole(place / "failures.csv", Existing::keep, failing_states_csv(failing));
 
   clock.begin("checking the certificate", unknown_time);
   const CheckRun check = run_checker({file.string(), "--quiet"}, true);
@@ -148,7 +157,7 @@ json verify_and_check(const Plan& plan, const Scenario& scenario, const fs::path
                      (check.exit_code == 0 ? " A separate program re-proved the certificate."
                                            : " The certificate was NOT checked: fairway-check "
                                              "could not be run.");
-  return summary;
+  return {std::move(summary), std::move(made.certificate), std::move(failing)};
 }
 
 std::vector<std::string> product_names() {
@@ -159,6 +168,7 @@ std::vector<std::string> product_names() {
     names.push_back(picture + ".svg");
     names.push_back(picture + ".png");
   }
+  for (std::string& file : verdict_picture_files()) names.push_back(std::move(file));
   return names;
 }
 
@@ -191,24 +201,30 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   const ScenarioFlights flown = fly_scenario(scenario, plan, mission, clock, left.pictures_s);
   write_flights(flown, map, plan.vehicle.speed_mps, place);
 
-  const json verified = verify_and_check(plan, scenario, place, clock);
+  const Verified verified = verify_and_check(plan, scenario, place, clock);
 
   clock.begin("drawing", left.pictures_s);
-  write_run_pictures(plan, mission, flown, scenario.file.stem().string(), place);
+  const std::string title = scenario.file.stem().string();
+  write_run_pictures(plan, mission, flown, title, place);
+  if (verified.certificate) {
+    write_verdict_pictures(plan, *verified.certificate, verified.failing, scenario.simulate.seed,
+                           title, place);
+  }
   clock.end();
 
   RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
   add_flights(result.summary, scenario, flown);
-  result.summary["verify"] = verified;
+  result.summary["verify"] = verified.summary;
   result.summary["products"] = product_digests(place);
   add_cost(result.summary, clock);
   write_whole(place / summary_name, Existing::keep, result.summary.dump(2) + "\n");
   products.commit();
-  result.paragraph =
-      fmt::format("{} {}Flights are evidence, not a proof. {} {}\nLook at {}, {} and {}.",
-                  plan_words(plan), flight_words(flown), verified["words"].get<std::string>(),
-                  cost_words(result.summary), (folder / "plan.svg").string(),
-                  (folder / "flights.svg").string(), (folder / summary_name).string());
+  std::string pictures = (folder / "plan.svg").string() + ", " + (folder / "flights.svg").string();
+  if (verified.certificate) pictures += ", " + (folder / "verdicts.svg").string();
+  result.paragraph = fmt::format(
+      "{} {}Flights are evidence, not a proof. {} {}\nLook at {} and {}.", plan_words(plan),
+      flight_words(flown), verified.summary["words"].get<std::string>(), cost_words(result.summary),
+      pictures, (folder / summary_name).string());
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/heading.hpp"
 #include "fairway/base/random.hpp"
 #include "fairway/base/safetensors.hpp"
 #include "fairway/certificate/certificate_file.hpp"
@@ -152,38 +153,48 @@ std::string verification_words(const Verification& v) {
          "change.";
 }
 
-std::string failing_states_csv(const Verification& v, std::size_t of_each, std::uint64_t seed) {
-  const Flow flow = v.certificate.flow();
+std::vector<FailingState> failing_states(const Certificate& certificate, std::size_t of_each,
+                                         std::uint64_t seed) {
+  const Flow flow = certificate.flow();
   std::vector<std::size_t> cells;
   for (std::size_t i = 0; i < flow.cells(); ++i) {
     if (flow.kind[i] == CellKind::ordinary) cells.push_back(i);
   }
-  std::string text = "x_m,y_m,heading_rad,verdict\n";
-  if (cells.empty()) return text;
+  if (cells.empty()) return {};
   constexpr std::size_t draws = 200'000;
   std::vector<Place> states(draws);
   for (std::size_t k = 0; k < draws; ++k) {
     Random random = Random::stream(seed, k);
-    const Cell cell = v.certificate.grid.cell_at(cells[random.below(cells.size())]);
-    const Vec2 corner = v.certificate.grid.corner(cell);
+    const Cell cell = certificate.grid.cell_at(cells[random.below(cells.size())]);
+    const Vec2 corner = certificate.grid.corner(cell);
     states[k] = {corner.x + random.unit() * flow.size.cell_m,
                  corner.y + random.unit() * flow.size.cell_m, random.uniform(-pi, pi)};
   }
   const ImageStore images =
       state_images(flow, states, CertifyOptions{}.most_crossings, [] { return true; });
-  std::array<std::string, verdict_count> lines;
-  std::array<std::size_t, verdict_count> count{};
+  std::array<std::vector<FailingState>, verdict_count> found;
   for (std::size_t k = 0; k < draws; ++k) {
-    const Verdict verdict = verdicts_of(images[k], v.certificate.sections.view()).only();
-    const auto n = static_cast<std::size_t>(verdict);
-    if (verdict == Verdict::reach || count[n] == of_each) continue;
-    ++count[n];
-    lines[n] += fmt::format("{},{},{},{}\n", states[k].x_m, states[k].y_m, states[k].heading_rad,
-                            name_of(verdict));
+    const Verdict verdict = verdicts_of(images[k], certificate.sections.view()).only();
+    auto& alike = found[static_cast<std::size_t>(verdict)];
+    if (verdict == Verdict::reach || alike.size() == of_each) continue;
+    const Place& p = states[k];
+    alike.push_back({{{p.x_m, p.y_m}, Heading::from_rad(p.heading_rad)}, verdict});
   }
+  std::vector<FailingState> failing;
   for (const Verdict verdict :
        {Verdict::collide, Verdict::leave, Verdict::trapped, Verdict::undecided}) {
-    text += lines[static_cast<std::size_t>(verdict)];
+    const auto& alike = found[static_cast<std::size_t>(verdict)];
+    failing.insert(failing.end(), alike.begin(), alike.end());
+  }
+  return failing;
+}
+
+std::string failing_states_csv(const std::vector<FailingState>& states) {
+  std::string text = "x_m,y_m,heading_rad,verdict\n";
+  for (const FailingState& state : states) {
+    const Vec2 p = state.start.position_m;
+    text +=
+        fmt::format("{},{},{},{}\n", p.x, p.y, state.start.heading.rad(), name_of(state.verdict));
   }
   return text;
 }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -13,6 +14,7 @@
 #include "fairway/certificate/certificate.hpp"
 #include "fairway/plan/plan.hpp"
 #include "fairway/run/stage_clock.hpp"
+#include "fairway/vehicle/vehicle.hpp"
 #include "fairway/verify/certify.hpp"
 
 namespace fairway {
@@ -35,10 +37,18 @@ struct Verification {
 /// What was proved and what was assumed, in one paragraph.
 [[nodiscard]] std::string verification_words(const Verification& verification);
 
-/// States whose verdict is not `reach`, some of each, for `fairway simulate --states`: CSV
-/// x_m,y_m,heading_rad,verdict.
-[[nodiscard]] std::string failing_states_csv(const Verification& verification, std::size_t of_each,
-                                             std::uint64_t seed);
+/// A state whose verdict is not `reach`.
+struct FailingState {
+  State start;
+  Verdict verdict = Verdict::undecided;
+};
+
+/// At most so many of each verdict, sampled, in the order collide, leave, trapped, undecided.
+[[nodiscard]] std::vector<FailingState> failing_states(const Certificate& certificate,
+                                                       std::size_t of_each, std::uint64_t seed);
+
+/// The same for `fairway simulate --states`: CSV x_m,y_m,heading_rad,verdict.
+[[nodiscard]] std::string failing_states_csv(const std::vector<FailingState>& states);
 
 /// The paper's method into a file: the bits of border samples from which the region is reached.
 [[nodiscard]] nlohmann::json write_bitmap(const Plan& plan, const RegionOfInterest& region,
