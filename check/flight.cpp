@@ -1,7 +1,8 @@
 #include "check/flight.hpp"
 
-#include <array>
 #include <cmath>
+
+#include <tbb/parallel_for.h>
 
 namespace fairway_check {
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr std::size_t none = ~std::size_t{0};
 constexpr int most_cells = 20000;
+constexpr std::size_t most_parts = 64;
 constexpr double most_waves = 0x1p50;
 
 /// A set in a cell, and what its past allows to conclude. Every state of it shares this past.
@@ -38,45 +40,37 @@ class Follower {
   Follower(const Loop& loop, Listener& listener) : loop_(loop), listener_(listener) {}
 
   void follow(const Part& first) {
-    push(first);
-    for (int cells = 0; count_ > 0 && !lost_; ++cells) {
-      const Part part = stack_[--count_];
-      lost_ = cells == most_cells;
-      if (!lost_) cross(part);
+    parts_.push_back(first);
+    int cells = 0;
+    while (!parts_.empty()) {
+      const Part part = parts_.back();
+      parts_.pop_back();
+      if (++cells > most_cells || parts_.size() > most_parts || !cross(part)) {
+        listener_.give_up();
+        return;
+      }
     }
-    if (lost_) listener_.give_up();
   }
 
  private:
-  void push(const Part& part) {
-    if (count_ == stack_.size()) {
-      lost_ = true;
-    } else {
-      stack_[count_++] = part;
-    }
-  }
-
   std::size_t section(int ix, int iy, int side) const {
     return 4 * loop_.index(ix, iy) + static_cast<std::size_t>(side);
   }
 
-  void cross(const Part& part) {
+  /// False: there is no telling where the set goes.
+  bool cross(const Part& part) {
     const std::size_t cell = loop_.index(part.ix, part.iy);
     const float rad = loop_.command_rad[cell];
     const Command command{loop_.direction[cell], !std::isnan(rad), rad == part.flown_rad};
-    Ways ways;
-    find_ways(part.set, command, loop_.radius, ways);
-    if (ways.lost || ways.count == 0) {
-      lost_ = true;
-      return;
-    }
-    for (int i = 0; i < ways.count; ++i) {
-      Way& way = ways.way[static_cast<std::size_t>(i)];
+    ways_.clear();
+    if (!find_ways(part.set, command, loop_.radius, ways_) || ways_.empty()) return false;
+    for (Way& way : ways_) {
       // Along this side it is followed on its other side already.
       if (way.skims && way.side == part.skimmed_side) continue;
       const float flown_rad = !command.exists ? part.flown_rad : way.aligned ? rad : NAN;
-      go(part, way, flown_rad, ways.count == 1);
+      go(part, way, flown_rad, ways_.size() == 1);
     }
+    return true;
   }
 
   void go(const Part& part, Way& way, float flown_rad, bool alone) {
@@ -119,7 +113,7 @@ class Follower {
     }
     if (way.skims) next.skimmed_side = (way.side + 2) & 3;
     next.set.at = from_frame(way.side, {Real(-0.5), way.place});
-    push(next);
+    parts_.push_back(next);
   }
 
   /// What leaves through a corner (end -1 or 1 of the side) touches the two cells beyond the end,
@@ -142,7 +136,7 @@ class Follower {
     }
     if (is_turned_away(next, over)) return;
     next.set.at = from_frame(way.side, {Real(-0.5), Real(-0.5 * end)});
-    push(next);
+    parts_.push_back(next);
   }
 
   /// Exactly along the side `over` through which it would come in, where the command turns it out
@@ -187,19 +181,29 @@ class Follower {
 
   const Loop& loop_;
   Listener& listener_;
-  std::array<Part, 64> stack_;
-  std::size_t count_ = 0;
-  bool lost_ = false;
+  std::vector<Part> parts_;  // still to be followed
+  std::vector<Way> ways_;
 };
 
 }  // namespace
+
+void Loop::take_directions(double turn_radius_m, double cell_m) {
+  const std::size_t cells = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
+  direction.assign(cells, {Real(0.0), Real(0.0)});
+  tbb::parallel_for(std::size_t{0}, cells, [this](std::size_t i) {
+    if (kind[i] != ordinary || std::isnan(command_rad[i])) return;
+    direction[i] = unit_vector(static_cast<double>(command_rad[i]));
+  });
+  const Upwards upwards;
+  radius = Real(turn_radius_m) / cell_m;
+}
 
 void follow_section(const Loop& loop, std::size_t section, const Real& place, Listener& listener) {
   const std::size_t cell = section / 4;
   const int side = static_cast<int>(section % 4);
   Part part;
-  part.ix = static_cast<int>(cell % static_cast<std::size_t>(loop.nx)) + step_x[side];
-  part.iy = static_cast<int>(cell / static_cast<std::size_t>(loop.nx)) + step_y[side];
+  part.ix = loop.column(cell) + step_x[side];
+  part.iy = loop.row(cell) + step_y[side];
   part.set.at = from_frame(side, {Real(-0.5), place});
   part.set.heading = loop.direction[cell];
   part.flown_rad = loop.command_rad[cell];
@@ -207,11 +211,11 @@ void follow_section(const Loop& loop, std::size_t section, const Real& place, Li
   Follower(loop, listener).follow(part);
 }
 
-void follow_states(const Loop& loop, int ix, int iy, const Vec& at, const Vec& heading,
+void follow_states(const Loop& loop, std::size_t cell, const Vec& at, const Vec& heading,
                    Listener& listener) {
   Part part;
-  part.ix = ix;
-  part.iy = iy;
+  part.ix = loop.column(cell);
+  part.iy = loop.row(cell);
   part.set.at = at;
   part.set.heading = heading;
   Follower(loop, listener).follow(part);

@@ -28,6 +28,9 @@ struct Loop {
   const std::uint8_t* kind = nullptr;  ///< [iy][ix]
   std::vector<Vec> direction;          ///< [iy][ix], of the commands of ordinary cells
 
+  /// Fills `radius` and `direction` from the rest.
+  void take_directions(double turn_radius_m, double cell_m);
+
   std::size_t index(int ix, int iy) const {
     return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) +
            static_cast<std::size_t>(ix);
@@ -35,6 +38,15 @@ struct Loop {
   CellKind kind_at(int ix, int iy) const {
     const bool inside = ix >= 0 && ix < nx && iy >= 0 && iy < ny;
     return inside ? static_cast<CellKind>(kind[index(ix, iy)]) : outside;
+  }
+  int column(std::size_t cell) const {
+    return static_cast<int>(cell % static_cast<std::size_t>(nx));
+  }
+  int row(std::size_t cell) const { return static_cast<int>(cell / static_cast<std::size_t>(nx)); }
+  /// Of the cell beyond a section's side.
+  CellKind kind_beyond(std::size_t section) const {
+    return kind_at(column(section / 4) + step_x[section % 4],
+                   row(section / 4) + step_y[section % 4]);
   }
 };
 
@@ -52,8 +64,8 @@ class Listener {
 /// which is ordinary.
 void follow_section(const Loop& loop, std::size_t section, const Real& place, Listener& listener);
 
-/// States inside the ordinary cell (ix, iy).
-void follow_states(const Loop& loop, int ix, int iy, const Vec& at, const Vec& heading,
+/// States inside an ordinary cell.
+void follow_states(const Loop& loop, std::size_t cell, const Vec& at, const Vec& heading,
                    Listener& listener);
 
 }  // namespace fairway_check

@@ -1,6 +1,7 @@
 #include "check/motion.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace fairway_check {
 namespace {
@@ -38,8 +39,15 @@ bool keep_on_circle(Vec& heading) {
   return true;
 }
 
+/// Cuts the place at the corners; false when nothing is left.
+bool keep_between_corners(Way& way) {
+  way.at_low = !(way.place.lower() > -0.5);
+  way.at_high = !(way.place.upper() < 0.5);
+  return cut(way.place, side_range);
+}
+
 /// Straight on from `at`; every way is `like` but for where it leaves.
-void go_straight(const Vec& at, const Way& like, Ways& ways) {
+bool go_straight(const Vec& at, const Way& like, std::vector<Way>& ways) {
   for (int side = 0; side < 4; ++side) {
     const Vec u = into_frame(side, like.heading);
     if (negative(u.x)) continue;
@@ -65,159 +73,136 @@ void go_straight(const Vec& at, const Way& like, Ways& ways) {
         if (from < -0.5) continue;
         way.place = {-0.5, from};
       } else {
-        ways.lost = true;
-        return;
+        return false;
       }
     }
+    if (!keep_between_corners(way)) continue;
     // What runs exactly on the side comes to its end together with the side ahead: told there.
-    way.at_low = !is_zero(u.x) && !(way.place.lower() > -0.5);
-    way.at_high = !is_zero(u.x) && !(way.place.upper() < 0.5);
-    if (!cut(way.place, side_range)) continue;
+    if (is_zero(u.x)) way.at_low = way.at_high = false;
     way.length = (Real(like.length) + length).upper();
-    ways.add(way);
+    ways.push_back(way);
   }
+  return true;
 }
 
-bool is_inside(const Real& place) { return place.lower() > -0.5 && place.upper() < 0.5; }
-
 struct Arc {
-  const Bundle& from;
-  int sign;
+  Vec start;     // headings there
+  Vec headings;  // all that occur before alignment and within 90 degrees
   Vec centre;
-  Vec headings;  // all that may occur before alignment and within 90 degrees
+  double k;  // the sign
+  Real kr;
   Real radius;
 };
 
 /// One of the events that may end an arc.
 struct Event {
-  Vec heading;
-  bool possible = false;  // as the first event of some state
-  bool sure = false;      // every state meets it within 90 degrees, unless another comes first
   Way way;
+  bool possible = false;  // as the first event of some state
+  bool sure = false;      // every state meets it within 90 degrees, unless another comes first, ...
+  Vec heading;            // ... with one of these headings
 };
 
 Event crossing(const Arc& arc, int side) {
   Event event;
-  const Real kr = static_cast<double>(arc.sign) * arc.radius;
+  Way& way = event.way;
   Vec centre = into_frame(side, arc.centre);
-  Vec u{Real(0.0), (0.5 - centre.x) / kr};  // k / R is 1 / (k R)
-  event.sure = u.y.lower() > -1.0 && u.y.upper() < 1.0;
+  Vec u{Real(0.0), (0.5 - centre.x) / arc.kr};  // k / R is 1 / (k R)
+  const bool surely_crosses = u.y.lower() > -1.0 && u.y.upper() < 1.0;
   if (!cut(u.y, unit_range)) return event;
   u.x = root(1.0 - square(u.y));
   event.heading = from_frame(side, u);
-  const Real turned = static_cast<double>(arc.sign) * cross(arc.from.heading, event.heading);
-  const Real ahead = dot(arc.from.heading, event.heading);
-  if (negative(turned) || negative(ahead)) return {};
-  event.sure = event.sure && turned.lower() >= 0.0 && positive(ahead);
+  const Real turned = arc.k * cross(arc.start, event.heading);
+  const Real ahead = dot(arc.start, event.heading);
+  if (negative(turned) || negative(ahead)) return event;
+  event.sure = surely_crosses && turned.lower() >= 0.0 && positive(ahead);
 
   const Vec headings = into_frame(side, arc.headings);
   if (!cut(u.x, headings.x) || !cut(u.y, headings.y) || !keep_on_circle(u)) return event;
-  Way& way = event.way;
-  way.side = side;
-  way.place = centre.y - kr * u.x;
-  way.at_low = !(way.place.lower() > -0.5);
-  way.at_high = !(way.place.upper() < 0.5);
-  if (!cut(way.place, side_range)) return event;
+  way.place = centre.y - arc.kr * u.x;
+  if (!keep_between_corners(way)) return event;
   if (way.at_low || way.at_high) {  // only the headings that leave between the corners
-    if (!cut(u.x, (centre.y - way.place) / kr) || !keep_on_circle(u)) return event;
+    if (!cut(u.x, (centre.y - way.place) / arc.kr) || !keep_on_circle(u)) return event;
   }
-  if (!cut(centre.y, way.place + kr * u.x) || !cut(centre.x, 0.5 - kr * u.y)) return event;
+  if (!cut(centre.y, way.place + arc.kr * u.x) || !cut(centre.x, 0.5 - arc.kr * u.y)) return event;
   event.possible = true;
-  event.heading = way.heading = from_frame(side, u);
+  way.side = side;
+  way.turn = arc.k > 0.0 ? 1 : -1;
+  way.heading = from_frame(side, u);
   way.centre = from_frame(side, centre);
-  way.turn = arc.sign;
+  way.length = (arc.radius * largest_angle(arc.start, way.heading)).upper();
   return event;
 }
 
-/// Where the arc reaches the command `c`.
-Vec aligned_at(const Arc& arc, const Vec& c) {
-  const Real kr = static_cast<double>(arc.sign) * arc.radius;
-  return {arc.centre.x + kr * c.y, arc.centre.y - kr * c.x};
-}
-
-void turn_then_straight(const Arc& arc, const Vec& c, Vec at, Ways& ways) {
-  if (!cut(at.x, side_range) || !cut(at.y, side_range)) return;
+bool align_and_go(const Arc& arc, const Vec& command, Vec at, std::vector<Way>& ways) {
+  if (!cut(at.x, side_range) || !cut(at.y, side_range)) return true;
   Way like;
-  like.heading = c;
+  like.heading = command;
   like.aligned = true;
-  like.length = (arc.radius * largest_angle(arc.from.heading, c)).upper();
-  go_straight(at, like, ways);
+  like.length = (arc.radius * largest_angle(arc.start, command)).upper();
+  return go_straight(at, like, ways);
 }
 
-void go_turning(const Bundle& set, const Vec& command, int sign, bool may_align, bool will_align,
-                const Real& radius, Ways& ways) {
-  const Real kr = static_cast<double>(sign) * radius;
-  const Vec& u = set.heading;
+/// `ahead`: the cosines of the angles to the command.
+bool go_turning(const Bundle& set, const Vec& command, int sign, const Real& ahead,
+                const Real& radius, std::vector<Way>& ways) {
+  const bool will_align = positive(ahead);  // if it stays so long
   const double k = sign;
+  const Real kr = k * radius;
+  const Vec& u = set.heading;
   const Vec last = will_align ? command : Vec{-(k * u.y), k * u.x};
-  const Arc arc{set, sign,
-                set.turn == sign ? set.centre : Vec{set.at.x - kr * u.y, set.at.y + kr * u.x},
-                headings_between(u, last), radius};
-  const auto one_way = [](const Real& a, const Real& b) {
-    return (a.lower() >= 0.0 && b.lower() >= 0.0) || (a.upper() <= 0.0 && b.upper() <= 0.0);
+  const Vec centre = set.turn == sign ? set.centre : Vec{set.at.x - kr * u.y, set.at.y + kr * u.x};
+  const Arc arc{u, headings_between(u, last), centre, k, kr, radius};
+  const Vec at{centre.x + kr * command.y, centre.y - kr * command.x};  // when aligned
+  const auto runs_one_way_inside = [](const Real& first, const Real& end, const Real& place) {
+    return ((first.lower() >= 0.0 && end.lower() >= 0.0) ||
+            (first.upper() <= 0.0 && end.upper() <= 0.0)) &&
+           place.lower() > -0.5 && place.upper() < 0.5;
   };
-  const Vec at = aligned_at(arc, command);
-  if (will_align && one_way(u.x, command.x) && one_way(u.y, command.y) && is_inside(at.x) &&
-      is_inside(at.y)) {
-    // On the whole arc x runs one way, and y: it leaves the cell nowhere before its end.
-    turn_then_straight(arc, command, at, ways);
-    return;
+  if (will_align && runs_one_way_inside(u.x, command.x, at.x) &&
+      runs_one_way_inside(u.y, command.y, at.y)) {
+    return align_and_go(arc, command, at, ways);
   }
-  std::array<Event, 5> events;
-  std::size_t count = 0;
-  if (may_align) {
-    events[count].heading = command;
-    events[count].possible = true;
-    events[count++].sure = will_align;
-  }
+  std::array<Event, 5> events;  // the last one: aligning
   for (int side = 0; side < 4; ++side) {
     // Between two headings there is none that points out of a side of which neither does.
     if (into_frame(side, u).x.upper() <= 0.0 && negative(into_frame(side, last).x)) continue;
-    const Event event = crossing(arc, side);
-    if (event.possible || event.sure) events[count++] = event;
+    events[static_cast<std::size_t>(side)] = crossing(arc, side);
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    bool first = events[i].possible;
-    for (std::size_t j = 0; j < count && first; ++j) {
-      first =
-          j == i || !events[j].sure || !positive(k * cross(events[j].heading, events[i].heading));
-    }
-    if (!first) continue;
-    if (may_align && i == 0) {
-      turn_then_straight(arc, command, at, ways);
-    } else {
-      events[i].way.length = (radius * largest_angle(u, events[i].heading)).upper();
-      ways.add(events[i].way);
+  events[4].heading = events[4].way.heading = command;
+  events[4].possible = ahead.upper() > 0.0;
+  events[4].sure = will_align;
+  for (const Event& event : events) {
+    const bool first = std::none_of(events.begin(), events.end(), [&](const Event& other) {
+      return other.sure && positive(k * cross(other.heading, event.way.heading));
+    });
+    if (!event.possible || !first) continue;
+    if (&event != &events[4]) {
+      ways.push_back(event.way);
+    } else if (!align_and_go(arc, command, at, ways)) {
+      return false;
     }
   }
+  return true;
 }
 
 }  // namespace
 
-void find_ways(const Bundle& set, const Command& command, const Real& radius, Ways& ways) {
-  if (width(set.heading.x) > 0.5 || width(set.heading.y) > 0.5) {
-    ways.lost = true;
-    return;
-  }
+bool find_ways(const Bundle& set, const Command& command, const Real& radius,
+               std::vector<Way>& ways) {
+  if (width(set.heading.x) > 0.5 || width(set.heading.y) > 0.5) return false;
   if (!command.exists || command.is_flown) {
     Way like;
     like.heading = set.heading;
     like.aligned = command.exists;
-    go_straight(set.at, like, ways);
-    return;
+    return go_straight(set.at, like, ways);
   }
   const Real left = cross(set.heading, command.heading);
   const Real ahead = dot(set.heading, command.heading);
-  const bool may_align = ahead.upper() > 0.0;
-  const bool will_align = ahead.lower() > 0.0;
-  if (!positive(left) && !negative(left) && may_align && !will_align) {
-    ways.lost = true;
-    return;
-  }
-  for (const int sign : {1, -1}) {  // both where it may be either: aligned, or opposite
-    if (sign > 0 ? negative(left) : positive(left)) continue;
-    go_turning(set, command.heading, sign, may_align, will_align, radius, ways);
-  }
+  const bool one_side = positive(left) || negative(left);
+  if (!one_side && !positive(ahead) && !negative(ahead)) return false;
+  // Both turns where it may be either: aligned, or opposite.
+  return (negative(left) || go_turning(set, command.heading, 1, ahead, radius, ways)) &&
+         (positive(left) || go_turning(set, command.heading, -1, ahead, radius, ways));
 }
 
 }  // namespace fairway_check

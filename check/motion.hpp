@@ -10,7 +10,7 @@
 // events the one with the other's heading on its turning side is the earlier one.
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include "check/interval.hpp"
 
@@ -44,21 +44,9 @@ struct Way {
   double length = 0.0;  ///< no state has flown farther in the cell
 };
 
-struct Ways {
-  std::array<Way, 24> way;
-  int count = 0;
-  bool lost = false;  ///< the set is too large to follow; the ways say nothing
-
-  void add(const Way& w) {
-    if (count == static_cast<int>(way.size())) {
-      lost = true;
-    } else {
-      way[static_cast<std::size_t>(count++)] = w;
-    }
-  }
-};
-
-/// Every way by which a state of `set` may leave. `radius` > 1 cell. Needs `Upwards`.
-void find_ways(const Bundle& set, const Command& command, const Real& radius, Ways& ways);
+/// Adds every way by which a state of `set` may leave. `radius` > 1 cell. False: the set is too
+/// large to follow, the ways say nothing. Needs `Upwards`.
+[[nodiscard]] bool find_ways(const Bundle& set, const Command& command, const Real& radius,
+                             std::vector<Way>& ways);
 
 }  // namespace fairway_check
