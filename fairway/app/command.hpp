@@ -26,5 +26,6 @@ Action declare_simulate(CLI::App& options);
 Action declare_verify(CLI::App& options);
 Action declare_query(CLI::App& options);
 Action declare_check(CLI::App& options);
+Action declare_steer(CLI::App& options);
 
 }  // namespace fairway

@@ -31,6 +31,8 @@ constexpr Command commands[] = {
      declare_verify},
     {"query", "what a certificate says of a state", declare_query},
     {"check", "re-prove a certificate with a separate program", declare_check},
+    {"steer", "to a pose by a shortest path, or under a control law; nothing is in the way",
+     declare_steer},
 };
 
 /// Ctrl-C and friends must leave nothing half-written: they are taken by a thread of their own,

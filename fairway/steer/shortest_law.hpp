@@ -1,0 +1,64 @@
+// A feedback law that takes the shortest path to a pose: at every state the first control of the
+// shortest path from there, with a latch where nothing else would be at rest.
+//
+// The length of a shortest path V(state) falls by exactly what is driven along it. Three things
+// keep plain feedback from that, and each has its answer here:
+//   Ties. Where two words are equally long (a goal straight behind) noise would flip the choice
+//   back
+//     and forth. The word once chosen is kept while its path from the present state is at most
+//     `tie` longer than the shortest.
+//   Jumps. V jumps by a whole loop where a last turn would have to be tighter than the least
+//   radius:
+//     every state on a last arc is such a place, and the smallest error puts the vehicle on the
+//     wrong side. Then the path chosen before is driven on as long as it ends within the tolerance.
+//   Sampling. A control holds for a step. Where a part ends within the step the mean curvature is
+//     held, so that the heading after the step is the path's; the place errs by step^2 / (8 r) at
+//     most for each join, and the goal is passed at half a step at most: the tolerance must be more
+//     than step / 2 + step^2 / (4 r) (that of steering_flight.hpp is).
+// Properties that always hold, with W the length of what is left of the path that is followed:
+//   1. Undisturbed, W falls by the step in every step, to nothing: W never grows but by `tie`, once
+//   for
+//      each change of word, which needs a gain of more than `tie` over the word before.
+//   2. The path followed ends within `tolerance` of the goal, or is a path to the goal itself.
+// docs/steering.md argues the descent, with noise and with a moving goal.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "fairway/steer/dubins_words.hpp"
+
+namespace fairway {
+
+struct PoseTolerance {
+  double place_m = 0.0;
+  double heading_rad = 0.0;
+  [[nodiscard]] bool holds(const State& state, const State& goal) const;
+};
+
+struct ShortestLawOptions {
+  PoseTolerance tolerance;
+  double tie_m = 0.0;  ///< >= 0
+};
+
+class ShortestLaw {
+ public:
+  explicit ShortestLaw(const ShortestLawOptions& options) : options_(options) {}
+
+  /// The curvature (1/m, left positive, at most 1/turn_radius_m) to hold for the next `step_m`. The
+  /// goal may be another every time. No heap.
+  [[nodiscard]] double curvature_per_m(const State& state, const State& goal, double turn_radius_m,
+                                       double step_m);
+
+  /// The path that is followed, as of the last call; its start is the state then.
+  const std::optional<DubinsPath>& path() const { return path_; }
+
+ private:
+  void choose(const State& state, const State& goal, double turn_radius_m);
+
+  ShortestLawOptions options_;
+  std::optional<DubinsPath> path_;
+  double driven_m_ = 0.0;  ///< along path_ by the step last commanded
+};
+
+}  // namespace fairway

@@ -1,0 +1,79 @@
+#include "fairway/steer/steering_flight.hpp"
+
+#include <cmath>
+
+#include "fairway/base/error.hpp"
+
+namespace fairway {
+namespace {
+
+/// Letters of what was driven, with the length of each.
+class DrivenWord {
+ public:
+  void add(double curvature, double length) {
+    const char letter = curvature > 0.5 ? 'L' : curvature < -0.5 ? 'R' : 'S';
+    if (parts_.empty() || parts_.back().letter != letter) parts_.push_back({letter, 0.0});
+    parts_.back().length += length;
+  }
+  std::string text(double shortest) const {
+    std::string word;
+    for (const Part& part : parts_) {
+      if (part.length < shortest || (!word.empty() && word.back() == part.letter)) continue;
+      word += part.letter;
+      if (word.size() == 16) break;  // it wanders
+    }
+    return word;
+  }
+
+ private:
+  struct Part {
+    char letter;
+    double length;
+  };
+  std::vector<Part> parts_;
+};
+
+template <typename Law, typename Disturb>
+SteeringFlight flown(Law& law, const State& from, const State& goal, double turn_radius_m,
+                     const SteeringOptions& options, Track track, const Disturb& disturb) {
+  require(can_steer(from, goal, turn_radius_m), "poses are finite, the turning radius is positive");
+  require(options.step_m > 0.0 && std::isfinite(options.length_limit_m),
+          "the step is positive and the flight ends");
+  SteeringFlight flight;
+  flight.end = from;
+  DrivenWord word;
+  const auto steps = static_cast<std::size_t>(options.length_limit_m / options.step_m);
+  for (std::size_t i = 0;; ++i) {
+    if (track == Track::all) flight.track.push_back(flight.end);
+    flight.converged = options.tolerance.holds(flight.end, goal);
+    if (flight.converged || i == steps) break;
+    const double per_m = law.curvature_per_m(flight.end, goal, turn_radius_m, options.step_m);
+    word.add(per_m * turn_radius_m, options.step_m);
+    flight.end = disturb(driven(flight.end, options.step_m, per_m));
+    flight.length_m = static_cast<double>(i + 1) * options.step_m;
+  }
+  flight.word = word.text(3.5 * options.step_m);
+  return flight;
+}
+
+}  // namespace
+
+SteeringOptions steering_options(const State& from, const State& goal, double turn_radius_m) {
+  return {0.01 * turn_radius_m,
+          {0.02 * turn_radius_m, 0.02},
+          3.0 * norm(goal.position_m - from.position_m) + 60.0 * turn_radius_m};
+}
+
+SteeringFlight fly(ClfLaw& law, const State& from, const State& goal, double turn_radius_m,
+                   const SteeringOptions& options, Track track) {
+  return flown(law, from, goal, turn_radius_m, options, track, [](const State& s) { return s; });
+}
+
+SteeringFlight fly(ShortestLaw& law, const State& from, const State& goal, double turn_radius_m,
+                   const SteeringOptions& options, Track track,
+                   const std::function<State(const State&)>& disturbed) {
+  return flown(law, from, goal, turn_radius_m, options, track,
+               [&](const State& s) { return disturbed ? disturbed(s) : s; });
+}
+
+}  // namespace fairway

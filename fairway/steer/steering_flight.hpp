@@ -1,0 +1,46 @@
+// Driving to a pose under a feedback law, exactly: the curvature is constant over each control
+// step, so every step is an arc or a straight line in closed form.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fairway/steer/clf_law.hpp"
+#include "fairway/steer/shortest_law.hpp"
+
+namespace fairway {
+
+struct SteeringOptions {
+  double step_m = 0.0;  ///< how far the vehicle drives between two controls, > 0
+  PoseTolerance tolerance;
+  double length_limit_m = 0.0;
+};
+
+/// Steps of a hundredth of the radius, converged within a fiftieth of it and of a radian, given up
+/// after three times the distance and sixty radii.
+[[nodiscard]] SteeringOptions steering_options(const State& from, const State& goal,
+                                               double turn_radius_m);
+
+struct SteeringFlight {
+  bool converged = false;
+  double length_m = 0.0;
+  State end;
+  std::string word;          ///< L, S, R as driven; what is shorter than four steps is left out
+  std::vector<State> track;  ///< one state a step, with the first and the last, when asked for
+};
+
+enum class Track { none, all };
+
+[[nodiscard]] SteeringFlight fly(ClfLaw& law, const State& from, const State& goal,
+                                 double turn_radius_m, const SteeringOptions& options,
+                                 Track track = Track::none);
+
+/// `disturbed`, when there is one, gives the state that the vehicle is really in after a step.
+[[nodiscard]] SteeringFlight fly(ShortestLaw& law, const State& from, const State& goal,
+                                 double turn_radius_m, const SteeringOptions& options,
+                                 Track track = Track::none,
+                                 const std::function<State(const State&)>& disturbed = {});
+
+}  // namespace fairway

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""`fairway steer` as a user meets it: lengths against a brute force of the six words in numpy.
+
+Usage: steer_command_test.py FAIRWAY [unittest arguments]
+"""
+import csv
+import io
+import json
+import math
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+FAIRWAY = None
+COLUMNS = ["length_m", "word", "converged", "end_x_m", "end_y_m", "end_heading_rad"]
+
+
+def brute_force(start, goal, radius):
+    """Least length over the six words, arrays of shape [n, 3]; the textbook's formulas."""
+    d = (goal[:, :2] - start[:, :2]) / radius
+    h0, h1 = start[:, 2], goal[:, 2]
+    best = np.full(len(d), np.inf)
+
+    def turn(a):
+        return np.mod(a, 2 * np.pi)
+
+    def centre(pose, side):
+        return np.stack([-side * np.sin(pose), side * np.cos(pose)], axis=1)
+
+    for first in (1, -1):
+        for last in (1, -1):
+            v = d + centre(h1, last) - centre(h0, first)
+            length, angle = np.hypot(*v.T), np.arctan2(v[:, 1], v[:, 0])
+            if first == last:
+                straight = length
+            else:
+                straight = np.sqrt(np.where(length >= 2, length**2 - 4, np.nan))
+                angle = angle + first * np.arctan2(2, straight)
+            total = turn(first * (angle - h0)) + straight + turn(last * (h1 - angle))
+            best = np.fmin(best, total)
+            if first != last:
+                continue
+            bend = np.arccos(np.where(length <= 4, length, np.nan) / 4)
+            middle = np.pi + 2 * bend
+            # The middle circle touches the first one in this direction from its centre.
+            touch = angle + first * bend
+            t = turn(first * (touch - h0) + np.pi / 2)
+            total = t + middle + turn(first * (h1 - h0) - t + middle)
+            best = np.fmin(best, total)
+    return best * radius
+
+
+class Steer(unittest.TestCase):
+    def steer(self, *arguments, code=0, text=None):
+        done = subprocess.run([FAIRWAY, "steer", *map(str, arguments)], text=True, input=text,
+                              capture_output=True)
+        self.assertEqual(done.returncode, code, done.stdout[:500] + done.stderr)
+        return done
+
+    def rows(self, done):
+        lines = list(csv.reader(io.StringIO(done.stdout)))
+        self.assertEqual(lines[0], COLUMNS)
+        return [dict(zip(COLUMNS, line)) for line in lines[1:]]
+
+    def test_pairs_have_the_least_length_and_end_at_their_goals(self):
+        draw = np.random.default_rng(4)
+        for radius in (1.0, 20.0):
+            for box in (1, 4, 40):
+                n = 100_000
+                start, goal = (np.column_stack([draw.uniform(0, box * radius, (n, 2)),
+                                                draw.uniform(-math.pi, math.pi, n)])
+                               for _ in range(2))
+                text = "\n".join(",".join(map(repr, row))
+                                 for row in np.hstack([start, goal]).tolist())
+                rows = self.rows(self.steer("--turn-radius", radius, "--pairs", "-", text=text))
+                lengths = np.array([float(row["length_m"]) for row in rows])
+                np.testing.assert_allclose(lengths, brute_force(start, goal, radius),
+                                           rtol=0, atol=1e-9 * radius)
+                ends = np.array([[float(row[c]) for c in COLUMNS[3:]] for row in rows])
+                self.assertLess(np.abs(ends[:, :2] - goal[:, :2]).max(), 1e-10 * radius)
+                off = np.mod(ends[:, 2] - goal[:, 2] + np.pi, 2 * np.pi) - np.pi
+                self.assertLess(np.abs(off).max(), 1e-12)
+                self.assertEqual({row["converged"] for row in rows}, {"true"})
+                self.assertLessEqual({row["word"] for row in rows},
+                                     {"LSL", "RSR", "LSR", "RSL", "RLR", "LRL"})
+
+    def test_one_pair_and_the_same_in_a_file_with_a_header_in_another_order(self):
+        one = self.steer("--from", "0,0,90deg", "--to=-3,4,-1.5", "--turn-radius", "2").stdout
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "pairs.csv"
+            path.write_bytes(b"\xef\xbb\xbf# pairs\r\nh0_rad,x0_m,name,y0_m,x1_m,y1_m,h1_rad\r\n\r\n"
+                             b"90deg, 0 ,a,+0,-3,4,-1.5\r\n")
+            self.assertEqual(self.steer("--pairs", path, "--turn-radius", 2).stdout, one)
+
+    def test_numbers_come_back_as_they_were(self):
+        row = self.rows(self.steer("--from", "0.1,0.2,0.3", "--to", "0.1,0.2,0.3",
+                                   "--turn-radius", 3))[0]
+        self.assertEqual([row[c] for c in COLUMNS],
+                         ["0", "LSL", "true", "0.1", "0.2", "0.3"])
+
+    def test_json_is_one_object(self):
+        done = self.steer("--json", "--from", "0,0,0", "--to", "7,0,0", "--turn-radius", 2)
+        answer = json.loads(done.stdout)
+        self.assertEqual(answer["paths"][0]["length_m"], 7.0)
+        self.assertIs(answer["paths"][0]["converged"], True)
+
+    def test_the_papers_law_converges_but_not_always_by_the_shortest_path(self):
+        draw = np.random.default_rng(5)
+        n = 500
+        start = np.column_stack([draw.uniform(-80, 80, (n, 2)), draw.uniform(-math.pi, math.pi, n)])
+        goal = np.tile([0.0, 0.0, math.pi / 2], (n, 1))
+        text = "\n".join(",".join(map(repr, row)) for row in np.hstack([start, goal]).tolist())
+        rows = self.rows(self.steer("--turn-radius", 20, "--law", "clf", "--pairs", "-", text=text))
+        self.assertEqual({row["converged"] for row in rows}, {"true"})
+        excess = np.array([float(row["length_m"]) for row in rows]) - brute_force(start, goal, 20.0)
+        self.assertGreater(excess.min(), -2.0)
+        self.assertGreater(excess.max(), 2.0)
+        for row in rows:
+            self.assertLess(math.hypot(float(row["end_x_m"]), float(row["end_y_m"])), 0.4)
+            self.assertLessEqual(set(row["word"]), set("LSR"))
+
+    def test_threads_change_nothing(self):
+        draw = np.random.default_rng(6)
+        text = "\n".join(",".join(map(repr, row)) for row in draw.uniform(-3, 3, (600, 6)).tolist())
+        for law in ("shortest", "clf"):
+            arguments = ("--turn-radius", 1, "--pairs", "-", "--law", law)
+            self.assertEqual(self.steer(*arguments, "--threads", 1, text=text).stdout,
+                             self.steer(*arguments, "--threads", 2, text=text).stdout)
+
+    def test_wrong_usage_is_64(self):
+        poses = ("--from", "0,0,0", "--to", "1,1,1")
+        for arguments in (("--turn-radius", 1), ("--from", "0,0,0", "--turn-radius", 1), poses,
+                          (*poses, "--turn-radius", 1, "--pairs", "x.csv"),
+                          (*poses, "--turn-radius", 0), (*poses, "--turn-radius", -2),
+                          (*poses, "--turn-radius", "nan"), (*poses, "--turn-radius", "inf"),
+                          (*poses, "--turn-radius", "1e-320"),
+                          (*poses, "--turn-radius", 1, "--law", "fastest"),
+                          ("--from", "0,0", "--to", "1,1,1", "--turn-radius", 1),
+                          ("--from", "0,nan,0", "--to", "1,1,1", "--turn-radius", 1),
+                          ("--from", "0,0,0", "--to", "1e300,1,1", "--turn-radius", 1)):
+            done = self.steer(*arguments, code=64)
+            self.assertTrue(done.stderr.strip())
+            self.assertEqual(done.stdout, "")
+
+    def test_bad_input_is_65_and_says_where(self):
+        header = "x0_m,y0_m,h0_rad,x1_m,y1_m,h1_rad\n"
+        for text, line in ((header + "0,0,0,1,1\n", ":2: "), ("0,0,0,1,1,1\n0,0,x,1,1,1\n", ":2: "),
+                           ("0,0,nan,1,1,1\n", ":1: "), ("0,0,0,1,inf,1\n", ":1: "),
+                           ("0,0,0,1,1,1,1\n", ":1: "), (header, ": no pairs"), ("", ": no pairs"),
+                           ("x0_m,y0_m\n", ":1: "), ("0,0,0,1e200,0,0\n", ":1: "),
+                           (header.replace("y0_m", "x0_m"), ":1: ")):
+            with tempfile.TemporaryDirectory() as folder:
+                path = Path(folder) / "pairs.csv"
+                path.write_text(text)
+                done = self.steer("--pairs", path, "--turn-radius", 1, code=65)
+                self.assertIn(f"pairs.csv{line}", done.stderr)
+                self.assertEqual(done.stdout, "")
+        self.steer("--pairs", "/nowhere/pairs.csv", "--turn-radius", 1, code=65)
+
+
+if __name__ == "__main__":
+    FAIRWAY = sys.argv.pop(1)
+    unittest.main()
