@@ -60,12 +60,12 @@ FAIRWAY_WIDE void straight_words(Block& b, double turn_radius_m) {
   }
 }
 
-[[gnu::always_inline]] inline double lrl_length(const Pair& p) {
+[[gnu::always_inline]] inline double wide_lrl_length(const Pair& p) {
   const Vec2 ll = p.ll();
   const double length = std::sqrt(norm2(ll));
   const bool possible = (length < 4.0) & (length > 0.0);
   const double within = possible ? length : 1.0;
-  const double parts = lrl_parts_of(p, three_circles_of(ll, within)).length();
+  const double parts = lrl_length(p, three_circles_of(ll, within));
   return possible ? parts : std::numeric_limits<double>::infinity();
 }
 
@@ -76,7 +76,7 @@ FAIRWAY_WIDE void three_turns(Block& b, double turn_radius_m) {
     const Pair mirror = mirrored(pair);
     const bool near = is_nearly_straight(std::sqrt(norm2(pair.ll()))) |
                       is_nearly_straight(std::sqrt(norm2(mirror.ll())));
-    const double length = least(lrl_length(pair), lrl_length(mirror));
+    const double length = least(wide_lrl_length(pair), wide_lrl_length(mirror));
     b.bound[i] = near ? -1.0 : 0.0;
     b.length[i] = near ? b.length[i] : least(b.length[i], length);
   }
@@ -84,7 +84,7 @@ FAIRWAY_WIDE void three_turns(Block& b, double turn_radius_m) {
 
 double in_more_digits(const Block& b, std::size_t i, double turn_radius_m) {
   const Pair pair = pair_of(b.x0[i], b.y0[i], b.h0[i], b.x1[i], b.y1[i], b.h1[i], turn_radius_m);
-  return least(b.length[i], least(lrl_parts(mirrored(pair)).length(), lrl_parts(pair).length()));
+  return least(b.length[i], least(lrl_length(mirrored(pair)), lrl_length(pair)));
 }
 
 /// Collects the pairs for which three turns may be shorter, works on them when the block is full,

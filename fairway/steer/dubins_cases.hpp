@@ -61,13 +61,16 @@ struct Pair {
   return p;
 }
 
-/// Whether `v` is |v| in a direction that a left turn from u0 to u1 passes, within p.near: in the
+/// Whether `v` is |v| in a direction that a left turn from u0 to u1 passes, within `near`: in the
 /// cone between them, which is convex up to half a turn and the complement of a convex one beyond.
+[[gnu::always_inline]] inline bool is_passed(Vec2 u0, Vec2 u1, double left, Vec2 v, double near) {
+  const bool after = cross(u0, v) >= -near;
+  const bool before = cross(v, u1) >= -near;
+  const bool ahead = dot(v, u0 + u1) >= -2.0 * near;
+  return ((left > pi) & (after | before)) | (after & before & ahead);
+}
 [[gnu::always_inline]] inline bool is_passed(const Pair& p, Vec2 v) {
-  const bool after = cross(p.u0, v) >= -p.near;
-  const bool before = cross(v, p.u1) >= -p.near;
-  const bool ahead = dot(v, p.u0 + p.u1) >= -2.0 * p.near;
-  return p.left > pi ? (after | before) : (after & before & ahead);
+  return is_passed(p.u0, p.u1, p.left, v, p.near);
 }
 
 /// LSL: the turns add up to the turn between the headings, or to a whole turn more.
@@ -105,6 +108,7 @@ struct Parts {
 Parts lsl_parts(const Pair& p);
 Parts lsr_parts(const Pair& p);
 Parts lrl_parts(const Pair& p);
+double lrl_length(const Pair& p);
 
 /// What LRL is made of: the vector between its outer centres, and how far it is from straight.
 struct ThreeCircles {
@@ -126,14 +130,29 @@ struct ThreeCircles {
 
 /// The middle circle touches both others, on the side that makes its arc the long way round: with e
 /// from the first centre to the touch, e = ll / 4 + left(ll) / |ll| sqrt(1 - (|ll| / 4)^2).
-[[gnu::always_inline]] inline Parts lrl_parts_of(const Pair& p, const ThreeCircles& of) {
-  const double middle = two_pi - 2.0 * left_turn_to({of.cosine, of.sine});
+struct MiddleCircle {
+  Vec2 touch;     ///< heading where it is entered
+  double middle;  ///< its arc
+  double both;    ///< the first and the last arc together, or a whole turn less
+  bool is_both;
+};
+[[gnu::always_inline]] inline MiddleCircle middle_circle(const Pair& p, const ThreeCircles& of) {
   const Vec2 e = 0.25 * of.ll + (of.cosine / of.length) * left_of(of.ll);
-  const double turn = left_turn(p.u0, left_of(e));
-  const double sum = p.left + middle;
-  const double both = sum >= two_pi ? sum - two_pi : sum;
-  const double last = both - turn;
-  return {turn, middle, last < 0.0 ? last + two_pi : last};
+  MiddleCircle m;
+  m.touch = left_of(e);
+  m.middle = two_pi - 2.0 * left_turn_to({of.cosine, of.sine});
+  const double sum = p.left + m.middle;
+  m.both = sum >= two_pi ? sum - two_pi : sum;
+  // Where the first arc would end that needs no last one.
+  const double c = (of.cosine - of.sine) * (of.cosine + of.sine);
+  const double s = -2.0 * of.sine * of.cosine;
+  const Vec2 end = c * p.u1 + s * left_of(p.u1);
+  m.is_both = is_passed(p.u0, end, m.both, m.touch, 0.0);
+  return m;
+}
+[[gnu::always_inline]] inline double lrl_length(const Pair& p, const ThreeCircles& of) {
+  const MiddleCircle m = middle_circle(p, of);
+  return m.middle + (m.is_both ? m.both : m.both + two_pi);
 }
 
 /// A lower bound of LRL's length: its middle arc is 2 pi - 2 asin(|ll| / 4).

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
@@ -64,10 +65,24 @@ ThreeCircles three_circles(const Pair& p) {
 
 }  // namespace
 
+double lrl_length(const Pair& p) {
+  const ThreeCircles of = three_circles(p);
+  if (!(of.cosine >= 0.0) || of.length == 0.0) return std::numeric_limits<double>::infinity();
+  return lrl_length(p, of);
+}
+
 Parts lrl_parts(const Pair& p) {
   const ThreeCircles of = three_circles(p);
   if (!(of.cosine >= 0.0) || of.length == 0.0) return {};
-  return lrl_parts_of(p, of);
+  const MiddleCircle m = middle_circle(p, of);
+  const double turn = left_turn(p.u0, m.touch);
+  if (!m.is_both) {
+    const double last = m.both - turn + two_pi;
+    return {turn, m.middle, last < two_pi ? last : last - two_pi};
+  }
+  if (turn <= m.both) return {turn, m.middle, m.both - turn};
+  return turn - m.both < two_pi - turn ? Parts{m.both, m.middle, 0.0}
+                                       : Parts{0.0, m.middle, m.both};
 }
 
 namespace {
@@ -123,10 +138,10 @@ Best shortest(const Pair& pair) {
   try_crossing(best, mirror, mirror.lr(), DubinsWord::RSL);
   if (best.length <= pi) return best;  // shorter than the middle arc of RLR and LRL alone
   if (lrl_bound(std::sqrt(norm2(mirror.ll()))) < best.length) {
-    improve(best, lrl_parts(mirror).length(), DubinsWord::RLR);
+    improve(best, lrl_length(mirror), DubinsWord::RLR);
   }
   if (lrl_bound(std::sqrt(norm2(pair.ll()))) < best.length) {
-    improve(best, lrl_parts(pair).length(), DubinsWord::LRL);
+    improve(best, lrl_length(pair), DubinsWord::LRL);
   }
   return best;
 }
