@@ -32,6 +32,7 @@ inline constexpr std::uint64_t map_seed = 1;
 [[nodiscard]] std::vector<Row> pipeline_rows(const Settings& settings);
 [[nodiscard]] std::vector<Row> flight_rows(const Settings& settings);
 [[nodiscard]] std::vector<Row> bitmap_rows(const Settings& settings);
+[[nodiscard]] std::vector<Row> steer_rows(const Settings& settings);
 [[nodiscard]] std::vector<Row> certified_rows(const Settings& settings);
 
 /// One whole pipeline in this process, which is to have done nothing else. Prints a line
