@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "fairway/base/random.hpp"
@@ -204,30 +206,84 @@ TEST(SectionFlight, recognises_a_circle_and_only_that) {
   EXPECT_EQ(other.ends[0].verdict, Verdict::reach);
 }
 
+Told told_straight(const Flow& flow, IntervalVec2 position_m, IntervalVec2 heading) {
+  Front front;
+  front.ix = 1;
+  front.iy = 1;
+  front.entry.position_m = position_m;
+  front.entry.heading = heading;
+  Told told;
+  follow_to_section(flow, front, most_crossings, told);
+  return told;
+}
+
+bool tells(const Told& told, Verdict verdict) {
+  return std::any_of(told.ends.begin(), told.ends.end(),
+                     [&](const Told::End& end) { return end.verdict == verdict; });
+}
+
+Plan silent_plan() {
+  Plan plan = empty_plan(3, 3, 1.0, 2.0);
+  plan.heading_rad.assign(plan.grid.size(), std::numeric_limits<float>::quiet_NaN());
+  return plan;
+}
+
 TEST(SectionFlight, tells_of_every_cell_around_a_corner_it_passes_through) {
-  Plan plan = empty_plan(4, 4, 1.0, 2.0);
-  for (float& h : plan.heading_rad) h = std::numeric_limits<float>::quiet_NaN();
-  for (const std::size_t blocked : {std::size_t{6}, std::size_t{9}}) {  // either beside the corner
-    plan.region.assign(plan.grid.size(), Region::free);
-    plan.region[blocked] = Region::obstacle;
-    const PlanFlow plan_flow(plan);
-    const Flow flow = plan_flow.flow();
-    Front front;
-    front.ix = 1;
-    front.iy = 1;
-    front.entry.position_m = {0.5, 0.5};
-    const double diagonal = std::sqrt(0.5);  // straight to the corner (2, 2)
-    front.entry.heading = {{below(diagonal), above(diagonal)}, {below(diagonal), above(diagonal)}};
-    Told told;
-    follow_to_section(flow, front, most_crossings, told);
-    bool collides = false;
-    bool goes_on = false;
-    for (const Told::End& end : told.ends) {
-      collides = collides || end.verdict == Verdict::collide;
-      goes_on = goes_on || end.verdict == Verdict::leave;
+  const double diagonal = std::sqrt(0.5);
+  const Interval plus{below(diagonal), above(diagonal)};
+  for (const int dx : {-1, 1}) {
+    for (const int dy : {-1, 1}) {
+      // From the middle cell through its corner: beside it either way, and across.
+      for (const Cell blocked : {Cell{1 + dx, 1}, Cell{1, 1 + dy}, Cell{1 + dx, 1 + dy}}) {
+        Plan plan = silent_plan();
+        plan.region[plan.grid.index(blocked)] = Region::obstacle;
+        const PlanFlow plan_flow(plan);
+        const Told told = told_straight(plan_flow.flow(), {0.5, 0.5},
+                                        {dx > 0 ? plus : -plus, dy > 0 ? plus : -plus});
+        EXPECT_TRUE(tells(told, Verdict::collide)) << dx << dy << told.text();
+      }
+      // The one across is entered.
+      Plan plan = silent_plan();
+      plan.region[plan.grid.index({1 + dx, 1 + dy})] = Region::goal;
+      const PlanFlow plan_flow(plan);
+      const Told told = told_straight(plan_flow.flow(), {0.5, 0.5},
+                                      {dx > 0 ? plus : -plus, dy > 0 ? plus : -plus});
+      EXPECT_TRUE(tells(told, Verdict::reach)) << dx << dy << told.text();
+      // Well beside the corner the cell beside it is not touched.
+      Plan walled = silent_plan();
+      walled.region[walled.grid.index({1 + dx, 1})] = Region::obstacle;
+      const PlanFlow walled_flow(walled);
+      const Told edge =
+          told_straight(walled_flow.flow(), {{0.5 - 0.01 * dx, 0.5 - 0.01 * dx}, 0.5},
+                        {dx > 0 ? Interval(0.6) : Interval(-0.6), dy > 0 ? 0.8 : -0.8});
+      EXPECT_FALSE(tells(edge, Verdict::collide)) << edge.text();
     }
-    EXPECT_TRUE(collides) << blocked << told.text();
-    EXPECT_TRUE(goes_on) << blocked << told.text();
+  }
+}
+
+TEST(SectionFlight, touches_what_lies_beyond_a_border_it_runs_along) {
+  // Exactly along the upper border of the middle row, towards a cell above or below it ahead.
+  for (const double heading : {1.0, -1.0}) {
+    for (const double y : {0.0, 1.0}) {
+      for (const Region region : {Region::obstacle, Region::goal}) {
+        Plan plan = silent_plan();
+        plan.region[plan.grid.index({heading > 0.0 ? 2 : 0, y == 0.0 ? 0 : 2})] = region;
+        const PlanFlow plan_flow(plan);
+        const Told told = told_straight(plan_flow.flow(), {0.5, y}, {heading, 0.0});
+        EXPECT_TRUE(tells(told, region == Region::goal ? Verdict::reach : Verdict::collide))
+            << heading << " at " << y << told.text();
+        EXPECT_TRUE(tells(told, Verdict::leave)) << told.text();
+        // The cell right above where it starts is touched, too.
+        Plan above_it = silent_plan();
+        above_it.region[above_it.grid.index({1, y == 0.0 ? 0 : 2})] = region;
+        const PlanFlow above_flow(above_it);
+        EXPECT_TRUE(tells(told_straight(above_flow.flow(), {0.5, y}, {heading, 0.0}),
+                          region == Region::goal ? Verdict::reach : Verdict::collide));
+        // A border's breadth away nothing is.
+        EXPECT_FALSE(tells(told_straight(above_flow.flow(), {0.5, 0.5}, {heading, 0.0}),
+                           region == Region::goal ? Verdict::reach : Verdict::collide));
+      }
+    }
   }
 }
 
