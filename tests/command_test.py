@@ -36,6 +36,8 @@ goal_m = {goal}
 [simulate]
 random = 20
 sample = 100
+[verify]
+undecided_max = 0.05
 """
 
 
@@ -101,9 +103,12 @@ class Run(Command):
         folder = self.folder / "s-out"
         products = {"plan.safetensors", "flights.csv", "flights.geojson", "outcomes.csv", "plan.svg",
                     "plan.png", "flights.svg", "flights.png", "headings.svg", "headings.png",
+                    "certificate.safetensors", "failures.csv", "verdicts.svg", "verdicts.png",
+                    "proved.svg", "proved.png", "counterexamples.svg", "counterexamples.png",
                     "summary.json"}
         self.assertEqual({p.name for p in folder.iterdir()}, products)
         self.assertIn("s-out/plan.svg", done.stdout)
+        self.assertIn("s-out/verdicts.svg", done.stdout)
         self.assertIn("s-out/summary.json", done.stdout)
         self.assertEqual(done.stderr, "")  # no progress without a terminal
         summary = json.loads((folder / "summary.json").read_text())
@@ -130,7 +135,7 @@ class Run(Command):
             self.expect(0, "--threads", threads, "run", "s.toml", "-o", f"out{threads}")
             summaries.append(json.loads((self.folder / f"out{threads}/summary.json").read_text()))
         for summary in summaries:
-            self.assertEqual(len(summary["products"]), 10)
+            self.assertEqual(len(summary["products"]), 18)
             for key in ("wall_s", "stage_wall_s", "peak_rss_bytes", "threads"):
                 del summary[key]
             self.assertEqual(summary, summaries[0])  # digests of all products among them
@@ -144,6 +149,17 @@ class Run(Command):
         self.assertTrue((self.folder / "out/distance.svg").is_file())
         inputs = json.loads((self.folder / "out/summary.json").read_text())["inputs"]
         self.assertIn("line.csv", [entry["path"] for entry in inputs])
+
+    def test_failing_states_fly_as_their_verdicts_say(self):
+        self.expect(0, "run", "s.toml", "-o", "out")
+        with open(self.folder / "out/failures.csv") as lines:
+            failing = [row for row in csv.DictReader(lines) if row["verdict"] != "undecided"]
+        self.assertGreater(len(failing), 0)
+        self.expect(0, "simulate", "out/plan.safetensors", "--states", "out/failures.csv",
+                    "--outcomes", "replayed.csv")
+        with open(self.folder / "replayed.csv") as lines:
+            outcomes = [row["outcome"] for row in csv.DictReader(lines)]
+        self.assertEqual(outcomes[:len(failing)], [row["verdict"] for row in failing])
 
     def test_existing_products_are_kept_unless_forced(self):
         self.expect(0, "run", "s.toml", "-o", "out")
@@ -260,6 +276,26 @@ class Plan(Command):
         self.assertEqual(self.expect(0, "plan", "s.toml", "-o", "q", "--quiet").stdout, "")
         failed = self.expect(65, "plan", "none.toml", "-o", "r", "--json")
         self.assertEqual(json.loads(failed.stdout)["exit_code"], 65)
+
+
+class Verify(Command):
+    def test_draws_pictures_into_a_folder_of_their_own(self):
+        self.plan()
+        self.expect(0, "verify", "p.safetensors", "-o", "c.safetensors", "--pictures", "pictures",
+                    "--undecided-max", "0.05", "--volume-samples", "10000")
+        self.assertEqual({p.name for p in (self.folder / "pictures").iterdir()},
+                         {f"{name}.{kind}" for name in ("verdicts", "proved", "counterexamples")
+                          for kind in ("svg", "png")})
+        done = self.expect(65, "verify", "p.safetensors", "-o", "again.safetensors", "--pictures",
+                           "pictures")
+        self.assertIn("pictures", done.stderr)
+        self.assertNotIn("again.safetensors", self.names())
+
+    def test_bitmaps_have_no_pictures(self):
+        self.plan()
+        self.expect(64, "verify", "p.safetensors", "-o", "b.safetensors", "--method", "bitmap",
+                    "--pictures", "pictures")
+        self.assertNotIn("pictures", self.names())
 
 
 class Simulate(Command):
