@@ -1,6 +1,7 @@
 // fairway-reproduce DEMO_FOLDER OUT_FOLDER: redraws Figs. 3 to 8 of paper 1 on the project's own
 // map and prints what can be measured on them. Twice: to the letter of the paper (metric, filter
-// and blend "paper"), and with the project's defaults. Then Figs. 6, 8 and 20 to 23 of paper 2.
+// and blend "paper"), and with the project's defaults. Then Figs. 6, 8 and 20 to 23 of paper 2, and 5 to 7 of
+// paper 3.
 #include <array>
 #include <cstdio>
 #include <exception>
@@ -15,6 +16,7 @@
 #include "reproduce/cell_set_figures.hpp"
 #include "reproduce/expansion_figures.hpp"
 #include "reproduce/figures.hpp"
+#include "reproduce/steering_figures.hpp"
 #include "reproduce/tables.hpp"
 
 namespace {
@@ -58,6 +60,11 @@ int reproduce(const std::filesystem::path& demo, const std::filesystem::path& ou
   fmt::print("## Paper 2\n\n{}\n", tables);
   text += fmt::format("## Paper 2\n\n{}\n", tables);
   numbers["verification"] = reproduce::numbers_of(cells, expansion);
+  const auto steering = reproduce::draw_steering();
+  write_pictures(out / "steering", steering.pictures);
+  const std::string steering_tables = reproduce::tables_of(steering);
+  fmt::print("## Paper 3\n\n{}\n", steering_tables);
+  text += fmt::format("## Paper 3\n\n{}\n", steering_tables);
   write_whole(out / "measures.md", Existing::replace, text);
   write_whole(out / "measures.json", Existing::replace, numbers.dump(2) + "\n");
   fmt::print("Figures and tables are in {}\n", out.string());
