@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace fairway_check {
 namespace {
@@ -9,6 +10,7 @@ namespace {
 const Real side_range(-0.5, 0.5);
 const Real unit_range(-1.0, 1.0);
 constexpr double diagonal = 1.4143;  // > sqrt(2)
+constexpr double inf = std::numeric_limits<double>::infinity();
 
 /// An upper bound of the angle between unit vectors of two sets, less than 180 degrees: four times
 /// the arc tangent of the tangent of its quarter, by the series up to a positive term.
@@ -65,13 +67,11 @@ bool go_straight(const Vec& at, const Way& like, std::vector<Way>& ways) {
       way.skims = true;
       const Real until = gap.lower() > 0.0 ? Real(gap.lower()) / u.x.upper() : Real(0.0);
       if (u.y.lower() > 0.5) {
-        const double from = (p.y.lower() + until * u.y.lower()).lower();
-        if (from > 0.5) continue;
-        way.place = {from, 0.5};
+        way.place = {(p.y.lower() + until * u.y.lower()).lower(), inf};
+        length = std::min(length, ((0.5 - p.y) / u.y).upper());  // when the side ends
       } else if (u.y.upper() < -0.5) {
-        const double from = (p.y.upper() + until * u.y.upper()).upper();
-        if (from < -0.5) continue;
-        way.place = {-0.5, from};
+        way.place = {-inf, (p.y.upper() + until * u.y.upper()).upper()};
+        length = std::min(length, ((-0.5 - p.y) / u.y).upper());
       } else {
         return false;
       }
