@@ -33,11 +33,11 @@ turn_radius_m = 4.0
 [mission]
 kind = "goal"
 goal_m = {goal}
+[verify]
+undecided_max = 0.05
 [simulate]
 random = 20
 sample = 100
-[verify]
-undecided_max = 0.05
 """
 
 
@@ -199,7 +199,7 @@ class Run(Command):
         text = (self.folder / "s.toml").read_text() + "states = [[500, 1, 0]]\n"
         (self.folder / "s.toml").write_text(text)
         done = self.expect(65, "run", "s.toml")
-        self.assertIn("s.toml:14: simulate.states: (500, 1) is outside the map", done.stderr)
+        self.assertIn("s.toml:16: simulate.states: (500, 1) is outside the map", done.stderr)
         self.assertEqual(self.names(), ["map.pgm", "s.toml"])
 
     def test_a_signal_leaves_nothing_behind(self):
