@@ -38,6 +38,8 @@ undecided_max = 0.05
 [simulate]
 random = 20
 sample = 100
+[verify]
+undecided_max = 0.1
 """
 
 

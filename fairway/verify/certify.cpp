@@ -105,11 +105,17 @@ class VolumeMeter {
   std::vector<VerdictSet> found_;
 };
 
-/// The last levels decided next to nothing: what is left does not get easier by smaller leaves.
+/// The last levels decided next to nothing, or little for many more leaves: what is left does not
+/// get easier by smaller ones.
 bool has_stalled(const std::vector<LevelRecord>& levels, int without_gain) {
-  const auto n = static_cast<std::size_t>(without_gain);
-  if (levels.size() <= n) return false;
-  return levels.back().undecided_volume > 0.999 * levels[levels.size() - 1 - n].undecided_volume;
+  const auto since = [&](std::size_t n, double share, double growth) {
+    if (levels.size() <= n) return false;
+    const LevelRecord& then = levels[levels.size() - 1 - n];
+    const LevelRecord& now = levels.back();
+    return now.undecided_volume > share * then.undecided_volume &&
+           static_cast<double>(now.undecided) > growth * static_cast<double>(then.undecided);
+  };
+  return since(static_cast<std::size_t>(without_gain), 0.999, 0.0) || since(3, 0.95, 3.0);
 }
 
 }  // namespace
