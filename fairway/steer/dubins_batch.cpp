@@ -32,12 +32,16 @@ struct Block {
   std::array<double, block> x0, y0, h0, x1, y1, h1;
   std::array<double, block> length;  ///< of the best word with a straight part, radii
   std::array<double, block> bound;   ///< of RLR and LRL
+
+  [[gnu::always_inline]] Poses poses(std::size_t i, double turn_radius_m) const {
+    return {x0[i], y0[i], h0[i], x1[i], y1[i], h1[i], turn_radius_m};
+  }
 };
 
 [[gnu::always_inline]] inline double least(double a, double b) { return b < a ? b : a; }
 
-[[gnu::always_inline]] inline double lsr_length(const Pair& p) {
-  const Vec2 lr = p.lr();
+[[gnu::always_inline]] inline double lsr_length(const Pair<double>& p) {
+  const Plane<double> lr = p.lr();
   const double square = crossing_square(p, lr);
   const double straight = std::sqrt(square < 0.0 ? 0.0 : square);
   const double turn = lsr_turn(p, lr, straight);
@@ -47,8 +51,8 @@ struct Block {
 
 FAIRWAY_WIDE void straight_words(Block& b, double turn_radius_m) {
   for (std::size_t i = 0; i < block; ++i) {
-    const Pair pair = pair_of(b.x0[i], b.y0[i], b.h0[i], b.x1[i], b.y1[i], b.h1[i], turn_radius_m);
-    const Pair mirror = mirrored(pair);
+    const Pair<double> pair = pair_of(b.poses(i, turn_radius_m));
+    const Pair<double> mirror = mirrored(pair);
     double length = least(lsl_length(pair), lsl_length(mirror));
     length = least(length, least(lsr_length(pair), lsr_length(mirror)));
     b.bound[i] =
@@ -60,8 +64,8 @@ FAIRWAY_WIDE void straight_words(Block& b, double turn_radius_m) {
   }
 }
 
-[[gnu::always_inline]] inline double wide_lrl_length(const Pair& p) {
-  const Vec2 ll = p.ll();
+[[gnu::always_inline]] inline double wide_lrl_length(const Pair<double>& p) {
+  const Plane<double> ll = p.ll();
   const double length = std::sqrt(norm2(ll));
   const bool possible = (length < 4.0) & (length > 0.0);
   const double within = possible ? length : 1.0;
@@ -72,8 +76,8 @@ FAIRWAY_WIDE void straight_words(Block& b, double turn_radius_m) {
 /// Improves `length`; `bound` becomes -1 where more digits are needed.
 FAIRWAY_WIDE void three_turns(Block& b, double turn_radius_m) {
   for (std::size_t i = 0; i < block; ++i) {
-    const Pair pair = pair_of(b.x0[i], b.y0[i], b.h0[i], b.x1[i], b.y1[i], b.h1[i], turn_radius_m);
-    const Pair mirror = mirrored(pair);
+    const Pair<double> pair = pair_of(b.poses(i, turn_radius_m));
+    const Pair<double> mirror = mirrored(pair);
     const bool near = is_nearly_straight(std::sqrt(norm2(pair.ll()))) |
                       is_nearly_straight(std::sqrt(norm2(mirror.ll())));
     const double length = least(wide_lrl_length(pair), wide_lrl_length(mirror));
@@ -83,8 +87,10 @@ FAIRWAY_WIDE void three_turns(Block& b, double turn_radius_m) {
 }
 
 double in_more_digits(const Block& b, std::size_t i, double turn_radius_m) {
-  const Pair pair = pair_of(b.x0[i], b.y0[i], b.h0[i], b.x1[i], b.y1[i], b.h1[i], turn_radius_m);
-  return least(b.length[i], least(lrl_length(mirrored(pair)), lrl_length(pair)));
+  const Poses poses = b.poses(i, turn_radius_m);
+  const Pair<double> pair = pair_of(poses);
+  return least(b.length[i],
+               least(lrl_length(mirrored(poses), mirrored(pair)), lrl_length(poses, pair)));
 }
 
 /// Collects the pairs for which three turns may be shorter, works on them when the block is full,

@@ -13,8 +13,8 @@ namespace fairway {
 
 namespace dubins {
 
-Parts lsl_parts(const Pair& p) {
-  const Vec2 ll = p.ll();
+Parts lsl_parts(const Pair<double>& p) {
+  const Plane<double> ll = p.ll();
   const double straight = std::sqrt(norm2(ll));
   if (straight <= p.near) return {p.left, 0.0, 0.0};  // one circle: any direction would do
   const double turn = left_turn(p.u0, ll);
@@ -28,8 +28,8 @@ Parts lsl_parts(const Pair& p) {
                                        : Parts{0.0, straight, p.left};
 }
 
-Parts lsr_parts(const Pair& p) {
-  const Vec2 lr = p.lr();
+Parts lsr_parts(const Pair<double>& p) {
+  const Plane<double> lr = p.lr();
   const double square = crossing_square(p, lr);
   if (!(square >= 0.0)) return {};
   const double straight = std::sqrt(square);
@@ -42,13 +42,13 @@ namespace {
 /// Near |ll| = 4 the three centres are nearly in line and the length of LRL grows as the root of
 /// what is missing: the rounding of `ll` would cost half the digits. So it is worked out again from
 /// the poses, in long double.
-ThreeCircles in_more_digits(const Pair& p) {
+ThreeCircles<double> in_more_digits(const Poses& p) {
   using Real = long double;
   const Real r = p.turn_radius_m;
-  const Real x = (static_cast<Real>(p.to_m.x) - p.from_m.x) / r -
-                 (std::sin(static_cast<Real>(p.h1)) - std::sin(static_cast<Real>(p.h0)));
-  const Real y = (static_cast<Real>(p.to_m.y) - p.from_m.y) / r +
-                 (std::cos(static_cast<Real>(p.h1)) - std::cos(static_cast<Real>(p.h0)));
+  const Real x = (static_cast<Real>(p.x1_m) - p.x0_m) / r -
+                 (std::sin(static_cast<Real>(p.h1_rad)) - std::sin(static_cast<Real>(p.h0_rad)));
+  const Real y = (static_cast<Real>(p.y1_m) - p.y0_m) / r +
+                 (std::cos(static_cast<Real>(p.h1_rad)) - std::cos(static_cast<Real>(p.h0_rad)));
   const Real length = std::sqrt(x * x + y * y);
   const Real missing = 16.0L - (x * x + y * y);
   return {{static_cast<double>(x), static_cast<double>(y)},
@@ -57,26 +57,28 @@ ThreeCircles in_more_digits(const Pair& p) {
           static_cast<double>(missing < 0.0L ? -1.0L : std::sqrt(missing) / 4.0L)};
 }
 
-ThreeCircles three_circles(const Pair& p) {
-  const Vec2 ll = p.ll();
+/// The cosine is below 0 when there is no LRL.
+ThreeCircles<double> three_circles(const Poses& poses, const Pair<double>& p) {
+  const Plane<double> ll = p.ll();
   const double length = std::sqrt(norm2(ll));
-  return is_nearly_straight(length) ? in_more_digits(p) : three_circles_of(ll, length);
+  if (is_nearly_straight(length)) return in_more_digits(poses);
+  if (!(length < 4.0) || length == 0.0) return {ll, length, 0.0, -1.0};
+  return three_circles_of(ll, length);
 }
 
 }  // namespace
 
-double lrl_length(const Pair& p) {
-  const ThreeCircles of = three_circles(p);
-  if (!(of.cosine >= 0.0) || of.length == 0.0) return std::numeric_limits<double>::infinity();
-  return lrl_length(p, of);
+double lrl_length(const Poses& poses, const Pair<double>& p) {
+  const ThreeCircles<double> of = three_circles(poses, p);
+  return of.cosine >= 0.0 ? lrl_length(p, of) : std::numeric_limits<double>::infinity();
 }
 
-Parts lrl_parts(const Pair& p) {
-  const ThreeCircles of = three_circles(p);
-  if (!(of.cosine >= 0.0) || of.length == 0.0) return {};
-  const MiddleCircle m = middle_circle(p, of);
+Parts lrl_parts(const Poses& poses, const Pair<double>& p) {
+  const ThreeCircles<double> of = three_circles(poses, p);
+  if (!(of.cosine >= 0.0)) return {};
+  const MiddleCircle<double> m = middle_circle(p, of);
   const double turn = left_turn(p.u0, m.touch);
-  if (!m.is_both) {
+  if (!is_both(p, m)) {
     const double last = m.both - turn + two_pi;
     return {turn, m.middle, last < two_pi ? last : last - two_pi};
   }
@@ -87,12 +89,18 @@ Parts lrl_parts(const Pair& p) {
 
 namespace {
 
-Pair pair_between(const State& from, const State& to, double turn_radius_m) {
-  return pair_of(from.position_m.x, from.position_m.y, from.heading.rad(), to.position_m.x,
-                 to.position_m.y, to.heading.rad(), turn_radius_m);
+Poses poses_of(const State& from, const State& to, double turn_radius_m) {
+  return {from.position_m.x, from.position_m.y, from.heading.rad(), to.position_m.x,
+          to.position_m.y,   to.heading.rad(),  turn_radius_m};
 }
 
-Parts parts_of(DubinsWord word, const Pair& pair) {
+/// Both headings at once.
+Pair<double> quick_pair_of(const Poses& p) {
+  const Plane<Two> u = fast_angle::unit(Two{p.h0_rad, p.h1_rad});
+  return pair_of(p, {u.x[0], u.y[0]}, {u.x[1], u.y[1]});
+}
+
+Parts parts_of(DubinsWord word, const Poses& poses, const Pair<double>& pair) {
   switch (word) {
     case DubinsWord::LSL:
       return lsl_parts(pair);
@@ -103,9 +111,9 @@ Parts parts_of(DubinsWord word, const Pair& pair) {
     case DubinsWord::RSL:
       return lsr_parts(mirrored(pair));
     case DubinsWord::RLR:
-      return lrl_parts(mirrored(pair));
+      return lrl_parts(mirrored(poses), mirrored(pair));
     case DubinsWord::LRL:
-      return lrl_parts(pair);
+      return lrl_parts(poses, pair);
   }
   return {};
 }
@@ -119,30 +127,50 @@ void improve(Best& best, double length, DubinsWord word) {
   if (length < best.length) best = {length, word};
 }
 
-/// Takes LSR (or its mirror image) when it is shorter. Its turns differ by the headings'
-/// difference, so they come to that at least.
-void try_crossing(Best& best, const Pair& pair, Vec2 between, DubinsWord word) {
-  const double square = crossing_square(pair, between);
-  if (!(square >= 0.0)) return;
-  const double straight = std::sqrt(square);
-  if (straight + std::min(pair.left, pair.right) >= best.length) return;
-  const double turn = lsr_turn(pair, between, straight);
-  improve(best, straight + turn + lsr_last(pair, turn), word);
+/// Takes LSR or RSL when it is shorter. Their turns differ by the headings' difference, so they
+/// come to that at least.
+void try_crossing(Best& best, const Pair<double>& pair, const Pair<Two>& both) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const Plane<Two> lr = both.lr();
+  const Two square = crossing_square(both, lr);
+  const Two straight = root(square < 0.0 ? square - square : square);
+  const Two least = straight + std::min(pair.left, pair.right);
+  const bool lsr = (square[0] >= 0.0) & (least[0] < best.length);
+  const bool rsl = (square[1] >= 0.0) & (least[1] < best.length);
+  if (!(lsr | rsl)) return;
+  const Two turn = lsr_turn(both, lr, straight);
+  const Two length = straight + turn + lsr_last(both, turn);
+  improve(best, lsr ? length[0] : none, DubinsWord::LSR);
+  improve(best, rsl ? length[1] : none, DubinsWord::RSL);
 }
 
-Best shortest(const Pair& pair) {
-  const Pair mirror = mirrored(pair);
-  Best best{lsl_length(pair), DubinsWord::LSL};
-  improve(best, lsl_length(mirror), DubinsWord::RSR);
-  try_crossing(best, pair, pair.lr(), DubinsWord::LSR);
-  try_crossing(best, mirror, mirror.lr(), DubinsWord::RSL);
-  if (best.length <= pi) return best;  // shorter than the middle arc of RLR and LRL alone
-  if (lrl_bound(std::sqrt(norm2(mirror.ll()))) < best.length) {
-    improve(best, lrl_length(mirror), DubinsWord::RLR);
+void try_three_turns(Best& best, const Poses& poses, const Pair<double>& pair,
+                     const Pair<Two>& both) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const Plane<Two> ll = both.ll();
+  const Two length = root(norm2(ll));
+  const bool lrl = lrl_bound(length[0]) < best.length;
+  const bool rlr = lrl_bound(length[1]) < best.length;
+  if (!(lrl | rlr)) return;
+  if (is_nearly_straight(length[0]) | is_nearly_straight(length[1])) [[unlikely]] {
+    improve(best, lrl_length(mirrored(poses), mirrored(pair)), DubinsWord::RLR);
+    improve(best, lrl_length(poses, pair), DubinsWord::LRL);
+    return;
   }
-  if (lrl_bound(std::sqrt(norm2(pair.ll()))) < best.length) {
-    improve(best, lrl_length(pair), DubinsWord::LRL);
-  }
+  const auto possible = (length < 4.0) & (length > 0.0);
+  const Two of = lrl_length(both, three_circles_of(ll, possible ? length : length * 0.0 + 1.0));
+  improve(best, rlr && possible[1] ? of[1] : none, DubinsWord::RLR);
+  improve(best, lrl && possible[0] ? of[0] : none, DubinsWord::LRL);
+}
+
+Best shortest(const Poses& poses, const Pair<double>& pair) {
+  const Pair<Two> both = both_ways(pair);
+  const Two same = lsl_length(both);
+  Best best{same[0], DubinsWord::LSL};
+  improve(best, same[1], DubinsWord::RSR);
+  try_crossing(best, pair, both);
+  // Shorter than the middle arc of RLR and LRL alone?
+  if (best.length > pi) try_three_turns(best, poses, pair, both);
   return best;
 }
 
@@ -164,29 +192,31 @@ const char* name_of(DubinsWord word) {
 bool can_steer(const State& from, const State& to, double turn_radius_m) {
   // Not a number and infinity fail every comparison they should.
   const double farthest_m = farthest_radii * turn_radius_m;
-  return turn_radius_m > 0.0 && std::isfinite(turn_radius_m) &&
-         std::isfinite(1.0 / turn_radius_m) && std::isfinite(from.heading.rad()) &&
-         std::isfinite(to.heading.rad()) &&
+  return turn_radius_m > 0.0 && std::isfinite(turn_radius_m) && turn_radius_m >= least_radius_m &&
+         std::isfinite(from.heading.rad()) && std::isfinite(to.heading.rad()) &&
          std::abs(to.position_m.x - from.position_m.x) <= farthest_m &&
          std::abs(to.position_m.y - from.position_m.y) <= farthest_m;
 }
 
 double shortest_length_m(const State& from, const State& to, double turn_radius_m) {
   require(can_steer(from, to, turn_radius_m), "poses are finite, the turning radius is positive");
-  return turn_radius_m * dubins::shortest(dubins::pair_between(from, to, turn_radius_m)).length;
+  const dubins::Poses poses = dubins::poses_of(from, to, turn_radius_m);
+  return turn_radius_m * dubins::shortest(poses, dubins::quick_pair_of(poses)).length;
 }
 
 DubinsPath shortest_path(const State& from, const State& to, double turn_radius_m) {
   require(can_steer(from, to, turn_radius_m), "poses are finite, the turning radius is positive");
-  const dubins::Pair pair = dubins::pair_between(from, to, turn_radius_m);
-  const DubinsWord word = dubins::shortest(pair).word;
-  return dubins::path_of(from, turn_radius_m, word, dubins::parts_of(word, pair));
+  const dubins::Poses poses = dubins::poses_of(from, to, turn_radius_m);
+  const dubins::Pair<double> pair = dubins::quick_pair_of(poses);
+  const DubinsWord word = dubins::shortest(poses, pair).word;
+  return dubins::path_of(from, turn_radius_m, word, dubins::parts_of(word, poses, pair));
 }
 
 std::optional<DubinsPath> path_of_word(DubinsWord word, const State& from, const State& to,
                                        double turn_radius_m) {
   require(can_steer(from, to, turn_radius_m), "poses are finite, the turning radius is positive");
-  const auto parts = dubins::parts_of(word, dubins::pair_between(from, to, turn_radius_m));
+  const dubins::Poses poses = dubins::poses_of(from, to, turn_radius_m);
+  const auto parts = dubins::parts_of(word, poses, dubins::quick_pair_of(poses));
   if (!std::isfinite(parts.first)) return std::nullopt;
   return dubins::path_of(from, turn_radius_m, word, parts);
 }

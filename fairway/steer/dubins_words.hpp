@@ -58,6 +58,8 @@ struct DubinsPath {
 
 /// The farthest that poses may be apart, in turning radii.
 inline constexpr double farthest_radii = 1e100;
+/// The least radius that can be divided by.
+inline constexpr double least_radius_m = 1e-300;
 
 /// Whether every number is finite, the radius positive and the distance within `farthest_radii`.
 [[nodiscard]] bool can_steer(const State& from, const State& to, double turn_radius_m);
