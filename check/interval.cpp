@@ -47,8 +47,8 @@ Upwards::~Upwards() { std::fesetround(before_); }
 Real root(const Real& a) {
   const double high = a.upper() > 0.0 ? std::sqrt(a.upper()) : 0.0;
   if (a.lower() <= 0.0) return {0.0, high};
-  const double low_root = RoundingControl::force_rounding(std::sqrt(a.lower()));
-  return {-RoundingControl::force_rounding(a.lower() / -low_root), high};
+  const double low_root = Rounding::force_rounding(std::sqrt(a.lower()));
+  return {-Rounding::force_rounding(a.lower() / -low_root), high};
 }
 
 Vec unit_vector(double angle_rad) {

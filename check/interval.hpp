@@ -11,20 +11,8 @@
 
 namespace fairway_check {
 
-/// Keeps the compiler from seeing through a rounded result; cheaper than a trip through memory.
-struct RoundingControl : boost::numeric::interval_lib::rounding_control<double> {
-  static double force_rounding(double r) {
-#if defined(__x86_64__)
-    asm("" : "+x"(r));
-    return r;
-#else
-    volatile double kept = r;
-    return kept;
-#endif
-  }
-};
 using Rounding = boost::numeric::interval_lib::save_state_nothing<
-    boost::numeric::interval_lib::rounded_arith_opp<double, RoundingControl>>;
+    boost::numeric::interval_lib::rounded_arith_opp<double>>;
 using Real =
     boost::numeric::interval<double,
                              boost::numeric::interval_lib::policies<
@@ -46,8 +34,6 @@ class Upwards {
 inline bool positive(const Real& a) { return a.lower() > 0.0; }
 inline bool negative(const Real& a) { return a.upper() < 0.0; }
 inline bool is_zero(const Real& a) { return a.lower() == 0.0 && a.upper() == 0.0; }
-/// False as well where an end is not a number.
-inline bool holds_something(const Real& a) { return a.lower() <= a.upper(); }
 /// Keeps of `a` what `b` holds; false when nothing is left.
 inline bool cut(Real& a, const Real& b) {
   const double low = a.lower() > b.lower() ? a.lower() : b.lower();
@@ -71,16 +57,8 @@ inline Real cross(const Vec& a, const Vec& b) { return a.x * b.y - a.y * b.x; }
 
 /// Sides: 0 right, 1 top, 2 left, 3 bottom; each frame is the one before, turned by 90 degrees.
 inline Vec into_frame(int side, const Vec& v) {
-  switch (side) {
-    case 0:
-      return v;
-    case 1:
-      return {v.y, -v.x};
-    case 2:
-      return {-v.x, -v.y};
-    default:
-      return {-v.y, v.x};
-  }
+  const Vec w = side % 2 == 0 ? v : Vec{v.y, -v.x};
+  return side < 2 ? w : Vec{-w.x, -w.y};
 }
 inline Vec from_frame(int side, const Vec& v) { return into_frame((4 - side) & 3, v); }
 constexpr int step_x[4]{1, 0, -1, 0};

@@ -47,41 +47,12 @@ void declare(CLI::App& app, Arguments& a) {
       "fault.");
 }
 
-/// THE check: structure, rule, shares. "" when all is good, else the first defect.
-std::string defect_of(const Arguments& a, nlohmann::ordered_json& report) {
-  Certificate c;
-  read_certificate(a.certificate, a.plan, c);
-  for (std::size_t v = 0; v < verdict_count; ++v) {
-    report["leaves"][verdict_name[v]] = std::count(c.verdict.begin(), c.verdict.end(), v);
-  }
-  const std::vector<Failure> failed = failures(c);
-  report["leaves_not_reproved"] = failed.size();
-  if (!failed.empty()) {
-    const Failure& f = failed.front();
-    return fmt::format("{} of {} leaves could not be re-proved; {} to be {}: it {}", failed.size(),
-                       c.verdict.size(), c.name_of(f.section, f.leaf),
-                       verdict_name[c.verdict[f.leaf]], f.reason);
-  }
-  const Measured measured = measure(c, a.samples);
-  report["samples"] = measured.states[all_cells];
-  for (std::size_t v = 0; v < verdict_count; ++v) {
-    report["measured_fraction"][verdict_name[v]] = measured.shares[all_cells][v];
-  }
-  return defect_of_claims(c, measured);
-}
-
 int run(const Arguments& a) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, a.threads);
   const auto began = std::chrono::steady_clock::now();
   nlohmann::ordered_json report{
       {"certificate", a.certificate}, {"accepted", false}, {"reason", nullptr}};
-  std::string defect;
-  try {
-    defect = defect_of(a, report);
-  } catch (const Defect& found) {
-    if (found.code != 1) throw;
-    defect = found.what();
-  }
+  const std::string defect = judge(a.certificate, a.plan, a.samples, report);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - began;
   report["accepted"] = defect.empty();
   if (!defect.empty()) report["reason"] = defect;
@@ -97,8 +68,8 @@ int run(const Arguments& a) {
     fmt::print("{}: accepted\n", a.certificate);
     if (!a.quiet)
       fmt::print(
-          "Re-proved, by verdict: {} leaves (undecided ones claim nothing).\n{} sampled states "
-          "agree with the claimed shares. {:.2f} s on {} threads.\n",
+          "Leaves re-proved: {} (undecided: nothing claimed). {} sampled states agree with the "
+          "claimed shares.\n{:.2f} s on {} threads.\n",
           report["leaves"].dump(), a.samples, wall.count(), a.threads);
   }
   return defect.empty() ? 0 : 1;

@@ -1,14 +1,19 @@
 #include "check/proof.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+
+#include "check/certificate.hpp"
+#include "check/tensors.hpp"
 
 namespace fairway_check {
 namespace {
@@ -92,35 +97,41 @@ std::string defect_of_leaf(const Certificate& c, std::size_t section, std::size_
   }
   if (verdict == trapped) return {};
   if (outcome.least_rank > c.rank[leaf]) {
-    return fmt::format("its rank is {}, its states come to leaves of rank {}", c.rank[leaf],
+    return fmt::format("its rank is {}, its states come to one of rank {}", c.rank[leaf],
                        outcome.least_rank - 1);
   }
   const bool in_time = worst_s <= static_cast<double>(c.time_s[leaf]);
   return in_time ? ""
-                 : fmt::format("takes up to {:.9g} s, claimed are {:.9g} s", worst_s,
+                 : fmt::format("it takes up to {:.9g} s, claimed are {:.9g} s", worst_s,
                                c.time_s[leaf]);
 }
 
-}  // namespace
-
-std::vector<Failure> failures(const Certificate& c) {
+/// The decided leaves that fail, with their sections, in order.
+std::vector<std::pair<std::size_t, std::size_t>> failing_leaves(const Certificate& c) {
   constexpr std::size_t chunk = 512;
   const std::size_t sections = c.first.size() - 1;
-  std::vector<std::vector<Failure>> found(sections / chunk + 1);
+  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> found(sections / chunk + 1);
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
     const Upwards upwards;
     for (std::size_t s = k * chunk; s < std::min(sections, (k + 1) * chunk); ++s) {
       for (std::size_t leaf = c.first[s]; leaf < c.first[s + 1]; ++leaf) {
-        if (c.verdict[leaf] == undecided) continue;  // claims nothing
-        std::string defect = defect_of_leaf(c, s, leaf);
-        if (!defect.empty()) found[k].push_back({s, leaf, std::move(defect)});
+        const bool fails = c.verdict[leaf] != undecided && !defect_of_leaf(c, s, leaf).empty();
+        if (fails) found[k].emplace_back(s, leaf);
       }
     }
   });
-  std::vector<Failure> all;
-  for (auto& some : found) std::move(some.begin(), some.end(), std::back_inserter(all));
-  return all;
+  for (std::size_t k = 1; k < found.size(); ++k) {
+    found[0].insert(found[0].end(), found[k].begin(), found[k].end());
+  }
+  return found[0];
 }
+
+/// What the leaves say of states drawn from all ordinary cells.
+struct Measured {
+  std::array<double, 3> states{};  // by Portion
+  PortionShares shares{};
+  double slower_than_claimed = 0.0;  // states that reach, with a bound above worst_time_s
+};
 
 Measured measure(const Certificate& c, std::size_t samples) {
   std::vector<std::size_t> cells;
@@ -149,7 +160,7 @@ Measured measure(const Certificate& c, std::size_t samples) {
   });
   Measured m;
   for (const Answer& answer : answers) {
-    m.slower_than_claimed += answer.slower ? 1.0 / static_cast<double>(samples) : 0.0;
+    m.slower_than_claimed += answer.slower ? 1.0 : 0.0;
     for (const Portion portion : {all_cells, answer.portion}) {
       m.states[portion] += 1.0;
       m.shares[portion][answer.verdict] += 1.0;
@@ -161,6 +172,7 @@ Measured measure(const Certificate& c, std::size_t samples) {
   return m;
 }
 
+/// "" when no claimed share is farther than five standard errors from the measured one.
 std::string defect_of_claims(const Certificate& c, const Measured& m) {
   for (std::size_t p = 0; p < m.shares.size(); ++p) {
     const double here = m.states[p];
@@ -178,7 +190,39 @@ std::string defect_of_claims(const Certificate& c, const Measured& m) {
     }
   }
   // Of many more states than these none was slower: hardly any can be.
-  return m.slower_than_claimed > 0.002 ? "worst_time_s: too many sampled states are slower" : "";
+  const bool slower = m.slower_than_claimed > 5.0 + 0.001 * m.states[all_cells];
+  return slower ? "worst_time_s: too many sampled states are slower" : "";
+}
+
+}  // namespace
+
+std::string judge(const std::string& path, const std::string& plan, std::size_t samples,
+                  nlohmann::ordered_json& report) {
+  Certificate c;
+  try {
+    read_certificate(path, plan, c);
+  } catch (const Defect& defect) {
+    if (defect.code != 1) throw;
+    return defect.what();
+  }
+  for (std::size_t v = 0; v < verdict_count; ++v) {
+    report["leaves"][verdict_name[v]] = std::count(c.verdict.begin(), c.verdict.end(), v);
+  }
+  const auto failing = failing_leaves(c);
+  report["leaves_not_reproved"] = failing.size();
+  if (!failing.empty()) {
+    const Upwards upwards;
+    const auto [section, leaf] = failing.front();
+    return fmt::format("{} of {} leaves could not be re-proved, the first is {}, claimed to {}: {}",
+                       failing.size(), c.verdict.size(), c.name_of(section, leaf),
+                       verdict_name[c.verdict[leaf]], defect_of_leaf(c, section, leaf));
+  }
+  const Measured measured = measure(c, samples);
+  report["samples"] = measured.states[all_cells];
+  for (std::size_t v = 0; v < verdict_count; ++v) {
+    report["measured_fraction"][verdict_name[v]] = measured.shares[all_cells][v];
+  }
+  return defect_of_claims(c, measured);
 }
 
 }  // namespace fairway_check
