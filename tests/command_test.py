@@ -34,12 +34,10 @@ turn_radius_m = 4.0
 kind = "goal"
 goal_m = {goal}
 [verify]
-undecided_max = 0.05
+undecided_max = 0.1
 [simulate]
 random = 20
 sample = 100
-[verify]
-undecided_max = 0.1
 """
 
 
