@@ -106,7 +106,7 @@ template <typename T>
 template <typename T>
 [[gnu::always_inline]] inline T crossing_square(const Pair<T>& p, const Plane<T>& between) {
   const T square = norm2(between) - 4.0;
-  return (square < 0.0) & (square >= -4.0 * p.near) ? square - square : square;
+  return ((square < 0.0) & (square >= -4.0 * p.near)) ? square - square : square;
 }
 
 /// The first turn of LSR: up to the direction of the straight part, which with (p, 2) as legs lies

@@ -152,7 +152,7 @@ void try_three_turns(Best& best, const Poses& poses, const Pair<double>& pair,
   const bool lrl = lrl_bound(length[0]) < best.length;
   const bool rlr = lrl_bound(length[1]) < best.length;
   if (!(lrl | rlr)) return;
-  if (is_nearly_straight(length[0]) | is_nearly_straight(length[1])) [[unlikely]] {
+  if (is_nearly_straight(length[0]) || is_nearly_straight(length[1])) [[unlikely]] {
     improve(best, lrl_length(mirrored(poses), mirrored(pair)), DubinsWord::RLR);
     improve(best, lrl_length(poses, pair), DubinsWord::LRL);
     return;

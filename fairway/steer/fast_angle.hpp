@@ -68,9 +68,9 @@ template <typename T>
   const auto back = (quarters == 1.0) | (quarters == -3.0);
   const auto over = (quarters == -1.0) | (quarters == 3.0);
   const auto turned = (quarters == 2.0) | (quarters == -2.0);
-  const T a = back | over ? sine : cosine;
-  const T b = back | over ? cosine : sine;
-  return {turned | back ? -a : a, turned | over ? -b : b};
+  const T a = (back | over) ? sine : cosine;
+  const T b = (back | over) ? cosine : sine;
+  return {(turned | back) ? -a : a, (turned | over) ? -b : b};
 }
 
 /// Angle of (x, y) with |y| in place of y, [0, pi]; 0 for no vector at all.
