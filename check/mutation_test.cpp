@@ -1,0 +1,350 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "check/certificate.hpp"
+#include "check/proof.hpp"
+#include "check/sample_certificate.hpp"
+#include "check/tensors.hpp"
+
+namespace fairway_check {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// A certificate file taken apart, to be changed and put together again.
+struct Parts {
+  json header;
+  json record;
+  std::map<std::string, std::string> arrays;
+  std::map<std::string, std::size_t> places;  // where they begin
+
+  explicit Parts(const std::string& file) {
+    std::uint64_t length = 0;
+    std::memcpy(&length, file.data(), 8);
+    header = json::parse(file.substr(8, length));
+    record = json::parse(header["__metadata__"]["fairway"].get<std::string>());
+    for (const auto& [name, entry] : header.items()) {
+      if (name == "__metadata__") continue;
+      const std::size_t begin = entry["data_offsets"][0];
+      const std::size_t end = entry["data_offsets"][1];
+      places[name] = begin;
+      arrays[name] = file.substr(8 + length + begin, end - begin);
+    }
+  }
+  template <typename T>
+  T at(const char* name, std::size_t i) const {
+    T value;
+    std::memcpy(&value, arrays.at(name).data() + i * sizeof(T), sizeof(T));
+    return value;
+  }
+  template <typename T>
+  void put(const char* name, std::size_t i, T value) {
+    std::memcpy(arrays.at(name).data() + i * sizeof(T), &value, sizeof(T));
+  }
+  std::size_t leaves() const { return arrays.at("leaf_verdict").size(); }
+  std::size_t section_of(std::size_t leaf) const {
+    std::size_t s = 0;
+    while (at<std::uint32_t>("section_first", s + 1) <= leaf) ++s;
+    return s;
+  }
+  /// The last leaf of which `good` holds.
+  std::size_t find(const std::function<bool(std::size_t)>& good) const {
+    for (std::size_t leaf = leaves(); leaf-- > 0;) {
+      if (good(leaf)) return leaf;
+    }
+    ADD_FAILURE() << "no such leaf";
+    return 0;
+  }
+  std::size_t leaf_with(Verdict verdict) const {
+    return find(
+        [&](std::size_t leaf) { return at<std::uint8_t>("leaf_verdict", leaf) == verdict; });
+  }
+  /// With digests of what is there now.
+  void sign() {
+    for (const auto& [name, bytes] : arrays) record["sha256"][name] = sha256(bytes);
+    for (const char* name : {"heading_rad", "region"})
+      record["plan_sha256"][name] = record["sha256"][name];
+  }
+  std::string file() const {
+    json now = header;
+    now["__metadata__"]["fairway"] = record.dump();
+    const std::string text = now.dump();
+    const std::uint64_t length = text.size();
+    std::string all(8, '\0');
+    std::memcpy(all.data(), &length, 8);
+    all += text;
+    std::map<std::size_t, std::string> in_order;
+    for (const auto& [name, bytes] : arrays) in_order[places.at(name)] += bytes;
+    for (const auto& [begin, bytes] : in_order) all += bytes;
+    return all;
+  }
+};
+
+class CheckMutation : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fs::temp_directory_path() / ("fairway-check-" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+    // Reach, collide, leave and circling, side by side.
+    fairway::Plan plan = fairway::empty_plan(12, 9, 8.0, 20.0);
+    for (std::size_t i = 0; i < plan.grid.size(); ++i) {
+      const fairway::Cell c = plan.grid.cell_at(i);
+      const double x = c.ix - 8.0;
+      const double y = c.iy - 4.0;
+      plan.heading_rad[i] = static_cast<float>(std::atan2(-y, -x) + 0.1);
+      if (x * x + y * y < 3.0) plan.region[i] = fairway::Region::goal;
+      if (c.ix == 4 && c.iy > 1) plan.region[i] = fairway::Region::obstacle;
+      if (c.ix < 2) plan.heading_rad[i] = static_cast<float>(c.iy < 4 ? -2.0 : 1.0);
+      if (c.iy == 0 && c.ix > 4) plan.region[i] = fairway::Region::buffer;
+    }
+    write_sample(plan, folder_ / "good");
+    good_ = read(folder_ / "good");
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+  static std::string read(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  /// Why `bytes` are refused; "" when they are accepted; "unreadable: ..." when there is nothing to
+  /// judge.
+  static std::string refusal(const std::string& bytes, std::size_t samples = 20000) {
+    std::ofstream(folder_ / "changed", std::ios::binary) << bytes;
+    nlohmann::ordered_json report;
+    try {
+      return judge(folder_ / "changed", "", samples, report);
+    } catch (const Defect& defect) {
+      return std::string("unreadable: ") + defect.what();
+    } catch (const json::exception& error) {
+      return std::string("unreadable: ") + error.what();
+    }
+  }
+  static void expect_refused(Parts parts, const std::string& because) {
+    parts.sign();
+    EXPECT_THAT(refusal(parts.file()), testing::HasSubstr(because));
+  }
+
+  static fs::path folder_;
+  static std::string good_;
+};
+fs::path CheckMutation::folder_;
+std::string CheckMutation::good_;
+
+TEST_F(CheckMutation, WhatTheProverMadeIsAccepted) {
+  EXPECT_EQ(refusal(good_), "");
+  Parts parts(good_);
+  parts.sign();
+  EXPECT_EQ(refusal(parts.file()), "");
+  for (const Verdict v : {reach, collide, leave, undecided}) parts.leaf_with(v);
+}
+
+TEST_F(CheckMutation, RandomPlansAreAcceptedWhole) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    write_sample(fairway::random_plan(seed), folder_ / "random");
+    EXPECT_EQ(refusal(read(folder_ / "random"), 3000), "") << "random plan " << seed;
+  }
+}
+
+TEST_F(CheckMutation, EveryOtherVerdictOfALeafIsRefused) {
+  const Parts good(good_);
+  for (const Verdict was : {reach, collide, leave}) {
+    for (const Verdict now : {reach, collide, leave, trapped}) {
+      if (now == was) continue;
+      Parts changed = good;
+      const std::size_t leaf = good.leaf_with(was);
+      changed.put<std::uint8_t>("leaf_verdict", leaf, now);
+      if (now == trapped) {
+        changed.put<std::uint32_t>("leaf_rank", leaf, 0);
+        changed.put("leaf_time_s", leaf, std::numeric_limits<float>::infinity());
+      }
+      expect_refused(changed, "could not be re-proved");
+    }
+  }
+  Parts changed = good;
+  changed.put<std::uint8_t>("leaf_verdict", 0, 5);
+  expect_refused(changed, "its verdict, rank and time cannot be");
+}
+
+TEST_F(CheckMutation, UndecidedLeavesCannotBeClaimed) {
+  const Parts good(good_);
+  Parts changed = good;
+  const std::size_t leaf = good.leaf_with(undecided);
+  changed.put<std::uint8_t>("leaf_verdict", leaf, reach);
+  changed.put<std::uint32_t>("leaf_rank", leaf, 1000000);
+  changed.put("leaf_time_s", leaf, 1e6F);
+  expect_refused(changed, "could not be re-proved");
+}
+
+TEST_F(CheckMutation, ALeafOnWhichOthersDependCannotBecomeUndecided) {
+  const Parts good(good_);
+  int refused = 0;
+  for (std::size_t leaf = 0; leaf < good.leaves(); leaf += 11) {
+    Parts changed = good;
+    changed.put<std::uint8_t>("leaf_verdict", leaf, undecided);
+    changed.put<std::uint32_t>("leaf_rank", leaf, 0);
+    changed.put("leaf_time_s", leaf, 0.0F);
+    changed.sign();
+    const std::string why = refusal(changed.file(), 0);
+    EXPECT_TRUE(why.empty() || why.find("undecided") != std::string::npos) << why;
+    refused += why.empty() ? 0 : 1;
+  }
+  EXPECT_GT(refused, 3);
+}
+
+TEST_F(CheckMutation, RanksMustFallAndTimesMustBound) {
+  const Parts good(good_);
+  const std::size_t leaf = good.find([&](std::size_t i) {
+    return good.at<std::uint8_t>("leaf_verdict", i) == reach &&
+           good.at<std::uint32_t>("leaf_rank", i) > 3;
+  });
+  const float time_s = good.at<float>("leaf_time_s", leaf);
+  Parts changed = good;
+  changed.put<std::uint32_t>("leaf_rank", leaf, 0);
+  expect_refused(changed, "its rank is 0");
+  changed = good;
+  for (std::size_t i = 0; i < good.leaves(); ++i)
+    changed.put<std::uint32_t>("leaf_rank", i,
+                               good.at<std::uint8_t>("leaf_verdict", i) == undecided ? 0 : 7);
+  expect_refused(changed, "its rank is 7");
+  changed = good;
+  changed.put("leaf_time_s", leaf, 0.9F * time_s);
+  expect_refused(changed, "it takes up to");
+  changed = good;
+  changed.put("leaf_time_s", leaf, 10.0F * time_s);  // no lie itself, but others build on it
+  changed.sign();
+  EXPECT_THAT(refusal(changed.file()), testing::AnyOf("", testing::HasSubstr("it takes up to")));
+  for (const float bad :
+       {-1.0F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    changed = good;
+    changed.put("leaf_time_s", leaf, bad);
+    expect_refused(changed, "its verdict, rank and time cannot be");
+  }
+}
+
+TEST_F(CheckMutation, ShiftedLeavesAreRefused) {
+  const Parts good(good_);
+  // The last leaf of a verdict is stretched over all that lies between it and another verdict, and
+  // over most of that.
+  const auto verdict = [&](std::size_t i) { return good.at<std::uint8_t>("leaf_verdict", i); };
+  std::size_t other = 0;
+  const std::size_t leaf = good.find([&](std::size_t i) {
+    other = i + 1;
+    while (other < good.leaves() && verdict(other) == undecided) ++other;
+    return verdict(i) != undecided && other < good.leaves() && verdict(other) != verdict(i) &&
+           good.section_of(i) == good.section_of(other);
+  });
+  const bool last = good.at<std::uint32_t>("section_first", good.section_of(leaf) + 1) == other + 1;
+  std::uint32_t begin = last ? 0xffffffffU : good.at<std::uint32_t>("leaf_begin", other + 1);
+  Parts changed = good;
+  for (std::size_t i = other; i > leaf; --i) changed.put("leaf_begin", i, --begin);
+  expect_refused(changed, "could not be re-proved");
+  changed = good;
+  changed.put<std::uint32_t>("leaf_begin", leaf + 1, 0);
+  expect_refused(changed, "leaves do not ascend");
+}
+
+TEST_F(CheckMutation, ChangedCommandsCellsAndGeometryAreRefused) {
+  const Parts good(good_);
+  const std::size_t cells = good.arrays.at("region").size();
+  int refused = 0;
+  for (std::size_t cell = 0; cell < cells; cell += 5) {
+    if (good.at<std::uint8_t>("cell_kind", cell) != ordinary) continue;
+    Parts changed = good;
+    changed.put("heading_rad", cell, good.at<float>("heading_rad", cell) > 0.0F ? -1.3F : 1.7F);
+    changed.sign();
+    refused += refusal(changed.file(), 0).empty() ? 0 : 1;
+  }
+  EXPECT_GT(refused, 10);
+  Parts changed = good;
+  changed.put("heading_rad", 50, 3.2F);
+  expect_refused(changed, "command, region or cell_kind");
+  changed = good;
+  changed.put<std::int8_t>("region", 50, 3);
+  expect_refused(changed, "command, region or cell_kind");
+  changed = good;
+  changed.put<std::uint8_t>("cell_kind", 50, obstacle);
+  expect_refused(changed, "command, region or cell_kind");
+  changed = good;  // a new obstacle, where flights pass and leaves are
+  changed.put<std::int8_t>("region", 4 * 12 + 10, 1);
+  changed.put<std::uint8_t>("cell_kind", 4 * 12 + 10, obstacle);
+  expect_refused(changed, "a section has leaves that cannot");
+  changed = good;
+  changed.record["region_of_interest"] = "obstacle";
+  expect_refused(changed, "command, region or cell_kind");
+  const std::array<std::pair<std::size_t, double>, 7> bad{
+      {{2, 20.0}, {2, -8.0}, {3, 7.0}, {4, 0.0}, {0, NAN}, {1, INFINITY}, {5, 0x1p31}}};
+  for (const auto& [i, value] : bad) {
+    changed = good;
+    changed.put("geometry", i, value);
+    expect_refused(changed, "geometry");
+  }
+  for (const auto& [i, value] : {std::pair<std::size_t, double>{2, 9.0}, {3, 19.0}, {4, 9.0}}) {
+    changed = good;
+    changed.put("geometry", i, value);
+    expect_refused(changed, "could not be re-proved");
+  }
+}
+
+TEST_F(CheckMutation, ClaimedSharesMustBeThoseOfSampledStates) {
+  const Parts good(good_);
+  Parts changed = good;
+  changed.record["volume_fraction"]["reach"] =
+      good.record["volume_fraction"]["reach"].get<double>() + 0.1;
+  expect_refused(changed, "do not sum to 1");
+  for (const char* portion :
+       {"volume_fraction", "volume_fraction_free", "volume_fraction_buffer"}) {
+    changed = good;
+    json& shares = changed.record[portion];
+    std::swap(shares["reach"], shares["undecided"]);
+    expect_refused(changed, std::string(portion) + ": ");
+  }
+  changed = good;
+  changed.record["worst_time_s"] = 0.001 * good.record["worst_time_s"].get<double>();
+  expect_refused(changed, "worst_time_s");
+}
+
+TEST_F(CheckMutation, DamagedFilesAreNotJudgedOrRefused) {
+  const Parts good(good_);
+  for (std::size_t i = 0; i < good.arrays.at("leaf_begin").size(); i += 4001) {
+    Parts changed = good;
+    changed.arrays["leaf_begin"][i] = static_cast<char>(changed.arrays["leaf_begin"][i] ^ 1);
+    EXPECT_THAT(refusal(changed.file()), testing::HasSubstr("leaf_begin: its digest"));
+  }
+  for (const std::size_t size : {0UL, 5UL, 100UL, good_.size() / 2, good_.size() - 1}) {
+    EXPECT_THAT(refusal(good_.substr(0, size)), testing::StartsWith("unreadable: ")) << size;
+  }
+  EXPECT_THAT(refusal(good_ + "x"), testing::HasSubstr("goes on after its last array"));
+  Parts changed = good;
+  changed.record["plan_sha256"]["region"] = changed.record["plan_sha256"]["heading_rad"];
+  EXPECT_THAT(refusal(changed.file()), testing::HasSubstr("not those of the plan"));
+  for (const auto& [name, bytes] : good.arrays) {
+    changed = good;
+    changed.header.erase(name);
+    EXPECT_THAT(refusal(changed.file()), testing::StartsWith("unreadable: ")) << name;
+    changed = good;
+    changed.header[name]["dtype"] = "U64";
+    EXPECT_THAT(refusal(changed.file()), testing::StartsWith("unreadable: ")) << name;
+    changed = good;
+    changed.header[name]["data_offsets"][0] =
+        changed.header[name]["data_offsets"][0].get<int>() + 1;
+    EXPECT_THAT(refusal(changed.file()), testing::StartsWith("unreadable: ")) << name;
+  }
+  for (const auto& [key, value] : good.record.items()) {
+    if (key == "program") continue;
+    changed = good;
+    changed.record.erase(key);
+    EXPECT_THAT(refusal(changed.file()), testing::StartsWith("unreadable: ")) << key;
+  }
+}
+
+}  // namespace
+}  // namespace fairway_check
