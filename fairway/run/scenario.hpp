@@ -49,7 +49,7 @@ enum class VerifyMethod { certified, bitmap };
 struct VerifyRequest {
   VerifyMethod method = VerifyMethod::certified;
   double undecided_max = CertifyOptions{}.undecided_max;
-  double time_limit_s = 600.0;  ///< a run ends some day, on any map; 0: none
+  double time_limit_s = 120.0;  ///< a run ends soon enough, on any map; 0: none
   std::optional<double> memory_limit_mb;
 };
 
