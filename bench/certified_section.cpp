@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -20,8 +21,8 @@
 #include "fairway/base/random.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/field/compute_field.hpp"
+#include "fairway/run/verification.hpp"
 #include "fairway/runtime.hpp"
-#include "fairway/verify/certify.hpp"
 
 namespace fairway::bench {
 namespace {
@@ -76,28 +77,22 @@ Plan plan_of(const Case& c) {
 }
 
 struct Proved {
-  Certificate certificate;
-  Certified outcome;
+  Verification verification;
   Took took;
+
+  double undecided() const { return verification.outcome.volume.all[0]; }
 };
-Proved prove(const Plan& plan, double undecided_max) {
-  Proved proved;
-  Certificate& c = proved.certificate;
-  c.grid = plan.grid;
-  c.vehicle = plan.vehicle;
-  c.heading_rad = plan.heading_rad;
-  c.region = plan.region;
-  c.kind = cell_kinds(plan.grid, plan.region, {});
-  std::vector<bool> is_free(plan.grid.size());
-  for (std::size_t i = 0; i < is_free.size(); ++i) is_free[i] = plan.region[i] == Region::free;
+Proved prove(const Plan& plan, const std::string& name, double undecided_max) {
   CertifyOptions options;
   options.undecided_max = undecided_max;
-  proved.took = timed([&] { proved.outcome = certify(c.flow(), is_free, options); });
-  c.sections = std::move(proved.outcome.sections);
+  Proved proved;
+  proved.took = timed([&] {
+    const Progress silent;
+    StageClock clock(silent);
+    proved.verification = verify_plan(plan, name, {}, options, std::nullopt, clock);
+  });
   return proved;
 }
-
-double undecided_of(const Proved& proved) { return proved.outcome.volume.all[0]; }
 
 /// Nanoseconds a query takes on one core, over random states of the grid.
 double query_ns(const fs::path& file, int repeats) {
@@ -138,12 +133,15 @@ void add_check_row(std::vector<Row>& rows, const Settings& settings, const fs::p
     rows.push_back(without_peer(name, shown(proving), "fairway-check is not there", "3"));
     return;
   }
+  std::string answer;
   const Took took = timed([&] {
     ChildProcess child({checker.string(), file.string(), "--quiet", "--threads",
                         std::to_string(settings.threads)});
-    while (child.read_line()) {
-    }
+    while (const auto line = child.read_line()) answer += *line + "\n";
   });
+  if (answer.find("accepted") == std::string::npos) {
+    throw std::runtime_error("fairway-check does not accept the certificate: " + answer);
+  }
   Row row =
       at_most_row(name, fmt::format("{:.2f} s", took.wall_s), took.wall_s / proving.wall_s, 3.0);
   row.peer = shown(proving);
@@ -154,18 +152,18 @@ void add_check_row(std::vector<Row>& rows, const Settings& settings, const fs::p
 void add_case(std::vector<Row>& rows, const Settings& settings, const Case& c, double share,
               double limit_s) {
   const Plan plan = plan_of(c);
-  const Proved proved = prove(plan, share);
-  const double undecided = undecided_of(proved);
+  const Proved proved = prove(plan, c.name, share);
+  const double undecided = proved.undecided();
   rows.push_back(
       at_most_row(fmt::format("certified, {}: to {:g} % undecided", c.name, 100.0 * share),
                   fmt::format("{}, {:.3f} % left", shown(proved.took), 100.0 * undecided),
                   undecided <= share ? proved.took.wall_s : INFINITY, limit_s));
   const fs::path file =
       fs::temp_directory_path() / fmt::format("fairway-bench-{}.safetensors", ::getpid());
-  write_certificate(proved.certificate, file, Existing::replace);
-  rows.push_back(
-      {"  leaves, bytes on disk", fmt::format("{}, {:.1f} MB", proved.certificate.sections.leaves(),
-                                              1e-6 * static_cast<double>(fs::file_size(file)))});
+  write_certificate(proved.verification.certificate, file, Existing::replace);
+  rows.push_back({"  leaves, bytes on disk",
+                  fmt::format("{}, {:.1f} MB", proved.verification.certificate.sections.leaves(),
+                              1e-6 * static_cast<double>(fs::file_size(file)))});
   const double ns = query_ns(file, settings.repeats);
   rows.push_back(at_least_row("  queries a second and core (million)",
                               fmt::format("{:.2f} million ({:.0f} ns CPU each)", 1e3 / ns, ns),
