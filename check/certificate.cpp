@@ -37,18 +37,16 @@ void take_arrays(const TensorFile& file, Certificate& c) {
                    "region: is no grid");
   c.loop.ny = static_cast<int>(grid[0]);
   c.loop.nx = static_cast<int>(grid[1]);
-  c.command_rad = values<float>(file, "heading_rad", "F32", grid);
+  c.loop.command_rad = values<float>(file, "heading_rad", "F32", grid);
   c.region = values<std::int8_t>(file, "region", "I8", grid);
-  c.kind = values<std::uint8_t>(file, "cell_kind", "U8", grid);
-  c.first = values<std::uint32_t>(file, "section_first", "U32", {4 * c.kind.size() + 1});
+  c.loop.kind = values<std::uint8_t>(file, "cell_kind", "U8", grid);
+  c.first = values<std::uint32_t>(file, "section_first", "U32", {4 * c.loop.kind.size() + 1});
   const Shape leaves{c.first.back()};
   c.begin = values<std::uint32_t>(file, "leaf_begin", "U32", leaves);
   c.rank = values<std::uint32_t>(file, "leaf_rank", "U32", leaves);
   c.time_s = values<float>(file, "leaf_time_s", "F32", leaves);
   c.verdict = values<std::uint8_t>(file, "leaf_verdict", "U8", leaves);
   c.geometry = values<double>(file, "geometry", "F64", {6});
-  c.loop.command_rad = c.command_rad.data();
-  c.loop.kind = c.kind.data();
 }
 
 void require_geometry(const std::vector<double>& g) {
@@ -101,24 +99,25 @@ void require_cells(const Certificate& c, const json& interest) {
   const bool of_obstacles = interest == "obstacle";
   const auto box =
       of_goal || of_obstacles ? std::array<double, 4>{} : interest.get<std::array<double, 4>>();
-  for (std::size_t i = 0; i < c.kind.size(); ++i) {
+  for (std::size_t i = 0; i < c.loop.kind.size(); ++i) {
     const double d = c.geometry[2];
-    const double x = c.geometry[0] + c.loop.column(i) * d;
-    const double y = c.geometry[1] + c.loop.row(i) * d;
-    const double h = c.command_rad[i];
-    const bool said = c.kind[i] == target;
+    const Cell cell = c.loop.cell_at(i);
+    const double x = c.geometry[0] + cell.x * d;
+    const double y = c.geometry[1] + cell.y * d;
+    const double h = c.loop.command_rad[i];
+    const bool said = c.loop.kind[i] == target;
     const bool is_target = of_goal ? c.region[i] == 2
                            : of_obstacles
                                ? c.region[i] == 1
                                : c.region[i] != 1 && lies_within(x, d, box[0], box[2], said) &&
                                      lies_within(y, d, box[1], box[3], said);
     const CellKind kind = is_target ? target : c.region[i] == 1 ? obstacle : ordinary;
-    if (c.region[i] >= -1 && c.region[i] <= 2 && c.kind[i] == kind &&
+    if (c.region[i] >= -1 && c.region[i] <= 2 && c.loop.kind[i] == kind &&
         (std::isnan(h) || (h > -std::numbers::pi && h <= std::numbers::pi))) {
       continue;
     }
-    require(false, fmt::format("cell ({}, {}): its command, region or cell_kind cannot be",
-                               c.loop.column(i), c.loop.row(i)));
+    throw Defect(1, fmt::format("cell ({}, {}): its command, region or cell_kind cannot be", cell.x,
+                                cell.y));
   }
 }
 
@@ -127,12 +126,12 @@ void require_leaves(const Certificate& c) {
           "section_first: does not ascend from 0");
   for (std::size_t s = 0; s + 1 < c.first.size(); ++s) {
     const int side = static_cast<int>(s % 4);
-    const bool has_leaves = c.kind[s / 4] == ordinary && !std::isnan(c.command_rad[s / 4]) &&
+    const bool has_leaves = c.loop.kind[s / 4] == ordinary &&
+                            !std::isnan(c.loop.command_rad[s / 4]) &&
                             positive(into_frame(side, c.loop.direction[s / 4]).x) &&
-                            c.loop.kind_beyond(s) == ordinary;
-    require(
-        (c.first[s] < c.first[s + 1]) == has_leaves,
-        has_leaves ? "a section lacks its leaves" : "a section has leaves that cannot have any");
+                            c.loop.kind_at(c.loop.beyond(s)) == ordinary;
+    require((c.first[s] < c.first[s + 1]) == has_leaves,
+            "a section has leaves that cannot have any, or none although it must");
     for (std::size_t leaf = c.first[s]; leaf < c.first[s + 1]; ++leaf) {
       const double t = c.time_s[leaf];
       const bool in_order =
@@ -142,35 +141,41 @@ void require_leaves(const Certificate& c) {
                                   ? c.rank[leaf] == 0 && t > std::numeric_limits<float>::max()
                                   : c.verdict[leaf] < trapped && t >= 0.0 && std::isfinite(t);
       if (in_order && meaningful) continue;
-      require(false,
-              c.name_of(s, leaf) + (in_order ? ": its verdict, rank and time cannot be"
-                                             : ": leaves do not ascend from the side's begin"));
+      require(false, c.name_of(leaf) + (in_order ? ": its verdict, rank and time cannot be"
+                                                 : ": leaves do not ascend from the side's begin"));
     }
   }
 }
 
 void take_claims(const json& record, Certificate& c) {
+  c.samples = record.at("samples");
   for (std::size_t p = 0; p < c.shares.size(); ++p) {
     double sum = 0.0;
     for (std::size_t v = 0; v < verdict_count; ++v) {
       sum += c.shares[p][v] = record.at(portion_name[p]).at(verdict_name[v]);
       require(c.shares[p][v] >= 0.0, "volume_fraction: a share is less than nothing");
     }
-    require(sum == 0.0 || std::abs(sum - 1.0) < 1e-9,
-            "volume_fraction: the shares do not sum to 1");
+    require(sum == 0.0 || (c.samples >= 1.0 && std::abs(sum - 1.0) < 1e-9),
+            "volume_fraction: the shares do not sum to 1, or were not sampled");
   }
-  c.samples = record.at("samples");
   c.worst_time_s = record.at("worst_time_s");
-  require(c.samples >= 0.0 && c.worst_time_s >= 0.0, "samples or worst_time_s: less than nothing");
+  require(c.worst_time_s >= 0.0, "worst_time_s: less than nothing");
 }
 
 }  // namespace
 
-std::string Certificate::name_of(std::size_t section, std::size_t leaf) const {
+std::size_t Certificate::section_of(std::size_t leaf) const {
+  return static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), leaf) -
+                                  first.begin()) -
+         1;
+}
+
+std::string Certificate::name_of(std::size_t leaf) const {
   static const char* const sides[4]{"right", "top", "left", "bottom"};
-  return fmt::format("leaf {} (the {}th on the {} side of cell ({}, {}), section {})", leaf,
-                     leaf - first[section], sides[section % 4], loop.column(section / 4),
-                     loop.row(section / 4), section);
+  const std::size_t s = section_of(leaf);
+  const Cell cell = loop.cell_at(s / 4);
+  return fmt::format("leaf {} ({} on the {} side of cell ({}, {}), section {})", leaf,
+                     leaf - first[s], sides[s % 4], cell.x, cell.y, s);
 }
 
 void read_certificate(const std::string& path, const std::string& plan, Certificate& c) {

@@ -20,9 +20,7 @@ inline constexpr const char* portion_name[3]{"volume_fraction", "volume_fraction
 
 struct Certificate {
   std::vector<double> geometry;       ///< x0, y0, cell_m, turn_radius_m, speed_mps, units
-  std::vector<float> command_rad;     ///< [iy][ix]
   std::vector<std::int8_t> region;    ///< [iy][ix]
-  std::vector<std::uint8_t> kind;     ///< [iy][ix], CellKind
   std::vector<std::uint32_t> first;   ///< [4 cells + 1]
   std::vector<std::uint32_t> begin;   ///< [leaves]
   std::vector<std::uint32_t> rank;    ///< [leaves]
@@ -31,11 +29,7 @@ struct Certificate {
   PortionShares shares{};             ///< as claimed; 0 of no cells
   double samples = 0.0;
   double worst_time_s = 0.0;
-  Loop loop;  ///< looks into the arrays above: a certificate is not copied
-
-  Certificate() = default;
-  Certificate(const Certificate&) = delete;
-  Certificate& operator=(const Certificate&) = delete;
+  Loop loop;
 
   /// Where a leaf begins and ends, in units of a side / 2^32; the last one at the side's end.
   double begin_of(std::size_t leaf) const { return begin[leaf]; }
@@ -43,7 +37,8 @@ struct Certificate {
     return leaf + 1 < first[section + 1] ? begin[leaf + 1] : 0x1p32;
   }
   /// "leaf 3 on the top side of cell (4, 5)".
-  std::string name_of(std::size_t section, std::size_t leaf) const;
+  std::string name_of(std::size_t leaf) const;
+  std::size_t section_of(std::size_t leaf) const;
 };
 
 /// Reads and compares with the plan of that path, if any. Throws Defect 65 when the file is no

@@ -17,9 +17,8 @@ constexpr double most_waves = 0x1p50;
 
 /// A set in a cell, and what its past allows to conclude. Every state of it shares this past.
 struct Part {
-  int ix = 0;
-  int iy = 0;
-  Bundle set;
+  Cell cell{};
+  Bundle set{};
   float flown_rad = NAN;  ///< the heading, when it is a command, as a number
   double length = 0.0;
   std::size_t began_at = none;     ///< just left this section
@@ -53,13 +52,13 @@ class Follower {
   }
 
  private:
-  std::size_t section(int ix, int iy, int side) const {
-    return 4 * loop_.index(ix, iy) + static_cast<std::size_t>(side);
+  std::size_t section(Cell cell, int side) const {
+    return 4 * loop_.index(cell) + static_cast<std::size_t>(side);
   }
 
   /// False: there is no telling where the set goes.
   bool cross(const Part& part) {
-    const std::size_t cell = loop_.index(part.ix, part.iy);
+    const std::size_t cell = loop_.index(part.cell);
     const float rad = loop_.command_rad[cell];
     const Command command{loop_.direction[cell], !std::isnan(rad), rad == part.flown_rad};
     ways_.clear();
@@ -74,20 +73,18 @@ class Follower {
   }
 
   void go(const Part& part, Way& way, float flown_rad, bool alone) {
-    const std::size_t off = section(part.ix, part.iy, way.side);
+    const std::size_t off = section(part.cell, way.side);
     // On its way back to the section it began at, the set aligns where it leaves: told as a hop.
     const bool hop = part.mirror_of == off;
     if (hop && way.aligned) return;
-    Part next;
-    next.ix = part.ix + step_x[way.side];
-    next.iy = part.iy + step_y[way.side];
-    next.set.heading = way.heading;
-    next.flown_rad = hop ? loop_.command_rad[off / 4] : flown_rad;
-    next.length = (Real(part.length) + way.length).upper();
+    Part next{.cell = part.cell.beyond(way.side),
+              .set = {.heading = way.heading},
+              .flown_rad = hop ? loop_.command_rad[off / 4] : flown_rad,
+              .length = (Real(part.length) + way.length).upper()};
     if (way.at_low) go_through_corner(part, way, next, -1);
     if (way.at_high) go_through_corner(part, way, next, 1);
 
-    const CellKind kind = loop_.kind_at(next.ix, next.iy);
+    const CellKind kind = loop_.kind_at(next.cell);
     if (kind != ordinary) {
       listener_.end(verdict_in(kind), next.length);
       return;
@@ -97,7 +94,7 @@ class Follower {
       listener_.arrive(off, way.place, next.length, hop);
       return;
     }
-    const std::size_t back = section(next.ix, next.iy, (way.side + 2) & 3);
+    const std::size_t back = section(next.cell, (way.side + 2) & 3);
     if (way.turn != 0) {
       if (alone) ride_waves(part, way, off, back, next);
       const bool same_circle = part.set.turn == way.turn;
@@ -123,12 +120,9 @@ class Follower {
     const Real onwards = static_cast<double>(end) * into_frame(way.side, way.heading).y;
     if (negative(onwards)) return;
     const int over = (way.side + end) & 3;  // the side of the cell left that lies at the end
-    const int beside_x = part.ix + step_x[over];
-    const int beside_y = part.iy + step_y[over];
-    next.ix += step_x[over];
-    next.iy += step_y[over];
-    const CellKind beside = loop_.kind_at(beside_x, beside_y);
-    const CellKind across = loop_.kind_at(next.ix, next.iy);
+    next.cell = next.cell.beyond(over);
+    const CellKind beside = loop_.kind_at(part.cell.beyond(over));
+    const CellKind across = loop_.kind_at(next.cell);
     if (beside != ordinary) listener_.end(verdict_in(beside), next.length);
     if (across != ordinary) {
       listener_.end(verdict_in(across), next.length);
@@ -142,7 +136,7 @@ class Follower {
   /// Exactly along the side `over` through which it would come in, where the command turns it out
   /// again at once: nothing moves in that cell for any time.
   bool is_turned_away(const Part& next, int over) const {
-    const std::size_t cell = loop_.index(next.ix, next.iy);
+    const std::size_t cell = loop_.index(next.cell);
     return is_zero(into_frame(over, next.set.heading).x) && !std::isnan(loop_.command_rad[cell]) &&
            negative(into_frame(over, loop_.direction[cell]).x);
   }
@@ -188,9 +182,8 @@ class Follower {
 }  // namespace
 
 void Loop::take_directions(double turn_radius_m, double cell_m) {
-  const std::size_t cells = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
-  direction.assign(cells, {Real(0.0), Real(0.0)});
-  tbb::parallel_for(std::size_t{0}, cells, [this](std::size_t i) {
+  direction.assign(kind.size(), {Real(0.0), Real(0.0)});
+  tbb::parallel_for(std::size_t{0}, kind.size(), [this](std::size_t i) {
     if (kind[i] != ordinary || std::isnan(command_rad[i])) return;
     direction[i] = unit_vector(static_cast<double>(command_rad[i]));
   });
@@ -199,26 +192,18 @@ void Loop::take_directions(double turn_radius_m, double cell_m) {
 }
 
 void follow_section(const Loop& loop, std::size_t section, const Real& place, Listener& listener) {
-  const std::size_t cell = section / 4;
-  const int side = static_cast<int>(section % 4);
-  Part part;
-  part.ix = loop.column(cell) + step_x[side];
-  part.iy = loop.row(cell) + step_y[side];
-  part.set.at = from_frame(side, {Real(-0.5), place});
-  part.set.heading = loop.direction[cell];
-  part.flown_rad = loop.command_rad[cell];
-  part.began_at = section;
-  Follower(loop, listener).follow(part);
+  const Vec at = from_frame(static_cast<int>(section % 4), {Real(-0.5), place});
+  Follower(loop, listener)
+      .follow({.cell = loop.beyond(section),
+               .set = {.at = at, .heading = loop.direction[section / 4]},
+               .flown_rad = loop.command_rad[section / 4],
+               .began_at = section});
 }
 
 void follow_states(const Loop& loop, std::size_t cell, const Vec& at, const Vec& heading,
                    Listener& listener) {
-  Part part;
-  part.ix = loop.column(cell);
-  part.iy = loop.row(cell);
-  part.set.at = at;
-  part.set.heading = heading;
-  Follower(loop, listener).follow(part);
+  Follower(loop, listener)
+      .follow({.cell = loop.cell_at(cell), .set = {.at = at, .heading = heading}});
 }
 
 }  // namespace fairway_check

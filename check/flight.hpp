@@ -19,34 +19,39 @@ enum CellKind : std::uint8_t { ordinary, obstacle, target, outside };
 inline constexpr int verdict_count = 5;
 extern const char* const verdict_name[verdict_count];
 
+struct Cell {
+  int x = 0;
+  int y = 0;
+  Cell beyond(int side) const { return {x + step_x[side], y + step_y[side]}; }
+};
+
 /// The closed loop, in cells.
 struct Loop {
   int nx = 0;
   int ny = 0;
   Real radius;
-  const float* command_rad = nullptr;  ///< [iy][ix]
-  const std::uint8_t* kind = nullptr;  ///< [iy][ix]
-  std::vector<Vec> direction;          ///< [iy][ix], of the commands of ordinary cells
+  std::vector<float> command_rad;  ///< [iy][ix]
+  std::vector<std::uint8_t> kind;  ///< [iy][ix], CellKind
+  std::vector<Vec> direction;      ///< [iy][ix], of the commands of ordinary cells
 
   /// Fills `radius` and `direction` from the rest.
   void take_directions(double turn_radius_m, double cell_m);
 
-  std::size_t index(int ix, int iy) const {
-    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) +
-           static_cast<std::size_t>(ix);
+  std::size_t index(Cell c) const {
+    return static_cast<std::size_t>(c.y) * static_cast<std::size_t>(nx) +
+           static_cast<std::size_t>(c.x);
   }
-  CellKind kind_at(int ix, int iy) const {
-    const bool inside = ix >= 0 && ix < nx && iy >= 0 && iy < ny;
-    return inside ? static_cast<CellKind>(kind[index(ix, iy)]) : outside;
+  Cell cell_at(std::size_t index) const {
+    return {static_cast<int>(index % static_cast<std::size_t>(nx)),
+            static_cast<int>(index / static_cast<std::size_t>(nx))};
   }
-  int column(std::size_t cell) const {
-    return static_cast<int>(cell % static_cast<std::size_t>(nx));
+  CellKind kind_at(Cell c) const {
+    const bool inside = c.x >= 0 && c.x < nx && c.y >= 0 && c.y < ny;
+    return inside ? static_cast<CellKind>(kind[index(c)]) : outside;
   }
-  int row(std::size_t cell) const { return static_cast<int>(cell / static_cast<std::size_t>(nx)); }
-  /// Of the cell beyond a section's side.
-  CellKind kind_beyond(std::size_t section) const {
-    return kind_at(column(section / 4) + step_x[section % 4],
-                   row(section / 4) + step_y[section % 4]);
+  /// The cell beyond a section's side.
+  Cell beyond(std::size_t section) const {
+    return cell_at(section / 4).beyond(static_cast<int>(section % 4));
   }
 };
 

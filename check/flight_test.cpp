@@ -58,8 +58,10 @@ Loop loop_of(const fairway::Flow& flow) {
   Loop loop;
   loop.nx = flow.nx;
   loop.ny = flow.ny;
-  loop.command_rad = flow.heading_rad;
-  loop.kind = reinterpret_cast<const std::uint8_t*>(flow.kind);
+  loop.command_rad.assign(flow.heading_rad, flow.heading_rad + flow.cells());
+  for (std::size_t i = 0; i < flow.cells(); ++i) {
+    loop.kind.push_back(static_cast<std::uint8_t>(flow.kind[i]));
+  }
   loop.take_directions(flow.size.turn_radius_m, flow.size.cell_m);
   return loop;
 }
@@ -78,7 +80,7 @@ TEST(CheckFlight, EveryFlightFromALeafMeetsWhatWasTold) {
       const int side = static_cast<int>(section % 4);
       const std::size_t cell = section / 4;
       if (flow.kind[cell] != fairway::CellKind::ordinary || std::isnan(flow.heading_rad[cell]) ||
-          loop.kind_beyond(section) != ordinary ||
+          loop.kind_at(loop.beyond(section)) != ordinary ||
           !positive(into_frame(side, loop.direction[cell]).x)) {
         continue;
       }
@@ -99,8 +101,8 @@ TEST(CheckFlight, EveryFlightFromALeafMeetsWhatWasTold) {
         const Wide line = side < 2 ? Wide(0) : Wide(flow.size.cell_m);
         const fairway::WideVec<Wide> p = side % 2 == 0 ? fairway::WideVec<Wide>{line, along_m}
                                                        : fairway::WideVec<Wide>{along_m, line};
-        fairway::WideFlight<Wide> flight(commands, loop.column(cell) + step_x[side],
-                                         loop.row(cell) + step_y[side], p, commands.unit[cell],
+        fairway::WideFlight<Wide> flight(commands, loop.beyond(section).x, loop.beyond(section).y,
+                                         p, commands.unit[cell],
                                          [&random](std::size_t n) { return random.below(n); });
         const auto meeting = flight.fly(3000);
         if (meeting.section == fairway::WideMeeting<Wide>::none &&

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 namespace fairway_check {
 namespace {
@@ -10,7 +9,6 @@ namespace {
 const Real side_range(-0.5, 0.5);
 const Real unit_range(-1.0, 1.0);
 constexpr double diagonal = 1.4143;  // > sqrt(2)
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 /// An upper bound of the angle between unit vectors of two sets, less than 180 degrees: four times
 /// the arc tangent of the tangent of its quarter, by the series up to a positive term.
@@ -66,15 +64,11 @@ bool go_straight(const Vec& at, const Way& like, std::vector<Way>& ways) {
       if (gap.lower() > 0.0 && u.x.upper() == 0.0) continue;
       way.skims = true;
       const Real until = gap.lower() > 0.0 ? Real(gap.lower()) / u.x.upper() : Real(0.0);
-      if (u.y.lower() > 0.5) {
-        way.place = {(p.y.lower() + until * u.y.lower()).lower(), inf};
-        length = std::min(length, ((0.5 - p.y) / u.y).upper());  // when the side ends
-      } else if (u.y.upper() < -0.5) {
-        way.place = {-inf, (p.y.upper() + until * u.y.upper()).upper()};
-        length = std::min(length, ((-0.5 - p.y) / u.y).upper());
-      } else {
-        return false;
-      }
+      const double ahead = u.y.lower() > 0.5 ? 1.0 : u.y.upper() < -0.5 ? -1.0 : 0.0;
+      if (ahead == 0.0) return false;
+      const Real from = ahead * (p.y + until * u.y);
+      way.place = ahead * Real(std::min(from.lower(), 1.0), 1.0);  // and on, to the side's end
+      length = std::min(length, ((0.5 * ahead - p.y) / u.y).upper());
     }
     if (!keep_between_corners(way)) continue;
     // What runs exactly on the side comes to its end together with the side ahead: told there.
@@ -135,11 +129,8 @@ Event crossing(const Arc& arc, int side) {
 
 bool align_and_go(const Arc& arc, const Vec& command, Vec at, std::vector<Way>& ways) {
   if (!cut(at.x, side_range) || !cut(at.y, side_range)) return true;
-  Way like;
-  like.heading = command;
-  like.aligned = true;
-  like.length = (arc.radius * largest_angle(arc.start, command)).upper();
-  return go_straight(at, like, ways);
+  const double length = (arc.radius * largest_angle(arc.start, command)).upper();
+  return go_straight(at, {.aligned = true, .heading = command, .length = length}, ways);
 }
 
 /// `ahead`: the cosines of the angles to the command.
@@ -191,10 +182,7 @@ bool find_ways(const Bundle& set, const Command& command, const Real& radius,
                std::vector<Way>& ways) {
   if (width(set.heading.x) > 0.5 || width(set.heading.y) > 0.5) return false;
   if (!command.exists || command.is_flown) {
-    Way like;
-    like.heading = set.heading;
-    like.aligned = command.exists;
-    return go_straight(set.at, like, ways);
+    return go_straight(set.at, {.aligned = command.exists, .heading = set.heading}, ways);
   }
   const Real left = cross(set.heading, command.heading);
   const Real ahead = dot(set.heading, command.heading);

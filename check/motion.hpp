@@ -18,14 +18,14 @@ namespace fairway_check {
 
 /// A set of states in a closed cell.
 struct Bundle {
-  Vec at;
-  Vec heading;   ///< unit vectors
-  int turn = 0;  ///< not 0: every state is on a circle of this sign with its centre in `centre`
-  Vec centre;
+  Vec at{};
+  Vec heading{};  ///< unit vectors
+  int turn = 0;   ///< not 0: every state is on a circle of this sign with its centre in `centre`
+  Vec centre{};
 };
 
 struct Command {
-  Vec heading;
+  Vec heading{};
   bool exists = false;    ///< else the cell is crossed straight
   bool is_flown = false;  ///< the states' heading is this command, as a number
 };
@@ -33,14 +33,14 @@ struct Command {
 /// What may leave by one side.
 struct Way {
   int side = 0;
-  Real place;            ///< along the side, in its frame, within [-1/2, 1/2]
+  Real place{};          ///< along the side, in its frame, within [-1/2, 1/2]
   bool at_low = false;   ///< may pass through the corner at -1/2 ...
   bool at_high = false;  ///< ... or at 1/2
   bool skims = false;    ///< may run along the side, straight
   bool aligned = false;  ///< the heading is the command, as a number
-  Vec heading;
+  Vec heading{};
   int turn = 0;  ///< as in Bundle
-  Vec centre;
+  Vec centre{};
   double length = 0.0;  ///< no state has flown farther in the cell
 };
 
