@@ -3,7 +3,7 @@
 export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
 JOBS ?= $(shell nproc)
 # What a user runs; tests and benchmarks are built when asked for.
-PROGRAMS = fairway_command
+PROGRAMS = fairway_command fairway_check
 
 .PHONY: help setup build demo test bench reproduce install clean
 
