@@ -1,7 +1,7 @@
 // fairway-reproduce DEMO_FOLDER OUT_FOLDER: redraws Figs. 3 to 8 of paper 1 on the project's own
 // map and prints what can be measured on them. Twice: to the letter of the paper (metric, filter
-// and blend "paper"), and with the project's defaults. Then Figs. 6, 8 and 20 to 23 of paper 2, and 5 to 7 of
-// paper 3.
+// and blend "paper"), and with the project's defaults. Then Figs. 6, 8 and 20 to 23 of paper 2, and
+// 5 to 7 of paper 3.
 #include <array>
 #include <cstdio>
 #include <exception>

@@ -284,8 +284,10 @@ std::size_t Prover::undecided() const {
 std::size_t Prover::bytes() const {
   std::size_t total = leaf_.capacity() * sizeof(Leaf) + piece_.capacity() * sizeof(ImagePiece) +
                       is_awake_.capacity();
-  for (const auto& ids : on_section_) total += sizeof(ids) + ids.capacity() * sizeof(Id);
-  for (const auto& all : dependents_) total += sizeof(all) + all.capacity() * sizeof(Dependent);
+  for (const auto& ids : on_section_)
+    total += sizeof(std::vector<Id>) + ids.capacity() * sizeof(Id);
+  for (const auto& all : dependents_)
+    total += sizeof(std::vector<Dependent>) + all.capacity() * sizeof(Dependent);
   return total;
 }
 
