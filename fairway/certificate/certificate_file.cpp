@@ -228,7 +228,7 @@ Certificate read_certificate(const std::filesystem::path& path) {
   const json found = digests_of(file.tensors);
   for (const auto& [name, digest] : found.items()) {
     if (!claimed.is_object() || claimed.value(name, json()) != digest) {
-      throw InputError(place + ".sha256." + name,
+      throw InputError(fmt::format("{}.sha256.{}", place, name),
                        "is not the digest of the array: the file was damaged or altered");
     }
   }

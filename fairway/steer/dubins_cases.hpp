@@ -98,6 +98,7 @@ template <typename T>
 [[gnu::always_inline]] inline T lsl_length(const Pair<T>& p) {
   const Plane<T> ll = p.ll();
   const T straight = root(norm2(ll));
+  // x - x: zero, for numbers and vectors alike. NOLINTNEXTLINE(misc-redundant-expression)
   return (straight <= p.near ? straight - straight : straight) +
          (is_passed(p, ll) ? p.left : p.left + two_pi);
 }
@@ -106,6 +107,7 @@ template <typename T>
 template <typename T>
 [[gnu::always_inline]] inline T crossing_square(const Pair<T>& p, const Plane<T>& between) {
   const T square = norm2(between) - 4.0;
+  // x - x: zero, for numbers and vectors alike. NOLINTNEXTLINE(misc-redundant-expression)
   return ((square < 0.0) & (square >= -4.0 * p.near)) ? square - square : square;
 }
 

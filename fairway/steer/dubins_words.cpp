@@ -133,6 +133,7 @@ void try_crossing(Best& best, const Pair<double>& pair, const Pair<Two>& both) {
   constexpr double none = std::numeric_limits<double>::infinity();
   const Plane<Two> lr = both.lr();
   const Two square = crossing_square(both, lr);
+  // x - x: zero, for numbers and vectors alike. NOLINTNEXTLINE(misc-redundant-expression)
   const Two straight = root(square < 0.0 ? square - square : square);
   const Two least = straight + std::min(pair.left, pair.right);
   const bool lsr = (square[0] >= 0.0) & (least[0] < best.length);
