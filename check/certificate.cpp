@@ -20,21 +20,21 @@ template <typename T>
 std::vector<T> values(const TensorFile& file, const char* name, const char* type,
                       const Shape& shape) {
   const auto found = file.tensors.find(name);
-  require_readable(
-      found != file.tensors.end() && found->second.type == type && found->second.shape == shape,
-      fmt::format("{}: is missing, or its type or shape does not fit the others", name));
+  require(found != file.tensors.end() && found->second.type == type && found->second.shape == shape,
+          fmt::format("{}: is missing, or its type or shape does not fit the others", name),
+          unreadable);
   std::vector<T> all(found->second.bytes.size() / sizeof(T));
   if (!all.empty()) std::memcpy(all.data(), found->second.bytes.data(), found->second.bytes.size());
   return all;
 }
 
 void take_arrays(const TensorFile& file, Certificate& c) {
-  require_readable(file.tensors.contains("region") && file.tensors.size() == 9,
-                   "has other arrays than a certificate");
+  require(file.tensors.contains("region") && file.tensors.size() == 9,
+          "has other arrays than a certificate", unreadable);
   const Shape grid = file.tensors.at("region").shape;
-  require_readable(grid.size() == 2 && grid[0] > 0 && grid[1] > 0 && grid[0] < 1U << 30 &&
-                       grid[1] < (1U << 30) / grid[0],
-                   "region: is no grid");
+  require(grid.size() == 2 && grid[0] > 0 && grid[1] > 0 && grid[0] < 1U << 30 &&
+              grid[1] < (1U << 30) / grid[0],
+          "region: is no grid", unreadable);
   c.loop.ny = static_cast<int>(grid[0]);
   c.loop.nx = static_cast<int>(grid[1]);
   c.loop.command_rad = values<float>(file, "heading_rad", "F32", grid);
@@ -147,50 +147,34 @@ void require_leaves(const Certificate& c) {
   }
 }
 
-void take_claims(const json& record, Certificate& c) {
-  c.samples = record.at("samples");
-  for (std::size_t p = 0; p < c.shares.size(); ++p) {
-    double sum = 0.0;
-    for (std::size_t v = 0; v < verdict_count; ++v) {
-      sum += c.shares[p][v] = record.at(portion_name[p]).at(verdict_name[v]);
-      require(c.shares[p][v] >= 0.0, "volume_fraction: a share is less than nothing");
-    }
-    require(sum == 0.0 || (c.samples >= 1.0 && std::abs(sum - 1.0) < 1e-9),
-            "volume_fraction: the shares do not sum to 1, or were not sampled");
-  }
-  c.worst_time_s = record.at("worst_time_s");
-  require(c.worst_time_s >= 0.0, "worst_time_s: less than nothing");
-}
-
 }  // namespace
 
 std::size_t Certificate::section_of(std::size_t leaf) const {
-  return static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), leaf) -
-                                  first.begin()) -
-         1;
+  const auto next = std::upper_bound(first.begin(), first.end(), leaf);
+  return static_cast<std::size_t>(next - first.begin()) - 1;
 }
 
 std::string Certificate::name_of(std::size_t leaf) const {
-  static const char* const sides[4]{"right", "top", "left", "bottom"};
   const std::size_t s = section_of(leaf);
   const Cell cell = loop.cell_at(s / 4);
-  return fmt::format("leaf {} ({} on the {} side of cell ({}, {}), section {})", leaf,
-                     leaf - first[s], sides[s % 4], cell.x, cell.y, s);
+  return fmt::format("leaf {} ({} on side {} of cell ({}, {}))", leaf, leaf - first[s], s % 4,
+                     cell.x, cell.y);
 }
 
-void read_certificate(const std::string& path, const std::string& plan, Certificate& c) {
+Certificate read_certificate(const std::string& path, const std::string& plan) {
   const TensorFile file = read_tensors(path);
-  require_readable(file.record.at("format") == "fairway-certificate" &&
-                       file.record.at("format_version") == 1 &&
-                       file.record.at("method") == "certified",
-                   "is not a certificate of format_version 1 and method \"certified\"");
+  Certificate c;
+  c.record = file.record;
+  require(file.record.at("format") == "fairway-certificate" &&
+              file.record.at("format_version") == 1 && file.record.at("method") == "certified",
+          "is not a certificate of format_version 1 and method \"certified\"", unreadable);
   take_arrays(file, c);
   require_digests(file, c, plan);
   require_geometry(c.geometry);
   require_cells(c, file.record.at("region_of_interest"));
   c.loop.take_directions(c.geometry[3], c.geometry[2]);
   require_leaves(c);
-  take_claims(file.record, c);
+  return c;
 }
 
 }  // namespace fairway_check

@@ -6,8 +6,6 @@
 
 namespace fairway_check {
 
-const char* const verdict_name[verdict_count]{"undecided", "reach", "collide", "leave", "trapped"};
-
 namespace {
 
 constexpr std::size_t none = ~std::size_t{0};

@@ -17,7 +17,8 @@ namespace fairway_check {
 enum Verdict : std::uint8_t { undecided, reach, collide, leave, trapped };
 enum CellKind : std::uint8_t { ordinary, obstacle, target, outside };
 inline constexpr int verdict_count = 5;
-extern const char* const verdict_name[verdict_count];
+inline constexpr const char* verdict_name[verdict_count]{"undecided", "reach", "collide", "leave",
+                                                         "trapped"};
 
 struct Cell {
   int x = 0;

@@ -11,12 +11,10 @@
 
 namespace fairway_check {
 
-using Rounding = boost::numeric::interval_lib::save_state_nothing<
-    boost::numeric::interval_lib::rounded_arith_opp<double>>;
-using Real =
-    boost::numeric::interval<double,
-                             boost::numeric::interval_lib::policies<
-                                 Rounding, boost::numeric::interval_lib::checking_base<double>>>;
+namespace boosts = boost::numeric::interval_lib;
+using Rounding = boosts::save_state_nothing<boosts::rounded_arith_opp<double>>;
+using Policies = boosts::policies<Rounding, boosts::checking_base<double>>;
+using Real = boost::numeric::interval<double, Policies>;
 
 /// Sets the rounding mode of this thread, proves that the arithmetic obeys, and sets it back in the
 /// end. Throws std::runtime_error when the machine or the compiler does not round as told.

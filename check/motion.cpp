@@ -23,20 +23,16 @@ double largest_angle(const Vec& a, const Vec& b) {
 /// Headings on arcs of less than 180 degrees from `first` to `last`. One component runs from end to
 /// end unless the arc passes its axis, which it does not while the other one keeps its sign.
 Vec headings_between(const Vec& first, const Vec& last) {
-  const auto same_sign = [](const Real& a, const Real& b) {
-    return (positive(a) && positive(b)) || (negative(a) && negative(b));
-  };
-  return {same_sign(first.y, last.y) ? hull(first.x, last.x) : unit_range,
-          same_sign(first.x, last.x) ? hull(first.y, last.y) : unit_range};
+  return {positive(first.y * last.y) ? hull(first.x, last.x) : unit_range,
+          positive(first.x * last.x) ? hull(first.y, last.y) : unit_range};
 }
 
 /// What of (x, y) may be a unit vector with x >= 0; false when nothing.
 bool keep_on_circle(Vec& heading) {
   if (!cut(heading.x, root(1.0 - square(heading.y)))) return false;
   const Real size = root(1.0 - square(heading.x));
-  if (positive(heading.y)) return cut(heading.y, size);
-  if (negative(heading.y)) return cut(heading.y, -size);
-  return true;
+  return !(positive(heading.y) && !cut(heading.y, size)) &&
+         !(negative(heading.y) && !cut(heading.y, -size));
 }
 
 /// Cuts the place at the corners; false when nothing is left.
@@ -145,9 +141,7 @@ bool go_turning(const Bundle& set, const Vec& command, int sign, const Real& ahe
   const Arc arc{u, headings_between(u, last), centre, k, kr, radius};
   const Vec at{centre.x + kr * command.y, centre.y - kr * command.x};  // when aligned
   const auto runs_one_way_inside = [](const Real& first, const Real& end, const Real& place) {
-    return ((first.lower() >= 0.0 && end.lower() >= 0.0) ||
-            (first.upper() <= 0.0 && end.upper() <= 0.0)) &&
-           place.lower() > -0.5 && place.upper() < 0.5;
+    return (first * end).lower() >= 0.0 && place.lower() > -0.5 && place.upper() < 0.5;
   };
   if (will_align && runs_one_way_inside(u.x, command.x, at.x) &&
       runs_one_way_inside(u.y, command.y, at.y)) {

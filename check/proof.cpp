@@ -1,17 +1,14 @@
 #include "check/proof.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <numbers>
-#include <random>
 #include <vector>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include "check/certificate.hpp"
+#include "check/claims.hpp"
 #include "check/tensors.hpp"
 
 namespace fairway_check {
@@ -88,21 +85,19 @@ std::string defect_of_leaf(const Certificate& c, std::size_t section, std::size_
   const double worst_s = (outcome.worst_s + hops * outcome.hop_s).upper();
   const Verdict verdict = static_cast<Verdict>(c.verdict[leaf]);
   if (outcome.verdict() != verdict) {
-    std::string list;
-    for (unsigned v = 0; v < verdict_count; ++v) {
-      if ((outcome.told >> v & 1U) != 0) list += fmt::format(" {}", verdict_name[v]);
-    }
-    return "what is told of its states is:" + (list.empty() ? " nothing" : list);
+    std::string told = "what is told of its states is:";
+    for (unsigned v = 0; v < verdict_count; ++v)
+      told += (outcome.told >> v & 1U) != 0 ? fmt::format(" {}", verdict_name[v]) : "";
+    return told;
   }
   if (verdict == trapped) return {};
   if (outcome.least_rank > c.rank[leaf]) {
     return fmt::format("its rank is {}, its states come to one of rank {}", c.rank[leaf],
                        outcome.least_rank - 1);
   }
-  const bool in_time = worst_s <= static_cast<double>(c.time_s[leaf]);
-  return in_time ? ""
-                 : fmt::format("it takes up to {:.9g} s, claimed are {:.9g} s", worst_s,
-                               c.time_s[leaf]);
+  const double claimed_s = c.time_s[leaf];
+  if (worst_s <= claimed_s) return {};
+  return fmt::format("it takes up to {:.9g} s, claimed are {:.9g} s", worst_s, claimed_s);
 }
 
 /// Which leaves are decided and fail, 1 or 0.
@@ -118,74 +113,18 @@ std::vector<std::uint8_t> failing_leaves(const Certificate& c) {
   return fails;
 }
 
-/// What the leaves say of states drawn from all ordinary cells.
-struct Measured {
-  std::array<double, 3> states{};  // by Portion
-  PortionShares shares{};
-  double slower_than_claimed = 0.0;  // states that reach, with a bound above worst_time_s
-};
-
-Measured measure(const Certificate& c, std::size_t samples) {
-  std::vector<std::size_t> cells;
-  for (std::size_t i = 0; i < c.loop.kind.size(); ++i) {
-    if (c.loop.kind[i] == ordinary) cells.push_back(i);
-  }
-  Measured m;
-  std::mt19937_64 random(1);
-  const auto unit = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  for (std::size_t i = 0; i < samples && !cells.empty(); ++i) {
-    const std::size_t cell = cells[random() % cells.size()];
-    const double x = unit() - 0.5;
-    const double y = unit() - 0.5;
-    const Vec heading = unit_vector(std::numbers::pi * (2.0 * unit() - 1.0));
-    const Upwards upwards;
-    Outcome state(c);
-    follow_states(c.loop, cell, {Real(x), Real(y)}, heading, state);
-    m.slower_than_claimed += state.verdict() == reach && state.worst_s > c.worst_time_s ? 1.0 : 0.0;
-    for (const Portion portion : {all_cells, c.region[cell] == 0 ? free_cells : buffer_cells}) {
-      m.states[portion] += 1.0;
-      m.shares[portion][state.verdict()] += 1.0;
-    }
-  }
-  for (std::size_t p = 0; p < m.shares.size(); ++p) {
-    for (double& share : m.shares[p]) share /= std::max(1.0, m.states[p]);
-  }
-  return m;
-}
-
-/// "" when no claimed share is farther than five standard errors from the measured one.
-std::string defect_of_claims(const Certificate& c, const Measured& m) {
-  for (std::size_t p = 0; p < m.shares.size(); ++p) {
-    const double here = m.states[p];
-    const double there = c.samples * here / std::max(1.0, m.states[all_cells]);
-    if (here < 100.0) continue;
-    for (std::size_t v = 0; v < verdict_count; ++v) {
-      const double claimed = c.shares[p][v];
-      const double found = m.shares[p][v];
-      const double both = (claimed * there + found * here) / (there + here);
-      const double error = std::sqrt(both * (1.0 - both) * (1.0 / here + 1.0 / there));
-      // A share that is almost none is not known better than to a few states.
-      if (std::abs(claimed - found) <= 5.0 * error + 5.0 / here) continue;
-      return fmt::format("{}: {} is claimed to be {:.6f}, measured {:.6f} +- {:.6f}",
-                         portion_name[p], verdict_name[v], claimed, found, error);
-    }
-  }
-  // Of many more states than these none was slower: hardly any can be.
-  const bool slower = m.slower_than_claimed > 5.0 + 0.001 * m.states[all_cells];
-  return slower ? "worst_time_s: too many sampled states are slower" : "";
-}
-
 }  // namespace
 
+Told told_of_state(const Certificate& c, std::size_t cell, double x, double y, double heading_rad) {
+  const Upwards upwards;
+  Outcome outcome(c);
+  follow_states(c.loop, cell, {Real(x), Real(y)}, unit_vector(heading_rad), outcome);
+  return {outcome.verdict(), outcome.worst_s};
+}
+
 std::string judge(const std::string& path, const std::string& plan, std::size_t samples,
-                  nlohmann::ordered_json& report) {
-  Certificate c;
-  try {
-    read_certificate(path, plan, c);
-  } catch (const Defect& defect) {
-    if (defect.code != 1) throw;
-    return defect.what();
-  }
+                  nlohmann::ordered_json& report) try {
+  const Certificate c = read_certificate(path, plan);
   for (std::size_t v = 0; v < verdict_count; ++v) {
     report["leaves"][verdict_name[v]] = std::count(c.verdict.begin(), c.verdict.end(), v);
   }
@@ -200,12 +139,10 @@ std::string judge(const std::string& path, const std::string& plan, std::size_t 
                        report["leaves_not_reproved"].dump(), fails.size(), c.name_of(first),
                        verdict_name[c.verdict[first]], defect_of_leaf(c, section, first));
   }
-  const Measured measured = measure(c, samples);
-  report["samples"] = measured.states[all_cells];
-  for (std::size_t v = 0; v < verdict_count; ++v) {
-    report["measured_fraction"][verdict_name[v]] = measured.shares[all_cells][v];
-  }
-  return defect_of_claims(c, measured);
+  return defect_of_claims(c, samples, report);
+} catch (const Defect& defect) {
+  if (defect.code != 1) throw;
+  return defect.what();
 }
 
 }  // namespace fairway_check

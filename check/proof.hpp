@@ -6,7 +6,16 @@
 
 #include <nlohmann/json.hpp>
 
+#include "check/certificate.hpp"
+
 namespace fairway_check {
+
+/// What the leaves tell of the state at (x, y), in cells from the middle of an ordinary cell.
+struct Told {
+  Verdict verdict;
+  double worst_s;  ///< no state takes longer
+};
+Told told_of_state(const Certificate& c, std::size_t cell, double x, double y, double heading_rad);
 
 /// "" when the certificate is accepted, else why it is refused; what was found goes into `report`.
 /// `plan` may be "": then it is not compared. The answer does not depend on threads. Throws Defect

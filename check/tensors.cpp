@@ -1,81 +1,69 @@
 #include "check/tensors.hpp"
 
-#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <fstream>
-#include <utility>
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
+#include <openssl/sha.h>
 
 namespace fairway_check {
 
 static_assert(std::endian::native == std::endian::little, "arrays are read as they lie");
 
-void require_readable(bool good, std::string_view otherwise) {
-  if (!good) throw Defect(65, otherwise);
-}
-void require(bool good, std::string_view otherwise) {
-  if (!good) throw Defect(1, otherwise);
+void require(bool good, std::string_view otherwise, int code) {
+  if (!good) throw Defect(code, otherwise);
 }
 
 TensorFile read_tensors(const std::string& path) {
   using nlohmann::json;
-  using Place = std::pair<std::uint64_t, std::uint64_t>;
   static const std::map<std::string, std::uint64_t> widths{
       {"F64", 8}, {"F32", 4}, {"U32", 4}, {"I8", 1}, {"U8", 1}};
   TensorFile file;
   std::ifstream in(path, std::ios::binary | std::ios::ate);
   const auto size = static_cast<std::streamoff>(in.tellg());
-  require_readable(in && size >= 8 && size < std::streamoff{1} << 40,
-                   "cannot be read, or is no safetensors file");
-  file.bytes.resize(static_cast<std::size_t>(size));
-  require_readable(!in.seekg(0).read(file.bytes.data(), size).fail(), "cannot be read");
+  file.bytes.resize(in && size < std::streamoff{1} << 40 ? static_cast<std::size_t>(size) : 0);
+  require(file.bytes.size() >= 8 && in.seekg(0).read(file.bytes.data(), size),
+          "cannot be read, or is no safetensors file", unreadable);
   std::uint64_t length = 0;
   std::memcpy(&length, file.bytes.data(), 8);
   const auto all = std::span<const char>(file.bytes).subspan(8);
-  require_readable(length <= all.size(), "is cut short, or no safetensors file");
+  require(length <= all.size(), "is cut short, or no safetensors file", unreadable);
   const auto text = all.first(length);
   const auto data = all.subspan(length);
   const json header = json::parse(text.begin(), text.end());
   file.record = json::parse(header.at("__metadata__").at("fairway").get<std::string>());
-  std::vector<Place> places;
+  std::map<std::uint64_t, std::uint64_t> places;  // begin, end
   for (const auto& [name, entry] : header.items()) {
     if (name == "__metadata__") continue;
     Tensor& tensor = file.tensors[name];
     tensor.type = entry.at("dtype");
     tensor.shape = entry.at("shape").get<std::vector<std::uint64_t>>();
-    const Place place = entry.at("data_offsets");
+    const auto [begin, end] = entry.at("data_offsets").get<std::array<std::uint64_t, 2>>();
     std::uint64_t bytes = widths.contains(tensor.type) ? widths.at(tensor.type) : 0;
-    bool fits = bytes > 0;
+    bool fits = bytes > 0 && begin <= end && end <= data.size();
     for (const std::uint64_t extent : tensor.shape)
       fits = fits && !__builtin_mul_overflow(bytes, extent, &bytes);
-    fits = fits && place.first <= data.size() && bytes <= data.size() - place.first;
-    require_readable(fits && place.second == place.first + bytes,
-                     name + ": its type, shape and place do not fit, or the file is cut short");
-    tensor.bytes = data.subspan(place.first, bytes);
-    places.push_back(place);
+    require(fits && bytes == end - begin,
+            name + ": its type, shape and place do not fit, or the file is cut short", unreadable);
+    tensor.bytes = data.subspan(begin, bytes);
+    if (bytes > 0)
+      require(places.emplace(begin, end).second, "has arrays that overlap", unreadable);
   }
-  std::sort(places.begin(), places.end());
   std::uint64_t filled = 0;
   for (const auto& [begin, end] : places) {
-    require_readable(begin == filled, "has arrays that overlap or leave holes");
+    require(begin == filled, "has arrays that overlap or leave holes", unreadable);
     filled = end;
   }
-  require_readable(filled == data.size(), "goes on after its last array");
+  require(filled == data.size(), "goes on after its last array", unreadable);
   return file;
 }
 
 std::string sha256(std::span<const char> bytes) {
-  unsigned char digest[EVP_MAX_MD_SIZE];
-  unsigned int size = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest, &size, EVP_sha256(), nullptr) != 1) {
-    throw std::runtime_error("SHA-256 is not to be had");
-  }
-  std::string hex;
-  for (unsigned int i = 0; i < size; ++i) hex += fmt::format("{:02x}", digest[i]);
-  return hex;
+  unsigned char digest[SHA256_DIGEST_LENGTH];
+  SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), digest);
+  return fmt::format("{:02x}", fmt::join(digest, ""));
 }
 
 }  // namespace fairway_check

@@ -12,14 +12,14 @@
 
 namespace fairway_check {
 
-/// What is wrong with a file. `code` is the program's exit code: 65, it is not what it should be
-/// and there is nothing to judge; 1, it is, and it is refused.
+/// What is wrong with a file. `code` is the program's exit code: `unreadable`, it is not what it
+/// should be and there is nothing to judge; 1, it is, and it is refused.
+inline constexpr int unreadable = 65;
 struct Defect : std::runtime_error {
   Defect(int code_, std::string_view what) : std::runtime_error(std::string(what)), code(code_) {}
   int code;
 };
-void require_readable(bool good, std::string_view otherwise);  ///< Defect 65
-void require(bool good, std::string_view otherwise);           ///< Defect 1
+void require(bool good, std::string_view otherwise, int code = 1);
 
 struct Tensor {
   std::string type;

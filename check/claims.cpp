@@ -1,0 +1,106 @@
+#include "check/claims.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "check/proof.hpp"
+#include "check/tensors.hpp"
+
+namespace fairway_check {
+namespace {
+
+/// Of all ordinary cells, of those for safe starts, of the others.
+enum Portion { all_cells, free_cells, buffer_cells };
+constexpr const char* portion_name[3]{"volume_fraction", "volume_fraction_free",
+                                      "volume_fraction_buffer"};
+/// Shares of the volume by portion and verdict.
+using Shares = std::array<std::array<double, verdict_count>, 3>;
+
+struct Claims {
+  Shares shares{};  ///< 0 of no cells
+  double samples = 0.0;
+  double worst_time_s = 0.0;
+};
+
+Claims claims_of(const nlohmann::json& record) {
+  Claims claims{.samples = record.at("samples"), .worst_time_s = record.at("worst_time_s")};
+  for (std::size_t p = 0; p < claims.shares.size(); ++p) {
+    double sum = 0.0;
+    for (std::size_t v = 0; v < verdict_count; ++v) {
+      sum += claims.shares[p][v] = record.at(portion_name[p]).at(verdict_name[v]);
+      require(claims.shares[p][v] >= 0.0, "volume_fraction: a share is less than nothing");
+    }
+    require(sum == 0.0 || (claims.samples >= 1.0 && std::abs(sum - 1.0) < 1e-9),
+            "volume_fraction: the shares do not sum to 1, or were not sampled");
+  }
+  require(claims.worst_time_s >= 0.0, "worst_time_s: less than nothing");
+  return claims;
+}
+
+/// What the leaves say of states drawn from all ordinary cells.
+struct Measured {
+  std::array<double, 3> states{};  // by Portion
+  Shares shares{};
+  double slower_than_claimed = 0.0;  // states that reach, with a bound above worst_time_s
+};
+
+Measured measure(const Certificate& c, std::size_t samples, double worst_time_s) {
+  std::vector<std::size_t> cells;
+  for (std::size_t i = 0; i < c.loop.kind.size(); ++i) {
+    if (c.loop.kind[i] == ordinary) cells.push_back(i);
+  }
+  Measured m;
+  std::mt19937_64 random(1);
+  const auto unit = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  for (std::size_t i = 0; i < samples && !cells.empty(); ++i) {
+    const std::size_t cell = cells[random() % cells.size()];
+    const double x = unit() - 0.5;
+    const double y = unit() - 0.5;
+    const Told told = told_of_state(c, cell, x, y, std::numbers::pi * (2.0 * unit() - 1.0));
+    m.slower_than_claimed += told.verdict == reach && told.worst_s > worst_time_s ? 1.0 : 0.0;
+    for (const Portion portion : {all_cells, c.region[cell] == 0 ? free_cells : buffer_cells}) {
+      m.states[portion] += 1.0;
+      m.shares[portion][told.verdict] += 1.0;
+    }
+  }
+  for (std::size_t p = 0; p < m.shares.size(); ++p) {
+    for (double& share : m.shares[p]) share /= std::max(1.0, m.states[p]);
+  }
+  return m;
+}
+
+}  // namespace
+
+std::string defect_of_claims(const Certificate& c, std::size_t samples,
+                             nlohmann::ordered_json& report) {
+  const Claims claims = claims_of(c.record);
+  const Measured m = measure(c, samples, claims.worst_time_s);
+  report["samples"] = m.states[all_cells];
+  for (std::size_t v = 0; v < verdict_count; ++v) {
+    report["measured_fraction"][verdict_name[v]] = m.shares[all_cells][v];
+  }
+  for (std::size_t p = 0; p < m.shares.size(); ++p) {
+    const double here = m.states[p];
+    const double there = claims.samples * here / std::max(1.0, m.states[all_cells]);
+    if (here < 100.0) continue;
+    for (std::size_t v = 0; v < verdict_count; ++v) {
+      const double claimed = claims.shares[p][v];
+      const double found = m.shares[p][v];
+      const double both = (claimed * there + found * here) / (there + here);
+      const double error = std::sqrt(both * (1.0 - both) * (1.0 / here + 1.0 / there));
+      // A share that is almost none is not known better than to a few states.
+      if (std::abs(claimed - found) <= 5.0 * error + 5.0 / here) continue;
+      return fmt::format("{}: {} is claimed to be {:.6f}, measured {:.6f} +- {:.6f}",
+                         portion_name[p], verdict_name[v], claimed, found, error);
+    }
+  }
+  // Of many more states than these none was slower: hardly any can be.
+  const bool slower = m.slower_than_claimed > 5.0 + 0.001 * m.states[all_cells];
+  return slower ? "worst_time_s: too many sampled states are slower" : "";
+}
+
+}  // namespace fairway_check
