@@ -7,6 +7,7 @@ import csv
 import io
 import json
 import math
+import struct
 import subprocess
 import sys
 import tempfile
@@ -162,6 +163,122 @@ class Steer(unittest.TestCase):
         self.steer("--pairs", "/nowhere/pairs.csv", "--turn-radius", 1, code=65)
 
 
+def read_region(path):
+    """Regions [iy][ix] and the metadata of a plan file."""
+    data = path.read_bytes()
+    (length,) = struct.unpack("<Q", data[:8])
+    header = json.loads(data[8:8 + length])
+    begin, end = (8 + length + offset for offset in header["region"]["data_offsets"])
+    region = np.frombuffer(data[begin:end], np.int8).reshape(header["region"]["shape"])
+    return region, json.loads(header["__metadata__"]["fairway"])
+
+
+class GoalHeading(unittest.TestCase):
+    """A run whose goal has a heading, in a bay with a wall beside the goal."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = Path(cls.temporary.name)
+        image = np.full((90, 120), 255, np.uint8)
+        image[28:30, 60:120] = 0  # y 60 to 62, above the goal at y 45
+        image[52:90, 104:106] = 0
+        (cls.folder / "map.pgm").write_bytes(b"P5\n120 90\n255\n" + image.tobytes())
+        (cls.folder / "s.toml").write_text("""[map]
+file = "map.pgm"
+resolution_m = 1.0
+cell_m = 2.0
+[vehicle]
+speed_mps = 10.0
+turn_radius_m = 6.0
+[mission]
+kind = "goal"
+goal_m = [96.0, 46.0]
+goal_heading_rad = 3.5
+[plan]
+alpha = 0.5
+beta = 1.5
+[simulate]
+random = 150
+sample = 400
+[verify]
+method = "bitmap"
+""")
+        cls.run_fairway("run", "s.toml", "-o", "out", "--quiet")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    @classmethod
+    def run_fairway(cls, *arguments):
+        done = subprocess.run([FAIRWAY, *arguments], cwd=cls.folder, text=True, capture_output=True)
+        if done.returncode != 0:
+            raise AssertionError(done.stdout + done.stderr)
+        return done.stdout
+
+    def test_every_leg_ends_at_the_goals_pose_and_touches_no_obstacle(self):
+        region, record = read_region(self.folder / "out/plan.safetensors")
+        (x0, y0), cell = record["origin_m"], record["cell_m"]
+        with open(self.folder / "out/flights.csv") as lines:
+            rows = [[float(row[c]) for c in ("flight", "time_s", "x_m", "y_m", "heading_rad",
+                                             "curvature_per_m", "final_leg")]
+                    for row in csv.DictReader(lines)]
+        legs = {}
+        for row in rows:
+            if row[6] == 1:
+                legs.setdefault(row[0], []).append(row)
+        self.assertGreater(len(legs), 50)
+        for leg in legs.values():
+            self.assertAlmostEqual(leg[-1][2], 96.0, places=9)
+            self.assertAlmostEqual(leg[-1][3], 46.0, places=9)
+            self.assertAlmostEqual(math.remainder(leg[-1][4] - 3.5, 2 * math.pi), 0.0, places=9)
+            for (_, t, x, y, h, k, _), (_, t1, *_) in zip(leg, leg[1:]):
+                self.assertLessEqual(abs(k), 1 / 6.0)
+                s = np.linspace(0, (t1 - t) * 10.0, 20)  # along the arc itself
+                along = np.sinc(k * s / 2 / np.pi) * s
+                ix = np.floor((x + along * np.cos(h + k * s / 2) - x0) / cell).astype(int)
+                iy = np.floor((y + along * np.sin(h + k * s / 2) - y0) / cell).astype(int)
+                self.assertTrue((region[iy, ix] != 1).all())
+
+    def test_the_summary_counts_them_and_the_products_show_them(self):
+        summary = json.loads((self.folder / "out/summary.json").read_text())
+        legs = summary["final_legs"]
+        reach = sum(summary[of]["outcomes"]["reach"] for of in ("random_flights", "given_flights"))
+        self.assertEqual(legs["count"], reach)
+        self.assertEqual(legs["shortest"] + legs["other"] + legs["none_clear"], legs["count"])
+        self.assertGreater(legs["shortest"], 0)
+        self.assertGreater(legs["other"], 0)
+        self.assertLess(legs["worst_end_error_m"], 1e-9)
+        self.assertLess(legs["worst_end_error_rad"], 1e-9)
+        features = json.loads((self.folder / "out/flights.geojson").read_text())["features"]
+        flights = [f for f in features if "outcome" in f["properties"]]
+        self.assertEqual(len(flights), 150)
+        drawn = [f["properties"] for f in features if "outcome" not in f["properties"]]
+        asked = [f["properties"].get("final_leg") for f in flights]
+        self.assertEqual(len(drawn), asked.count("shortest") + asked.count("other"))
+        for leg in drawn:
+            self.assertEqual(leg["final_leg"], asked[leg["flight"]])
+            self.assertLessEqual(leg["length_m"], legs["longest_m"] + 1e-9)
+        for name in ("flights", "final_legs"):
+            self.assertIn("final-legs-other", (self.folder / f"out/{name}.svg").read_text())
+
+    def test_simulate_takes_the_heading_from_the_plan(self):
+        text = self.run_fairway("simulate", "out/plan.safetensors", "--state", "20,20,0",
+                                "--csv", "t.csv")
+        self.assertIn("go on to the goal's heading", text)
+        last = (self.folder / "t.csv").read_text().splitlines()[-1].split(",")
+        self.assertAlmostEqual(float(last[2]), 96.0, places=9)
+        self.assertEqual(last[6], "1")
+        answer = json.loads(self.run_fairway("simulate", "out/plan.safetensors", "--json",
+                                             "--state", "20,20,0"))
+        self.assertEqual(answer["final_legs"]["count"], 1)
+        self.assertEqual(answer["outcomes"]["reach"], 1)
+        disturbed = json.loads(self.run_fairway("simulate", "out/plan.safetensors", "--json",
+                                                "--state", "20,20,0", "--law", "bang-bang"))
+        self.assertIsNone(disturbed["final_legs"])
+
+
 if __name__ == "__main__":
-    FAIRWAY = sys.argv.pop(1)
+    FAIRWAY = str(Path(sys.argv.pop(1)).resolve())
     unittest.main()

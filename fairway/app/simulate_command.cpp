@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/run/final_legs.hpp"
 #include "fairway/run/plan_record.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/simulate/exact_flight.hpp"
@@ -80,26 +82,35 @@ void in_batches(std::size_t count, const StageClock& clock, const Fly& fly) {
 
 struct Flown {
   std::vector<FlightResult> results;
-  std::vector<Flight> recorded;  // only when a track is asked for
+  std::vector<Flight> recorded;             // only when a track is asked for
+  std::optional<FinalLegTally> final_legs;  // only when the goal has a heading
 };
 
+/// `legs`: where the goal has a heading, and each flight that reaches goes on to it.
 template <typename Flights, typename Record>
-Flown fly(const std::vector<State>& starts, bool with_tracks, const StageClock& clock,
-          const Flights& fly_one, const Record& record_one) {
+Flown fly(const std::vector<State>& starts, bool with_tracks, const std::optional<FinalLegs>& legs,
+          const StageClock& clock, const Flights& fly_one, const Record& record_one) {
   Flown flown;
   flown.results.resize(starts.size());
   if (with_tracks) flown.recorded.resize(starts.size());
+  if (legs) flown.final_legs.emplace();
   in_batches(starts.size(), clock, [&](std::size_t first, std::size_t last) {
+    std::vector<Flight> batch(with_tracks || legs ? last - first : 0);
     for_ranges(last - first, 8, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = first + begin; i < first + end; ++i) {
-        if (with_tracks) {
-          flown.recorded[i] = record_one(starts[i], i);
-          flown.results[i] = flown.recorded[i].result;
-        } else {
-          flown.results[i] = fly_one(starts[i], i);
+      for (std::size_t i = begin; i < end; ++i) {
+        if (batch.empty()) {
+          flown.results[first + i] = fly_one(starts[first + i], first + i);
+          continue;
         }
+        batch[i] = record_one(starts[first + i], first + i);
+        if (legs) batch[i].final_leg = legs->leg_of(batch[i]);
+        flown.results[first + i] = batch[i].result;
       }
     });
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      if (legs) flown.final_legs->add(batch[i], legs->goal());
+      if (with_tracks) flown.recorded[first + i] = std::move(batch[i]);
+    }
   });
   return flown;
 }
@@ -109,8 +120,11 @@ Flown fly_as_asked(const SimulateArguments& arguments, const Plan& plan,
   const bool with_tracks = !arguments.csv.empty() || !arguments.geojson.empty();
   if (arguments.law == "exact") {
     const ExactFlights flights(plan);
+    std::optional<FinalLegs> legs;
+    if (const auto goal = goal_pose_of(plan, arguments.plan.string())) legs.emplace(plan, *goal);
     return fly(
-        starts, with_tracks, clock, [&](const State& s, std::size_t) { return flights.fly(s); },
+        starts, with_tracks, legs, clock,
+        [&](const State& s, std::size_t) { return flights.fly(s); },
         [&](const State& s, std::size_t) { return flights.record(s); });
   }
   SampledOptions options = arguments.sampled;
@@ -123,8 +137,10 @@ Flown fly_as_asked(const SimulateArguments& arguments, const Plan& plan,
     options.heading_noise_rad = angle_of_argument_rad(arguments.heading_noise);
   }
   const SampledFlights flights(plan, options);
+  // What a disturbed vehicle does in the goal is not known from its entry: no last leg.
   return fly(
-      starts, with_tracks, clock, [&](const State& s, std::size_t i) { return flights.fly(s, i); },
+      starts, with_tracks, std::nullopt, clock,
+      [&](const State& s, std::size_t i) { return flights.fly(s, i); },
       [&](const State& s, std::size_t i) { return flights.record(s, i).flight; });
 }
 
@@ -141,8 +157,10 @@ std::string words(const std::vector<State>& starts, const Flown& flown) {
     text += "\n";
   }
   const OutcomeCounts counts = count_outcomes(flown.results);
-  return text + fmt::format("Of {} flight{}, {}.", starts.size(), starts.size() == 1 ? "" : "s",
-                            outcome_words(counts));
+  text += fmt::format("Of {} flight{}, {}.", starts.size(), starts.size() == 1 ? "" : "s",
+                      outcome_words(counts));
+  const std::string legs = final_legs_words(flown.final_legs);
+  return legs.empty() ? text : text + "\n" + legs;
 }
 
 json report(const SimulateArguments& arguments, const std::vector<State>& starts,
@@ -160,6 +178,7 @@ json report(const SimulateArguments& arguments, const std::vector<State>& starts
   }
   json all = outcome_json(count_outcomes(flown.results));
   all["plan"] = arguments.plan.string();
+  all["final_legs"] = final_legs_json(flown.final_legs);
   all["flights"] = std::move(flights);
   return all;
 }

@@ -97,6 +97,73 @@ void draw_bundle(MapPage& page, const Bundle& bundle, std::size_t share_of_drawn
   canvas.fill(dots, pen.color);
 }
 
+/// The legs of one state.
+struct LegBundle {
+  FinalLegState state = FinalLegState::not_asked;
+  std::size_t count = 0;
+  Pen pen;
+};
+
+DrawingPath crossing_strokes(Vec2 at, double arm_pt) {
+  DrawingPath path;
+  path.move_to({at.x - arm_pt, at.y - arm_pt}).line_to({at.x + arm_pt, at.y + arm_pt});
+  path.move_to({at.x - arm_pt, at.y + arm_pt}).line_to({at.x + arm_pt, at.y - arm_pt});
+  return path;
+}
+
+constexpr double refused_arm_pt = 3.0;
+
+std::vector<LegBundle> leg_bundles(std::span<const Flight> flights) {
+  const Color color = color_of_oklch(0.45, 0.18, 310.0);
+  std::vector<LegBundle> bundles{
+      {FinalLegState::shortest, 0, {color, 1.3, {}}},
+      {FinalLegState::other, 0, {color, 1.3, {4.0, 1.5}}},
+      {FinalLegState::none_clear, 0, {color_of_oklch(0.58, 0.20, 40.0), 1.6, {}}}};
+  for (LegBundle& bundle : bundles) {
+    for (const Flight& flight : flights) {
+      bundle.count += flight.final_leg.state == bundle.state ? 1 : 0;
+    }
+  }
+  std::erase_if(bundles, [](const LegBundle& bundle) { return bundle.count == 0; });
+  return bundles;
+}
+
+LegendEntry leg_entry(const LegBundle& bundle) {
+  if (bundle.state == FinalLegState::none_clear) {
+    return {fmt::format("no clear last leg ({})", bundle.count),
+            [pen = bundle.pen](Canvas& canvas, const Rect& box) {
+              const Vec2 middle{box.x + 0.5 * box.width, box.y + 0.5 * box.height};
+              canvas.stroke(crossing_strokes(middle, refused_arm_pt), pen);
+            }};
+  }
+  const bool shortest = bundle.state == FinalLegState::shortest;
+  return line_entry(
+      fmt::format("last leg, {} ({})", shortest ? "shortest" : "another way", bundle.count),
+      bundle.pen);
+}
+
+void draw_legs(MapPage& page, const LegBundle& bundle, std::span<const Flight> flights,
+               std::size_t most_drawn) {
+  Canvas& canvas = page.canvas();
+  const auto layer =
+      canvas.layer(fmt::format("final-legs-{}", name_of(bundle.state)), page.frame().rect);
+  Pen pen = bundle.pen;
+  if (bundle.count > 60) pen.width_pt *= 0.6;
+  std::size_t drawn = 0;
+  for (const Flight& flight : flights) {
+    const FinalLeg& leg = flight.final_leg;
+    if (leg.state != bundle.state || drawn == most_drawn) continue;
+    ++drawn;
+    if (leg.state == FinalLegState::none_clear) {
+      const Vec2 at = page.frame().to_page(leg.entry.position_m);
+      canvas.stroke(crossing_strokes(at, refused_arm_pt), bundle.pen);
+    } else {
+      const DrawingPath path = segments_path(leg.segments, page.frame());
+      canvas.stroke(thinned(path, unseen_pt), pen);
+    }
+  }
+}
+
 }  // namespace
 
 Picture draw_flights(const Plan& plan, std::span<const Flight> flights,
@@ -107,8 +174,11 @@ Picture draw_flights(const Plan& plan, std::span<const Flight> flights,
   const bool by_name = !options.names.empty();
   const auto bundles =
       by_name ? bundles_by_name(flights, options.names) : bundles_by_outcome(flights);
+  const auto legs = leg_bundles(flights);
   std::vector<LegendEntry> entries;
   for (const Bundle& bundle : bundles) entries.push_back(line_entry(bundle.label, bundle.pen));
+
+  for (const LegBundle& bundle : legs) entries.push_back(leg_entry(bundle));
 
   // Every outcome keeps its fair part: the few that collide matter more than the many that do not.
   std::vector<std::size_t> drawn(bundles.size(), 0);
@@ -130,8 +200,12 @@ Picture draw_flights(const Plan& plan, std::span<const Flight> flights,
   MapPage page(plan,
                {options.title, false, options.mission, options.frame_pt, options.pixels_per_pt},
                std::move(entries));
-  page.mark_mission();
+  if (legs.empty()) page.mark_mission();
   for (std::size_t k = 0; k < bundles.size(); ++k) draw_bundle(page, bundles[k], drawn[k]);
+  for (const LegBundle& bundle : legs) {
+    draw_legs(page, bundle, flights, static_cast<std::size_t>(options.most_drawn));
+  }
+  if (!legs.empty()) page.mark_mission();  // the goal's arrow is what they are about
   return page.finish();
 }
 

@@ -2,6 +2,8 @@
 //
 // Without names, colour and dash tell the outcome and the legend counts them over all flights.
 // With names (one per flight), colour and dash tell the name, as in a figure that compares plans.
+// Final legs are drawn over the flights with strokes of their own: solid where the leg is the
+// shortest path, dashed where it is another approach; a cross where no approach is clear.
 #pragma once
 
 #include <optional>

@@ -160,6 +160,30 @@ TEST(DrawFlights, NamesReplaceOutcomesAndEqualNamesShareAStyle) {
                ContractViolation);
 }
 
+TEST(DrawFlights, FinalLegsHaveStrokesOfTheirOwnAndTheGoalsArrowOnTop) {
+  std::vector<Flight> flights(4, flight_of({{100.0, 100.0}, Heading()}, {{50.0, 0.0}}));
+  const std::array states{FinalLegState::shortest, FinalLegState::shortest, FinalLegState::other,
+                          FinalLegState::none_clear};
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    FinalLeg& leg = flights[i].final_leg;
+    leg.state = states[i];
+    leg.entry = end_of(flights[i].segments.back());
+    if (leg.state != FinalLegState::none_clear) leg.segments = {{leg.entry, 5.0, 30.0, 0.05}};
+  }
+  const Picture picture = draw_flights(open_water(), flights,
+                                       {.mission = GoalMission{{165.0, 120.0}, 1.5}, .names = {}});
+  EXPECT_TRUE(has_text(picture.svg, "last leg, shortest (2)"));
+  EXPECT_TRUE(has_text(picture.svg, "last leg, another way (1)"));
+  EXPECT_TRUE(has_text(picture.svg, "no clear last leg (1)"));
+  EXPECT_EQ(testing::elements_of_layer(picture.svg, "final-legs-shortest").size(), 2U);
+  const auto other = testing::elements_of_layer(picture.svg, "final-legs-other");
+  ASSERT_EQ(other.size(), 1U);
+  EXPECT_TRUE(other.front().attributes.contains("stroke-dasharray"));
+  EXPECT_LT(picture.svg.find("final-legs-shortest"), picture.svg.find("id=\"mission\""));
+  const Picture without = draw_flights(open_water(), std::vector{flight_of({}, {{5.0, 0.0}})}, {});
+  EXPECT_EQ(without.svg.find("final-legs"), std::string::npos);
+}
+
 TEST(DrawFlights, NoFlightsUnrecordedFlightsAndAnEmptyPlanGivePictures) {
   EXPECT_TRUE(has_layer(draw_flights(open_water(), {}, {}).svg, "axes"));
   const std::vector<Flight> bare(2, Flight{{{1.0, 1.0}, Heading()}, {}, {}});

@@ -21,13 +21,13 @@ void add_piece(DrawingPath& path, const FlightSegment& piece, const PlotFrame& f
 
 }  // namespace
 
-DrawingPath flight_path(const Flight& flight, const PlotFrame& frame) {
+DrawingPath segments_path(std::span<const FlightSegment> segments, const PlotFrame& frame) {
   DrawingPath path;
-  if (flight.segments.empty()) return path;
-  path.move_to(frame.to_page(flight.segments.front().start.position_m));
-  FlightSegment piece = flight.segments.front();
-  for (std::size_t i = 1; i < flight.segments.size(); ++i) {
-    const FlightSegment& next = flight.segments[i];
+  if (segments.empty()) return path;
+  path.move_to(frame.to_page(segments.front().start.position_m));
+  FlightSegment piece = segments.front();
+  for (std::size_t i = 1; i < segments.size(); ++i) {
+    const FlightSegment& next = segments[i];
     const bool same_line =
         next.curvature_per_m == piece.curvature_per_m &&
         (piece.curvature_per_m != 0.0 || next.start.heading == piece.start.heading);

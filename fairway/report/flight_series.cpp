@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "fairway/base/error.hpp"
@@ -25,14 +26,16 @@ ChartSeries heading_over_time(const Flight& flight, double speed_mps, std::strin
   require(speed_mps > 0.0, "a speed is positive");
   ChartSeries series{std::move(name), {}, {}, {}};
   double heading_rad = flight.start.heading.rad();
-  for (const FlightSegment& piece : flight.segments) {
-    // The nearest of the angles that mean this heading: no jump of 2 pi.
-    heading_rad += Heading::from_rad(heading_rad).turn_to(piece.start.heading);
-    series.x.push_back(piece.time_s);
-    series.y.push_back(heading_rad);
-    heading_rad += piece.curvature_per_m * piece.length_m;
-    series.x.push_back(piece.time_s + piece.length_m / speed_mps);
-    series.y.push_back(heading_rad);
+  for (const auto& segments : {std::span(flight.segments), std::span(flight.final_leg.segments)}) {
+    for (const FlightSegment& piece : segments) {
+      // The nearest of the angles that mean this heading: no jump of 2 pi.
+      heading_rad += Heading::from_rad(heading_rad).turn_to(piece.start.heading);
+      series.x.push_back(piece.time_s);
+      series.y.push_back(heading_rad);
+      heading_rad += piece.curvature_per_m * piece.length_m;
+      series.x.push_back(piece.time_s + piece.length_m / speed_mps);
+      series.y.push_back(heading_rad);
+    }
   }
   return series;
 }

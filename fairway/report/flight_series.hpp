@@ -10,7 +10,7 @@
 namespace fairway {
 
 /// Heading against time (Figs. 6b, 8a): seconds, radians, unwrapped, that is, without jumps of
-/// 2 pi. Exact: one point at each end of every piece.
+/// 2 pi; the final leg, if there is one, goes on. Exact: one point at each end of every piece.
 [[nodiscard]] ChartSeries heading_over_time(const Flight& flight, double speed_mps,
                                             std::string name);
 

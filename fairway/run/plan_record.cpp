@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fairway/base/digest.hpp"
+#include "fairway/base/error.hpp"
 #include "fairway/base/strict_json.hpp"
 #include "fairway/map/tangent_plane.hpp"
 #include "fairway/run/scenario_keys.hpp"
@@ -102,6 +103,26 @@ std::optional<GeoReference> georeference_of(const Plan& plan, const std::string&
   return GeoReference{finite_number(geo, "latitude_deg", place),
                       finite_number(geo, "longitude_deg", place),
                       finite_number(geo, "worst_error_m", place)};
+}
+
+std::optional<State> goal_pose_of(const Plan& plan, const std::string& where) {
+  const json record = parse_strict_json(plan.record_json, where);
+  const std::string place = where + ": fairway.mission";
+  if (!record.contains("mission") || !record["mission"].is_object()) return {};
+  const json& mission = record["mission"];
+  if (!mission.contains("goal_heading_rad") || mission["goal_heading_rad"].is_null()) return {};
+  const double heading_rad = finite_number(mission, "goal_heading_rad", place);
+  const json& goal = member(mission, "goal_m", place);
+  const auto is_in = [&](std::size_t axis, double low, double size) {
+    return goal[axis].is_number() && goal[axis].get<double>() >= low &&
+           goal[axis].get<double>() <= low + size;
+  };
+  const Grid& grid = plan.grid;
+  if (!goal.is_array() || goal.size() != 2 || !is_in(0, grid.x0_m, grid.width_m()) ||
+      !is_in(1, grid.y0_m, grid.height_m())) {
+    throw InputError(place + ".goal_m", "expected [x, y] on the plan's grid, found " + shown(goal));
+  }
+  return State{{goal[0].get<double>(), goal[1].get<double>()}, Heading::from_rad(heading_rad)};
 }
 
 LonLatOf lon_lat_of(const std::optional<GeoReference>& georeference) {

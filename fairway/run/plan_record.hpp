@@ -31,6 +31,11 @@ namespace fairway {
 [[nodiscard]] std::optional<GeoReference> georeference_of(const Plan& plan,
                                                           const std::string& where);
 
+/// Where the plan's mission wants the vehicle, and with which heading; none when its goal has no
+/// heading, it follows a path, or the plan is of other origin. Throws InputError{where, ...} when
+/// it is there but damaged.
+[[nodiscard]] std::optional<State> goal_pose_of(const Plan& plan, const std::string& where);
+
 /// Degrees on earth of a point of the frame; empty without a reference point.
 [[nodiscard]] LonLatOf lon_lat_of(const std::optional<GeoReference>& georeference);
 

@@ -71,6 +71,9 @@ std::string flight_words(const ScenarioFlights& flown) {
     words += fmt::format("Of {} in the scenario, {} reach. ", plural(flown.given, "state"),
                          counts.of(Outcome::reach));
   }
+  if (const std::string legs = final_legs_words(flown.final_legs); !legs.empty()) {
+    words += legs + " ";
+  }
   return words;
 }
 
@@ -79,6 +82,7 @@ void add_flights(json& summary, const Scenario& scenario, const ScenarioFlights&
   summary["random_flights"]["seed"] = scenario.simulate.seed;
   summary["given_flights"] = outcome_json(count_outcomes(flown.given_results()));
   summary["recorded_flights"] = flown.recorded.size();
+  summary["final_legs"] = final_legs_json(flown.final_legs);
 }
 
 /// map -> field -> plan, what both commands begin with.

@@ -14,6 +14,8 @@
 namespace fairway {
 namespace {
 
+namespace fs = std::filesystem;
+
 void write(const Picture& picture, const std::filesystem::path& folder, const std::string& name) {
   write_whole(folder / (name + ".svg"), Existing::keep, picture.svg);
   write_whole(folder / (name + ".png"), Existing::keep, picture.png);
@@ -24,6 +26,54 @@ std::string name_of_start(const State& start) {
                      start.heading.rad());
 }
 
+/// The cells of the plan that a window touches, and one more on each side.
+Plan part_of(const Plan& plan, Vec2 low_m, Vec2 high_m) {
+  const Grid& grid = plan.grid;
+  const Cell low = grid.cell_of(low_m);
+  const Cell high = grid.cell_of(high_m);
+  const int x0 = std::clamp(low.ix - 1, 0, grid.nx - 1);
+  const int y0 = std::clamp(low.iy - 1, 0, grid.ny - 1);
+  const int x1 = std::clamp(high.ix + 1, x0, grid.nx - 1);
+  const int y1 = std::clamp(high.iy + 1, y0, grid.ny - 1);
+  Plan part;
+  const Vec2 corner = grid.corner({x0, y0});
+  part.grid = {x1 - x0 + 1, y1 - y0 + 1, corner.x, corner.y, grid.cell_m};
+  part.vehicle = plan.vehicle;
+  for (int iy = y0; iy <= y1; ++iy) {
+    for (int ix = x0; ix <= x1; ++ix) {
+      const std::size_t i = grid.index({ix, iy});
+      part.heading_rad.push_back(plan.heading_rad[i]);
+      part.region.push_back(plan.region[i]);
+      part.cost_m.push_back(plan.cost_m[i]);
+    }
+  }
+  return part;
+}
+
+/// The part of the map that the last legs need.
+void write_final_legs(const Plan& plan, const Mission& mission, std::span<const Flight> flights,
+                      const std::string& title, const fs::path& folder) {
+  const auto* goal = std::get_if<GoalMission>(&mission);
+  if (goal == nullptr || !goal->goal_heading_rad) return;
+  const double room_m = 2.0 * plan.vehicle.turn_radius_m;
+  Vec2 low = goal->goal_m;
+  Vec2 high = low;
+  for (const Flight& flight : flights) {
+    for (const FlightSegment& piece : flight.final_leg.segments) {
+      const double step_m = 0.25 * plan.vehicle.turn_radius_m;
+      for (double at_m = 0.0; at_m < piece.length_m + step_m; at_m += step_m) {
+        const Vec2 p = state_at(piece, std::min(at_m, piece.length_m)).position_m;
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+      }
+    }
+  }
+  const Vec2 room{room_m, room_m};
+  const Plan near = part_of(plan, low - room, high + room);
+  write(draw_flights(near, flights, {.title = title, .mission = mission, .names = {}}), folder,
+        "final_legs");
+}
+
 }  // namespace
 
 void write_run_pictures(const Plan& plan, const Mission& mission, const ScenarioFlights& flown,
@@ -31,6 +81,7 @@ void write_run_pictures(const Plan& plan, const Mission& mission, const Scenario
   write(draw_plan(plan, {.title = title, .mission = mission}), folder, "plan");
   write(draw_flights(plan, flown.recorded, {.title = title, .mission = mission, .names = {}}),
         folder, "flights");
+  write_final_legs(plan, mission, flown.recorded, title, folder);
 
   // Charts of more than a few lines say nothing: those of the given states, else the first ones.
   constexpr std::size_t most_lines = 6;

@@ -1,4 +1,5 @@
-// The pictures of a run: plan, flights, headings and, for paths, distances.
+// The pictures of a run: plan, flights, headings; for paths, distances; for goals with a heading,
+// the last legs from near.
 #pragma once
 
 #include <array>
@@ -12,7 +13,8 @@
 namespace fairway {
 
 /// Names of the pictures a run may have, without extension.
-inline constexpr std::array<const char*, 4> run_pictures{"plan", "flights", "headings", "distance"};
+inline constexpr std::array<const char*, 5> run_pictures{"plan", "flights", "headings", "distance",
+                                                         "final_legs"};
 
 /// Writes NAME.svg and NAME.png into `folder` for every picture.
 void write_run_pictures(const Plan& plan, const Mission& mission, const ScenarioFlights& flown,

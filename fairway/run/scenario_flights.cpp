@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
+#include "fairway/run/plan_record.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/simulate/start_states.hpp"
 
@@ -43,6 +45,29 @@ Flight recorded(const ExactFlights& flights, const Plan& plan, const Mission& mi
   return flights.follow(start, approach_m + length_m(*path));
 }
 
+/// The last leg of every flight that reaches: kept with the recorded ones, counted for all.
+void steer_to_heading(const ExactFlights& flights, const FinalLegs& legs, ScenarioFlights& flown) {
+  FinalLegTally tally;
+  constexpr std::size_t batch = 1000;
+  for (std::size_t done = 0; done < flown.starts.size(); done += batch) {
+    std::vector<Flight> part(std::min(batch, flown.starts.size() - done));
+    for_ranges(part.size(), 8, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (flown.results[done + i].outcome != Outcome::reach) continue;
+        part[i] = flights.record(flown.starts[done + i]);
+        part[i].final_leg = legs.leg_of(part[i]);
+      }
+    });
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      tally.add(part[i], legs.goal());
+      if (done + i < flown.recorded.size()) {
+        flown.recorded[done + i].final_leg = std::move(part[i].final_leg);
+      }
+    }
+  }
+  flown.final_legs = tally;
+}
+
 }  // namespace
 
 ScenarioFlights fly_scenario(const Scenario& scenario, const Plan& plan, const Mission& mission,
@@ -76,6 +101,9 @@ ScenarioFlights fly_scenario(const Scenario& scenario, const Plan& plan, const M
       flown.recorded[i] = recorded(flights, plan, mission, starts[i]);
     }
   });
+  if (const auto goal = goal_pose_of(plan, scenario.file.string())) {
+    steer_to_heading(flights, FinalLegs(plan, *goal), flown);
+  }
   return flown;
 }
 

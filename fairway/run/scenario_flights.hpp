@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "fairway/plan/plan.hpp"
+#include "fairway/run/final_legs.hpp"
 #include "fairway/run/scenario.hpp"
 #include "fairway/run/stage_clock.hpp"
 #include "fairway/simulate/flight.hpp"
@@ -14,18 +16,20 @@
 namespace fairway {
 
 struct ScenarioFlights {
-  std::size_t given = 0;              ///< how many of the starts stand in the scenario
-  std::vector<State> starts;          ///< given, then random
-  std::vector<FlightResult> results;  ///< one per start
-  std::vector<Flight> recorded;       ///< the given ones, then the first `simulate.random`
+  std::size_t given = 0;                    ///< how many of the starts stand in the scenario
+  std::vector<State> starts;                ///< given, then random
+  std::vector<FlightResult> results;        ///< one per start
+  std::vector<Flight> recorded;             ///< the given ones, then the first `simulate.random`
+  std::optional<FinalLegTally> final_legs;  ///< of all starts, when the goal has a heading
 
   std::span<const FlightResult> given_results() const { return std::span(results).first(given); }
   std::span<const FlightResult> random_results() const { return std::span(results).subspan(given); }
 };
 
 /// Flies max(simulate.random, simulate.sample) random safe starts and the given ones. Flights of
-/// path missions are recorded beyond their first goal cell, along the path. Throws InputError at
-/// simulate.states when one lies outside the grid. `after_s`: what the run will take afterwards.
+/// path missions are recorded beyond their first goal cell, along the path; those to a goal with a
+/// heading are given their last leg. Throws InputError at simulate.states when one lies outside the
+/// grid. `after_s`: what the run will take afterwards.
 [[nodiscard]] ScenarioFlights fly_scenario(const Scenario& scenario, const Plan& plan,
                                            const Mission& mission, const StageClock& clock,
                                            double after_s);

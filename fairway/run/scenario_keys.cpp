@@ -173,9 +173,10 @@ std::vector<ScenarioKey> vehicle_and_mission_keys() {
           "goal missions: where to, metres in the map's frame"),
       key("mission.goal_deg", "[latitude, longitude]", degrees, FAIRWAY_MEMBER(mission.goal_deg),
           "goal missions on maps in degrees: instead of `mission.goal_m`"),
-      number("mission.goal_heading_rad", Range{-7.0, 7.0}, FAIRWAY_MEMBER(mission.goal_heading_rad),
-             "heading to arrive with, radians counter-clockwise from east; recorded for the "
-             "steering inside the goal disc"),
+      number(
+          "mission.goal_heading_rad", Range{-7.0, 7.0}, FAIRWAY_MEMBER(mission.goal_heading_rad),
+          "heading to arrive with, radians counter-clockwise from east: steering takes over where "
+          "a flight enters the goal"),
       key("mission.path_file", "file", any_finite, FAIRWAY_MEMBER(mission.path_file),
           "path missions: CSV with x_m,y_m, GeoJSON LineString, QGC waypoints or .plan"),
       key("mission.closed", "true or false", any_finite, FAIRWAY_MEMBER(mission.closed),

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "fairway/vehicle/vehicle.hpp"
@@ -56,10 +57,52 @@ inline State state_at(const FlightSegment& piece, double along_m) {
   return {p + chord_m * middle, Heading::from_rad(piece.start.heading.rad() + turned)};
 }
 
+/// How a flight that reached goes on, where the goal has a heading.
+enum class FinalLegState : std::uint8_t {
+  not_asked,  ///< the goal has no heading, or the flight does not reach
+  shortest,   ///< by the shortest path, which touches no obstacle
+  other,      ///< by another approach that touches none, as the shortest path would
+  none_clear  ///< every approach that was tried touches an obstacle: there is no leg
+};
+
+/// The name used in files and on screen.
+constexpr const char* name_of(FinalLegState state) {
+  switch (state) {
+    case FinalLegState::not_asked:
+      return "not_asked";
+    case FinalLegState::shortest:
+      return "shortest";
+    case FinalLegState::other:
+      return "other";
+    case FinalLegState::none_clear:
+      return "none_clear";
+  }
+  return "";
+}
+
+/// From where a flight entered a goal cell to the goal's pose. No part of the flight's result: an
+/// outcome is reach once a goal cell is entered.
+struct FinalLeg {
+  FinalLegState state = FinalLegState::not_asked;
+  State entry;                          ///< where the flight entered the goal cell
+  std::string word;                     ///< "LSL"; "S+LSR": straight on first
+  double time_s = 0.0;                  ///< of the leg alone
+  double length_m = 0.0;                ///< of the leg alone
+  std::vector<FlightSegment> segments;  ///< joined end to end; their time goes on from the flight's
+};
+
 struct Flight {
   State start;
   FlightResult result;
   std::vector<FlightSegment> segments;  ///< joined end to end; recorded only when asked for
+  FinalLeg final_leg = {};
 };
+
+/// The state in which a recorded flight ended.
+inline State end_of(const Flight& flight) {
+  return flight.segments.empty()
+             ? flight.start
+             : state_at(flight.segments.back(), flight.segments.back().length_m);
+}
 
 }  // namespace fairway

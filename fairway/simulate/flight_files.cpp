@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "fairway/base/error.hpp"
 
@@ -56,17 +57,18 @@ void append_position(std::string& text, Vec2 p, const LonLatOf& lon_lat_of) {
   text += ']';
 }
 
-void append_geometry(std::string& text, const Flight& flight, double step_m,
-                     const LonLatOf& lon_lat_of) {
-  if (flight.segments.empty()) {
+/// A LineString along the pieces, or a Point when there are none.
+void append_geometry(std::string& text, const State& start, std::span<const FlightSegment> segments,
+                     double step_m, const LonLatOf& lon_lat_of) {
+  if (segments.empty()) {
     text += "{\"type\":\"Point\",\"coordinates\":";
-    append_position(text, flight.start.position_m, lon_lat_of);
+    append_position(text, start.position_m, lon_lat_of);
     text += '}';
     return;
   }
   text += "{\"type\":\"LineString\",\"coordinates\":[";
-  append_position(text, flight.segments.front().start.position_m, lon_lat_of);
-  for (const FlightSegment& piece : flight.segments) {
+  append_position(text, segments.front().start.position_m, lon_lat_of);
+  for (const FlightSegment& piece : segments) {
     // A straight line needs its end alone.
     const double chord_m = piece.curvature_per_m == 0.0 ? piece.length_m : step_m;
     for_steps(piece, chord_m, [&](const FlightSegment& p, double along_m) {
@@ -106,23 +108,65 @@ std::string outcomes_csv(std::span<const State> starts, std::span<const FlightRe
 
 std::string trajectories_csv(std::span<const Flight> flights, double speed_mps, double step_m) {
   require(speed_mps > 0.0 && step_m > 0.0, "speed and step are positive");
-  std::string text = "flight,time_s,x_m,y_m,heading_rad,curvature_per_m\n";
+  std::string text = "flight,time_s,x_m,y_m,heading_rad,curvature_per_m,final_leg\n";
   for (std::size_t i = 0; i < flights.size(); ++i) {
     const std::string number = std::to_string(i) + ',';
-    for (const FlightSegment& piece : flights[i].segments) {
-      for_steps(piece, step_m, [&](const FlightSegment& p, double along_m) {
-        text += number;
-        append(text, p.time_s + along_m / speed_mps);
-        text += ',';
-        append_state(text, state_at(p, along_m));
-        text += ',';
-        append(text, p.curvature_per_m);
-        text += '\n';
-      });
-    }
+    const auto add = [&](std::span<const FlightSegment> segments, const char* final_leg) {
+      for (const FlightSegment& piece : segments) {
+        for_steps(piece, step_m, [&](const FlightSegment& p, double along_m) {
+          text += number;
+          append(text, p.time_s + along_m / speed_mps);
+          text += ',';
+          append_state(text, state_at(p, along_m));
+          text += ',';
+          append(text, p.curvature_per_m);
+          text += final_leg;
+        });
+      }
+    };
+    add(flights[i].segments, ",0\n");
+    add(flights[i].final_leg.segments, ",1\n");
   }
   return text;
 }
+
+namespace {
+
+void append_flight(std::string& text, std::size_t number, const Flight& flight, double step_m,
+                   const LonLatOf& lon_lat_of) {
+  text += "{\"type\":\"Feature\",\"properties\":{\"flight\":" + std::to_string(number);
+  text += ",\"outcome\":\"";
+  text += name_of(flight.result.outcome);
+  text += "\",\"time_s\":";
+  append_or_null(text, flight.result.time_s);
+  text += ",\"length_m\":";
+  append_or_null(text, flight.result.length_m);
+  if (flight.final_leg.state != FinalLegState::not_asked) {
+    text += ",\"final_leg\":\"";
+    text += name_of(flight.final_leg.state);
+    text += '"';
+  }
+  text += "},\"geometry\":";
+  append_geometry(text, flight.start, flight.segments, step_m, lon_lat_of);
+  text += '}';
+}
+
+void append_final_leg(std::string& text, std::size_t number, const Flight& flight, double step_m,
+                      const LonLatOf& lon_lat_of) {
+  const FinalLeg& leg = flight.final_leg;
+  text += "{\"type\":\"Feature\",\"properties\":{\"flight\":" + std::to_string(number);
+  text += ",\"final_leg\":\"";
+  text += name_of(leg.state);
+  text += "\",\"word\":\"" + leg.word + "\",\"time_s\":";
+  append(text, leg.time_s);
+  text += ",\"length_m\":";
+  append(text, leg.length_m);
+  text += "},\"geometry\":";
+  append_geometry(text, leg.entry, leg.segments, step_m, lon_lat_of);
+  text += '}';
+}
+
+}  // namespace
 
 std::string flights_geojson(std::span<const Flight> flights, double step_m,
                             const LonLatOf& lon_lat_of) {
@@ -132,18 +176,15 @@ std::string flights_geojson(std::span<const Flight> flights, double step_m,
     text += "\"note\":\"coordinates are metres in the map's frame, not longitude and latitude\",";
   }
   text += "\"features\":[";
+  const char* before = "\n";
   for (std::size_t i = 0; i < flights.size(); ++i) {
-    text += i == 0 ? "\n" : ",\n";
-    text += "{\"type\":\"Feature\",\"properties\":{\"flight\":" + std::to_string(i);
-    text += ",\"outcome\":\"";
-    text += name_of(flights[i].result.outcome);
-    text += "\",\"time_s\":";
-    append_or_null(text, flights[i].result.time_s);
-    text += ",\"length_m\":";
-    append_or_null(text, flights[i].result.length_m);
-    text += "},\"geometry\":";
-    append_geometry(text, flights[i], step_m, lon_lat_of);
-    text += '}';
+    text += std::exchange(before, ",\n");
+    append_flight(text, i, flights[i], step_m, lon_lat_of);
+  }
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    if (flights[i].final_leg.segments.empty()) continue;
+    text += std::exchange(before, ",\n");
+    append_final_leg(text, i, flights[i], step_m, lon_lat_of);
   }
   text += "\n]}\n";
   return text;

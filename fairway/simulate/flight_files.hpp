@@ -18,8 +18,9 @@ namespace fairway {
 [[nodiscard]] std::string outcomes_csv(std::span<const State> starts,
                                        std::span<const FlightResult> results);
 
-/// `flight,time_s,x_m,y_m,heading_rad,curvature_per_m`: a line at each end of every piece and at
-/// least every `step_m` between; flight counts from 0; the curvature is that of the piece.
+/// `flight,time_s,x_m,y_m,heading_rad,curvature_per_m,final_leg`: a line at each end of every piece
+/// and at least every `step_m` between; flight counts from 0; the curvature is that of the piece;
+/// final_leg is 1 on the leg to the goal's heading, which follows the flight, and 0 before it.
 [[nodiscard]] std::string trajectories_csv(std::span<const Flight> flights, double speed_mps,
                                            double step_m);
 
@@ -31,7 +32,9 @@ struct LonLat {
 using LonLatOf = std::function<LonLat(Vec2 position_m)>;
 
 /// A FeatureCollection (RFC 7946): per flight a LineString (a Point when it does not move) with the
-/// properties flight, outcome, time_s, length_m (null when trapped). Arcs become chords of at most
+/// properties flight, outcome, time_s, length_m (null when trapped) and, when the goal has a
+/// heading and the flight reaches, final_leg. After all of them, per final leg a LineString with
+/// the properties flight, final_leg, word, time_s, length_m. Arcs become chords of at most
 /// `step_m`. Without `lon_lat_of` coordinates are metres and a member `note` says so.
 [[nodiscard]] std::string flights_geojson(std::span<const Flight> flights, double step_m,
                                           const LonLatOf& lon_lat_of = {});

@@ -46,7 +46,7 @@ TEST(FlightFiles, samples_trajectories_no_farther_apart_than_asked) {
   std::istringstream lines(trajectories_csv(flights, 4.0, 1.0));
   std::string line;
   std::getline(lines, line);
-  EXPECT_EQ(line, "flight,time_s,x_m,y_m,heading_rad,curvature_per_m");
+  EXPECT_EQ(line, "flight,time_s,x_m,y_m,heading_rad,curvature_per_m,final_leg");
   double last_s = 0.0;
   double x = 0.0;
   double y = 0.0;
@@ -69,6 +69,63 @@ TEST(FlightFiles, samples_trajectories_no_farther_apart_than_asked) {
   EXPECT_NEAR(x, 11.0, 1e-12);
   EXPECT_NEAR(y, 17.0, 1e-12);
   EXPECT_NEAR(last_s, flights[0].result.time_s, 1e-12);
+}
+
+/// The same, and then straight on for 4 m.
+Flight with_final_leg() {
+  Flight flight = quarter_and_straight();
+  flight.final_leg.state = FinalLegState::other;
+  flight.final_leg.entry = end_of(flight);
+  flight.final_leg.word = "S+LSL";
+  flight.final_leg.time_s = 1.0;
+  flight.final_leg.length_m = 4.0;
+  flight.final_leg.segments = {{end_of(flight), flight.result.time_s, 4.0, 0.0}};
+  return flight;
+}
+
+TEST(FlightFiles, marks_the_final_leg_that_follows_a_flight) {
+  const Flight flight = with_final_leg();
+  std::istringstream lines(trajectories_csv(std::vector{flight}, 4.0, 1.0));
+  std::string line;
+  std::getline(lines, line);
+  int before = 0;
+  int after = 0;
+  std::string last;
+  while (std::getline(lines, line)) {
+    (line.ends_with(",1") ? after : before) += 1;
+    EXPECT_TRUE(line.ends_with(after > 0 ? ",1" : ",0")) << line;  // it comes last
+    last = line;
+  }
+  EXPECT_EQ(before, 17 + 6);
+  EXPECT_EQ(after, 5);
+  std::istringstream fields(last);
+  double value = 0.0;
+  char comma = 0;
+  std::vector<double> row;
+  while (fields >> value) {
+    row.push_back(value);
+    fields >> comma;
+  }
+  EXPECT_NEAR(row[1], flight.result.time_s + 1.0, 1e-12);
+  EXPECT_NEAR(row[3], 21.0, 1e-12);
+}
+
+TEST(FlightFiles, geojson_has_the_final_legs_after_all_flights) {
+  Flight refused = quarter_and_straight();
+  refused.final_leg.state = FinalLegState::none_clear;
+  const auto json = nlohmann::json::parse(
+      flights_geojson(std::vector{with_final_leg(), refused, quarter_and_straight()}, 1.0));
+  const auto& features = json["features"];
+  ASSERT_EQ(features.size(), 4U);
+  EXPECT_EQ(features[0]["properties"]["final_leg"], "other");
+  EXPECT_EQ(features[1]["properties"]["final_leg"], "none_clear");
+  EXPECT_FALSE(features[2]["properties"].contains("final_leg"));
+  EXPECT_EQ(features[3]["properties"], (nlohmann::json{{"flight", 0},
+                                                       {"final_leg", "other"},
+                                                       {"word", "S+LSL"},
+                                                       {"time_s", 1.0},
+                                                       {"length_m", 4.0}}));
+  EXPECT_EQ(features[3]["geometry"]["coordinates"], (nlohmann::json{{11.0, 17.0}, {11.0, 21.0}}));
 }
 
 TEST(FlightFiles, writes_geojson_that_parses_in_metres_and_in_degrees) {

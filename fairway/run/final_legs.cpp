@@ -1,0 +1,125 @@
+#include "fairway/run/final_legs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "fairway/steer/clear_approach.hpp"
+#include "fairway/steer/dubins_words.hpp"
+
+namespace fairway {
+namespace {
+
+using nlohmann::json;
+
+/// Appends the parts of a path to a leg.
+void append(FinalLeg& leg, const DubinsPath& path, double end_time_s, double speed_mps) {
+  State at = path.start;
+  for (int i = 0; i < 3; ++i) {
+    const double part_m = path.part_m[static_cast<std::size_t>(i)];
+    if (!(part_m > 0.0)) continue;
+    const double per_m = turn_of(path.word, i) / path.turn_radius_m;
+    leg.segments.push_back({at, end_time_s + leg.length_m / speed_mps, part_m, per_m});
+    leg.length_m += part_m;
+    at = driven(at, part_m, per_m);
+  }
+  leg.time_s = leg.length_m / speed_mps;
+}
+
+/// "L", "R" or "S": what a lead of one part does.
+std::string word_of_lead(const DubinsPath& lead) {
+  for (int i = 0; i < 3; ++i) {
+    if (!(lead.part_m[static_cast<std::size_t>(i)] > 0.0)) continue;
+    return turn_of(lead.word, i) == 0 ? "S" : turn_of(lead.word, i) > 0 ? "L" : "R";
+  }
+  return "";
+}
+
+json state_json(const State& s) { return {s.position_m.x, s.position_m.y, s.heading.rad()}; }
+
+}  // namespace
+
+FinalLegs::FinalLegs(const Plan& plan, const State& goal)
+    : grid_(plan.grid), vehicle_(plan.vehicle), goal_(goal), blocked_(plan.region.size()) {
+  std::transform(plan.region.begin(), plan.region.end(), blocked_.begin(),
+                 [](Region region) { return region == Region::obstacle ? 1 : 0; });
+}
+
+FinalLeg FinalLegs::leg_of(const Flight& flight) const {
+  FinalLeg leg;
+  if (flight.result.outcome != Outcome::reach) return leg;
+  leg.entry = end_of(flight);
+  const BlockedCells cells{grid_, blocked_, true};
+  const double end_time_s = flight.result.time_s;
+  const DubinsPath shortest = shortest_path(leg.entry, goal_, vehicle_.turn_radius_m);
+  if (is_clear(shortest, cells)) {
+    leg.state = FinalLegState::shortest;
+    leg.word = name_of(shortest.word);
+    append(leg, shortest, end_time_s, vehicle_.speed_mps);
+    return leg;
+  }
+  const auto approach = first_clear_approach(leg.entry, goal_, vehicle_.turn_radius_m, cells);
+  if (!approach) {
+    leg.state = FinalLegState::none_clear;
+    return leg;
+  }
+  leg.state = FinalLegState::other;
+  const std::string lead = word_of_lead(approach->lead);
+  leg.word = lead + (lead.empty() ? "" : "+") + name_of(approach->path.word);
+  append(leg, approach->lead, end_time_s, vehicle_.speed_mps);
+  append(leg, approach->path, end_time_s, vehicle_.speed_mps);
+  return leg;
+}
+
+void FinalLegTally::add(const Flight& flight, const State& goal) {
+  const FinalLeg& leg = flight.final_leg;
+  if (leg.state == FinalLegState::not_asked) return;
+  ++count;
+  if (leg.state == FinalLegState::none_clear) {
+    ++none_clear;
+    if (!first_refused) first_refused = {flight.start, leg.entry};
+    return;
+  }
+  ++(leg.state == FinalLegState::shortest ? shortest : other);
+  longest_m = std::max(longest_m, leg.length_m);
+  const State end = leg.segments.empty()
+                        ? leg.entry
+                        : state_at(leg.segments.back(), leg.segments.back().length_m);
+  worst_end_error_m = std::max(worst_end_error_m, norm(end.position_m - goal.position_m));
+  worst_end_error_rad = std::max(worst_end_error_rad, std::abs(end.heading.turn_to(goal.heading)));
+}
+
+json final_legs_json(const std::optional<FinalLegTally>& tally) {
+  if (!tally) return {};
+  json refused;
+  if (tally->first_refused) {
+    refused = {{"start", state_json(tally->first_refused->start)},
+               {"entry", state_json(tally->first_refused->entry)}};
+  }
+  return {{"count", tally->count},
+          {"shortest", tally->shortest},
+          {"other", tally->other},
+          {"none_clear", tally->none_clear},
+          {"longest_m", tally->longest_m},
+          {"worst_end_error_m", tally->worst_end_error_m},
+          {"worst_end_error_rad", tally->worst_end_error_rad},
+          {"first_none_clear", refused}};
+}
+
+std::string final_legs_words(const std::optional<FinalLegTally>& tally) {
+  if (!tally || tally->count == 0) return {};
+  std::string words = fmt::format(
+      "Of the {} flights that reach, {} go on to the goal's heading by the shortest path and {} by "
+      "another approach, all clear of obstacles; the longest leg is {:.1f} m.",
+      tally->count, tally->shortest, tally->other, tally->longest_m);
+  if (tally->none_clear > 0) {
+    words += fmt::format(
+        " For {} no approach that was tried is clear: they enter the goal but are not taken to its "
+        "heading.",
+        tally->none_clear);
+  }
+  return words;
+}
+
+}  // namespace fairway
