@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "fairway/base/interval.hpp"
+#include "fairway/verify/point_flight.hpp"
 #include "fairway/verify/section_flight.hpp"
 
 namespace fairway {
@@ -61,10 +62,11 @@ inline bool belongs(Interval p, Interval u, double cell_m) {
 
 }  // namespace state_flight
 
-/// Follows the state (x_m, y_m, heading_rad), any finite numbers, within 2^30 cells of the grid.
+/// Follows the state (x_m, y_m, heading_rad), any finite numbers, within 2^30 cells of the grid, as
+/// a set the size of rounding.
 template <typename Visitor>
-void follow_state(const Flow& flow, double x_m, double y_m, double heading_rad, int most_crossings,
-                  Visitor& visitor) {
+void follow_state_as_set(const Flow& flow, double x_m, double y_m, double heading_rad,
+                         int most_crossings, Visitor& visitor) {
   const double d = flow.size.cell_m;
   const IntervalVec2 u = state_flight::direction(heading_rad);
   const int cx = static_cast<int>(std::floor((x_m - flow.x0_m) / d));
@@ -91,6 +93,14 @@ void follow_state(const Flow& flow, double x_m, double y_m, double heading_rad, 
       follow_to_section(flow, front, most_crossings, visitor);
     }
   }
+}
+
+/// The same, with no set where plain doubles are beyond doubt.
+template <typename Visitor>
+void follow_state(const Flow& flow, double x_m, double y_m, double heading_rad, int most_crossings,
+                  Visitor& visitor) {
+  if (follow_point(flow, x_m, y_m, heading_rad, visitor)) return;
+  follow_state_as_set(flow, x_m, y_m, heading_rad, most_crossings, visitor);
 }
 
 }  // namespace fairway

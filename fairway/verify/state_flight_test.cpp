@@ -101,7 +101,7 @@ TEST(StateFlight, meets_one_of_the_things_told_from_every_cell_the_state_belongs
                     coordinate(random, flow.y0_m, flow.ny, flow.size.cell_m),
                     heading(random, flow)};
       Told told;
-      follow_state(flow, s.x_m, s.y_m, s.heading_rad, most_crossings, told);
+      follow_state_as_set(flow, s.x_m, s.y_m, s.heading_rad, most_crossings, told);
       if (told.gave_up) continue;
       ASSERT_FALSE(told.nothing());
       const WideVec<Wide> u = wide_unit<Wide>(s.heading_rad);

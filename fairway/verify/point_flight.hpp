@@ -1,0 +1,302 @@
+// A flight of one state to the section in plain doubles, for queries: several times as fast as the
+// same state followed as a set (state_flight.hpp), and it knows when it may not be believed.
+//
+// Every number stands for the exact one within a ball: place, heading and centre of the circle each
+// carry a bound of their error, per component. What happens next is decided by comparing numbers,
+// and each comparison must be won by far more than what the balls allow; else nothing is said, and
+// the set is to be followed. Near a border, a corner, a tangent, an opposite heading, always.
+//
+// Properties that always hold, when follow_point() says true:
+//   1. Exactly one thing was told to the visitor (section_flight.hpp): what the exact flight of the
+//      exact numbers meets, its place inside the interval told, within the length told.
+//   2. On its way it passes no corner and touches no border that it does not cross, by more than
+//      the balls: which cells it met is certain.
+// Error bounds (derived; docs/trust.md, lemma 7). Lengths by R, the turning radius, and d < R:
+//   centre       e_c = e_p + R e_u                               p -+ R (u_y, -u_x)
+//   crossing     e_t = e_c / R,  e_n = e_t / n                   t = (line - C) / R, n =
+//   sqrt(1-t^2) its place    e_p = e_c + R e_n                               C -+ R n aligned at
+//   e_a = e_c                                       C +- R (c_y, -c_x)
+// each 1.05 times, and `rounding` (2^-46) of the largest number in it more: no line has more than
+// 16 operations, each errs by 2^-53 of numbers up to 4 R.
+// Cost: a square root and a division for each of at most three sides a cell; one sine and cosine.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "fairway/base/interval.hpp"
+#include "fairway/verify/flow.hpp"
+#include "fairway/verify/verdict.hpp"
+
+namespace fairway {
+
+namespace point_flight {
+
+inline constexpr double rounding = 0x1p-46;
+/// No ball may be larger than this: of headings as it is, of places times cell_m.
+inline constexpr double most_error = 0x1p-20;
+/// By how much comparisons must be won: of sines as it is, of places times cell_m.
+inline constexpr double margin = 0x1p-14;
+/// Sides are crossed with an outward part of the heading of at least this; flatter is not followed.
+inline constexpr double flattest = 0x1p-5;
+/// In one cell of at most 0.95 R a vehicle turns by less than 85 degrees (its chord is at most
+/// sqrt(2) d), whose cosine is 0.09: what lies this far ahead comes after it has left.
+inline constexpr double far_ahead = 0.05;
+inline constexpr double largest_cell = 0.95;  // of R
+inline constexpr int most_cells = 64;
+
+/// The meeting of an arc with a side, or with the command.
+struct Event {
+  int side = -1;  // 0 right, 1 top, 2 left, 3 bottom, 4 the command; -1 none
+  double turned_sin = 2.0;
+  double turned_cos = 0.0;
+  double out = 0.0;    // the heading's part across the side, outwards
+  double along = 0.0;  // and along it: y for right and left, else x
+  double error = 0.0;  // of both parts
+};
+
+struct Point {
+  int ix, iy;
+  double x, y, error;      // in the cell's own coordinates
+  double ux, uy, u_error;  // unit vector
+  double cx = 0.0, cy = 0.0, c_error = 0.0;
+  int turn = 0;           // 0: not on a circle yet
+  double length_m = 0.0;  // never less than what was flown
+};
+
+/// Upper bound of the angle with this sine and cosine, up to 90 degrees. Huygens: 3 x <= 2 sin x +
+/// tan x, for x half of it. A component's error moves it by less than 3 times as much.
+inline double angle_above(double sine, double cosine, double error) {
+  const double half_cos = std::sqrt(0.5 * (1.0 + cosine));
+  return (2.0 / 3.0) * (sine / half_cos + sine / (1.0 + cosine)) + 4.0 * error + 4.0 * rounding;
+}
+
+template <typename Visitor>
+class Follower {
+ public:
+  Follower(const Flow& flow, Visitor& visitor)
+      : flow_(flow),
+        visitor_(visitor),
+        d_(flow.size.cell_m),
+        r_(flow.size.turn_radius_m),
+        per_r_(1.0 / r_) {}
+
+  bool follow(double x_m, double y_m, double heading_rad) {
+    if (!(d_ <= largest_cell * r_)) return false;
+    Point p{};
+    if (!place(x_m, flow_.x0_m, p.ix, p.x, p.error)) return false;
+    if (!place(y_m, flow_.y0_m, p.iy, p.y, p.error)) return false;
+    p.ux = std::cos(heading_rad);
+    p.uy = std::sin(heading_rad);
+    p.u_error = rounding;
+    if (met_end(p)) return true;
+    for (int cells = 0; cells < most_cells; ++cells) {
+      switch (cross(p)) {
+        case Step::unsure:
+          return false;
+        case Step::told:
+          return true;
+        case Step::onwards:
+          break;
+      }
+    }
+    return false;
+  }
+
+ private:
+  enum class Step { unsure, told, onwards };
+
+  bool is_between(double x) const { return x > margin * d_ && x < d_ - margin * d_; }
+
+  /// One coordinate inside its cell; false when it may be another's, or is not known well.
+  bool place(double x_m, double origin_m, int& cell, double& local_m, double& error) const {
+    const double after = x_m - origin_m;
+    const double number = std::floor(after / d_);
+    cell = static_cast<int>(number);
+    local_m = after - number * d_;
+    error = std::max(error, rounding * (std::abs(x_m) + std::abs(origin_m) + std::abs(after)));
+    return is_between(local_m) && error <= most_error * d_;
+  }
+
+  /// In a cell that ends the flight.
+  bool met_end(const Point& p) {
+    const CellKind kind = flow_.kind_at(p.ix, p.iy);
+    if (kind == CellKind::ordinary) return false;
+    visitor_.end(kind == CellKind::target     ? Verdict::reach
+                 : kind == CellKind::obstacle ? Verdict::collide
+                                              : Verdict::leave,
+                 p.length_m);
+    return true;
+  }
+
+  Step cross(Point& p) {
+    const double command = static_cast<double>(flow_.heading_rad[flow_.index(p.ix, p.iy)]);
+    if (std::isnan(command)) return go_straight_over(p);
+    const double cx = std::cos(command);
+    const double cy = std::sin(command);
+    const double left = p.ux * cy - p.uy * cx;
+    const double ahead = p.ux * cx + p.uy * cy;
+    if (std::abs(left) < margin) return Step::unsure;  // aligned, or opposite
+    const int turn = left > 0.0 ? 1 : -1;
+    const double kr = turn * r_;
+    if (p.turn != turn) {
+      p.turn = turn;
+      p.cx = p.x - kr * p.uy;
+      p.cy = p.y + kr * p.ux;
+      p.c_error = 1.05 * (p.error + r_ * p.u_error) + rounding * r_;
+    }
+    if (!(p.c_error <= most_error * d_ && p.u_error <= most_error)) return Step::unsure;
+
+    Event first;
+    double second_sin = 2.0;
+    if (ahead > far_ahead) {
+      first = {4, std::abs(left), ahead, 0.0, 0.0, p.u_error};
+    }
+    for (int side = 0; side < 4; ++side) {
+      Event event;
+      if (!crossing(p, side, event)) return Step::unsure;
+      if (event.side < 0) continue;
+      if (event.turned_sin < first.turned_sin) {
+        second_sin = first.turned_sin;
+        first = event;
+      } else {
+        second_sin = std::min(second_sin, event.turned_sin);
+      }
+    }
+    if (first.side < 0 || !(second_sin - first.turned_sin > margin)) return Step::unsure;
+    p.length_m += r_ * angle_above(first.turned_sin, first.turned_cos,
+                                   4.0 * std::max(p.u_error, first.error) + rounding);
+    if (first.side == 4) return go_aligned(p, p.cx + kr * cy, p.cy - kr * cx, cx, cy);
+    return go_over(p, first);
+  }
+
+  /// Where the circle crosses the side outwards, if that may be the next event. False: unsure.
+  bool crossing(const Point& p, int side, Event& event) const {
+    const bool vertical = side % 2 == 0;
+    const double outwards = side < 2 ? 1.0 : -1.0;
+    const double k = vertical ? p.turn : -p.turn;
+    const double u_out = outwards * (vertical ? p.ux : p.uy);
+    const double u_along = vertical ? p.uy : p.ux;
+    // After 90 degrees the heading is (-k' u_along, ...) in this frame. Every heading before is a
+    // sum of both with weights >= 0: out of this side in none when both point in.
+    const double last_out = -k * outwards * u_along;
+    if (u_out < 0.0 && last_out < 0.0) return true;
+    const double line = side < 2 ? d_ : 0.0;
+    const double t = k * (line - (vertical ? p.cx : p.cy)) * per_r_;
+    const double flat = 1.0 - t * t;
+    if (flat < -margin) return true;  // the circle does not come to the line
+    if (!(flat > flattest * flattest)) return false;
+    const double n = std::sqrt(flat);
+    const double error = 1.05 * (1.05 * p.c_error * per_r_ + rounding) / n + rounding;
+    if (!(error <= most_error)) return false;
+    // In the frame (outwards, along) a turn to the left is k' = k * outwards.
+    const double turned = k * outwards * (u_out * t - u_along * n);
+    const double ahead = u_out * n + u_along * t;
+    if (ahead < far_ahead || turned < -margin) return true;
+    if (turned < margin) return false;
+    event = {side, turned, ahead, n, t, error};
+    return true;
+  }
+
+  Step go_over(Point& p, const Event& event) {
+    const bool vertical = event.side % 2 == 0;
+    const double outwards = event.side < 2 ? 1.0 : -1.0;
+    const double k = vertical ? p.turn : -p.turn;
+    const double place = (vertical ? p.cy : p.cx) - k * r_ * outwards * event.out;
+    p.error = 1.05 * (p.c_error + r_ * event.error) + rounding * r_;
+    if (!is_between(place) || !(p.error <= most_error * d_)) return Step::unsure;
+    const double u_out = outwards * event.out;
+    p.ux = vertical ? u_out : event.along;
+    p.uy = vertical ? event.along : u_out;
+    p.u_error = event.error;
+    (vertical ? p.cx : p.cy) -= outwards * d_;
+    p.c_error += rounding * r_;
+    enter(p, event.side, place);
+    return met_end(p) ? Step::told : Step::onwards;
+  }
+
+  /// Straight on from (x, y) to the side it leaves by, with the place there in `place` and its
+  /// error. False: unsure.
+  struct Straight {
+    int side = 0;
+    double place = 0.0;
+    double error = 0.0;
+    double length_m = 0.0;
+  };
+  bool go_straight(double x, double y, double error, double ux, double uy, double u_error,
+                   Straight& way) const {
+    // An axis that is almost not moved along: no farther than half the margin while the other side
+    // is reached.
+    const auto length_to_side = [this](double from, double speed) {
+      if (std::abs(speed) < 0.25 * margin) return 4.0 * d_;
+      return (speed > 0.0 ? d_ - from : -from) / speed;
+    };
+    const double to_x = length_to_side(x, ux);
+    const double to_y = length_to_side(y, uy);
+    const bool vertical = to_x < to_y;
+    const double length = std::min(to_x, to_y);
+    const double speed = std::abs(vertical ? ux : uy);
+    way.side = vertical ? (ux > 0.0 ? 0 : 2) : (uy > 0.0 ? 1 : 3);
+    way.place = vertical ? y + length * uy : x + length * ux;
+    const double moved = error + 2.0 * d_ * u_error;
+    way.error = 1.05 * (moved + moved / speed) + rounding * r_ / speed;
+    way.length_m = length + 2.0 * way.error;
+    return is_between(way.place) && way.error <= most_error * d_;
+  }
+
+  void enter(Point& p, int side, double place) const {
+    const bool vertical = side % 2 == 0;
+    const double line = side < 2 ? 0.0 : d_;
+    p.x = vertical ? line : place;
+    p.y = vertical ? place : line;
+    (vertical ? p.ix : p.iy) += side < 2 ? 1 : -1;
+  }
+
+  /// From (x, y), inside the cell, along the command: the section.
+  Step go_aligned(Point& p, double x, double y, double cx, double cy) {
+    Straight way;
+    if (!is_between(x) || !is_between(y)) return Step::unsure;
+    const double error = 1.05 * p.c_error + rounding * r_;
+    if (!go_straight(x, y, error, cx, cy, rounding, way)) return Step::unsure;
+    const std::size_t section = 4 * flow_.index(p.ix, p.iy) + static_cast<std::size_t>(way.side);
+    p.length_m += way.length_m;
+    enter(p, way.side, way.place);
+    if (met_end(p)) return Step::told;
+    visitor_.arrive(section, Interval(way.place - way.error, way.place + way.error), p.length_m,
+                    false);
+    return Step::told;
+  }
+
+  /// Through a cell without a command, from inside it or from the side entered, into which it heads
+  /// by far.
+  Step go_straight_over(Point& p) {
+    Straight way;
+    if (std::min(std::abs(p.ux), std::abs(p.uy)) < flattest ||
+        !go_straight(p.x, p.y, p.error, p.ux, p.uy, p.u_error, way)) {
+      return Step::unsure;
+    }
+    p.turn = 0;
+    p.error = way.error;
+    p.length_m += way.length_m;
+    enter(p, way.side, way.place);
+    return met_end(p) ? Step::told : Step::onwards;
+  }
+
+  const Flow& flow_;
+  Visitor& visitor_;
+  double d_;
+  double r_;
+  double per_r_;
+};
+
+}  // namespace point_flight
+
+/// Follows the state if that can be done beyond doubt; false, and nothing told, if not. The state
+/// is finite and within 2^30 cells of the grid.
+template <typename Visitor>
+[[nodiscard]] bool follow_point(const Flow& flow, double x_m, double y_m, double heading_rad,
+                                Visitor& visitor) {
+  return point_flight::Follower<Visitor>(flow, visitor).follow(x_m, y_m, heading_rad);
+}
+
+}  // namespace fairway
