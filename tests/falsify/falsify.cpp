@@ -91,7 +91,7 @@ class Falsifier {
     while (totals_.states < settings_.states) {
       std::vector<Place> states;
       for (std::size_t i = 0; i < batch / 2; ++i) states.push_back(random_state());
-      check(states);
+      remember(states, check(states));
       aim(batch / 2);
     }
     fmt::print("  {}\n", totals_.line());
@@ -176,31 +176,80 @@ class Falsifier {
     return flights_.run_all(starts);
   }
 
-  /// Pairs of states with different verdicts (or outcomes), halved; every middle is checked.
-  void aim(std::size_t count) {
-    struct Pair {
-      Place a, b;
-      Verdict verdict;
-      Outcome outcome;
-      bool by_verdict;
-    };
+  struct Checked {
+    std::vector<VerdictSet> verdicts;
+    std::vector<FlightRun> runs;
+  };
+
+  /// Two states between which the verdict or the flight's outcome changes.
+  struct Pair {
+    Place a, b;
+    Verdict verdict;  // of a, as is the outcome
+    Outcome outcome;
+    bool by_verdict;
+  };
+  static constexpr std::size_t halvings = 44;
+
+  /// Some states of every combination of verdict and outcome, to make pairs of.
+  void remember(const std::vector<Place>& states, const Checked& checked) {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const auto verdict = static_cast<std::size_t>(checked.verdicts[i].only());
+      const auto outcome = static_cast<std::size_t>(checked.runs[i].result.outcome);
+      std::vector<Place>& pool = pools_[verdict * outcomes + outcome];
+      if (pool.size() < 1000) {
+        pool.push_back(states[i]);
+      } else {
+        pool[random_.below(pool.size())] = states[i];
+      }
+    }
+  }
+
+  /// Neighbours that differ: few where most states share one verdict.
+  void add_near_pairs(std::size_t most, std::vector<Pair>& pairs) {
     std::vector<Place> a;
     std::vector<Place> b;
-    for (std::size_t i = 0; i < count / 8; ++i) {
+    for (std::size_t i = 0; i < 8 * most; ++i) {
       a.push_back(random_state());
       b.push_back(near(a.back()));
     }
-    const auto va = query(a);
-    const auto vb = query(b);
-    const auto fa = fly(a);
-    const auto fb = fly(b);
-    std::vector<Pair> pairs;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      const bool differ = va[i].only() != vb[i].only();
-      if (!differ && fa[i].result.outcome == fb[i].result.outcome) continue;
-      pairs.push_back({a[i], b[i], va[i].only(), fa[i].result.outcome, differ && i % 2 == 0});
+    const Checked ca{query(a), fly(a)};
+    const Checked cb{query(b), fly(b)};
+    for (std::size_t i = 0; i < a.size() && pairs.size() < most; ++i) {
+      const bool differ = ca.verdicts[i].only() != cb.verdicts[i].only();
+      const Outcome outcome = ca.runs[i].result.outcome;
+      if (!differ && outcome == cb.runs[i].result.outcome) continue;
+      pairs.push_back({a[i], b[i], ca.verdicts[i].only(), outcome, differ && i % 2 == 0});
     }
-    for (int halving = 0; halving < 44 && !pairs.empty(); ++halving) {
+  }
+
+  /// Any two that differ, wherever they are: some boundary lies between them.
+  void add_far_pairs(std::size_t most, std::vector<Pair>& pairs) {
+    std::vector<std::size_t> kinds;
+    for (std::size_t k = 0; k < pools_.size(); ++k) {
+      if (!pools_[k].empty()) kinds.push_back(k);
+    }
+    if (kinds.size() < 2) return;
+    while (pairs.size() < most) {
+      const std::size_t a = random_.below(kinds.size());
+      const std::size_t b = (a + 1 + random_.below(kinds.size() - 1)) % kinds.size();
+      const auto draw = [&](std::size_t k) {
+        const std::vector<Place>& pool = pools_[kinds[k]];
+        return pool[random_.below(pool.size())];
+      };
+      const bool verdicts_differ = kinds[a] / outcomes != kinds[b] / outcomes;
+      const bool outcomes_differ = kinds[a] % outcomes != kinds[b] % outcomes;
+      pairs.push_back({draw(a), draw(b), static_cast<Verdict>(kinds[a] / outcomes),
+                       static_cast<Outcome>(kinds[a] % outcomes),
+                       verdicts_differ && (!outcomes_differ || random_.below(2) == 0)});
+    }
+  }
+
+  /// Halves the way between the states of pairs; every middle is checked.
+  void aim(std::size_t count) {
+    std::vector<Pair> pairs;
+    add_near_pairs(count / (2 * halvings), pairs);
+    add_far_pairs(count / halvings, pairs);
+    for (int halving = 0; halving < static_cast<int>(halvings) && !pairs.empty(); ++halving) {
       std::vector<Place> middle;
       for (const Pair& p : pairs) {
         const double turn =
@@ -218,10 +267,6 @@ class Falsifier {
     }
   }
 
-  struct Checked {
-    std::vector<VerdictSet> verdicts;
-    std::vector<FlightRun> runs;
-  };
   Checked check(const std::vector<Place>& states) {
     Checked checked{query(states), fly(states)};
     for (std::size_t i = 0; i < states.size(); ++i) {
@@ -305,6 +350,7 @@ class Falsifier {
     }
   }
 
+  static constexpr std::size_t outcomes = 4;
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
   std::string name_;
@@ -315,6 +361,7 @@ class Falsifier {
   Random random_;
   Certified certified_;
   std::unique_ptr<WideCommands<Wide>> commands_;
+  std::array<std::vector<Place>, verdict_count * outcomes> pools_;
   Totals totals_;
   int told_ = 0;
 };
