@@ -164,6 +164,11 @@ bool all_free(const CompleteMap& complete) {
                      [&](std::uint32_t i) { return complete.region[i] == Region::free; });
 }
 
+std::string lack_words(const Shortage& shortage) {
+  return fmt::format("it lacks {:.6g} m{}", shortage.lacks_m,
+                     shortage.lacks_m > 0.0 ? "" : " and a trifle, for as far is not farther");
+}
+
 std::optional<MissionRefusal> place_goal(CompleteMap& complete, const ObstacleMap& map,
                                          const GoalMission& goal, const Vehicle& vehicle,
                                          const FieldOptions& options) {
@@ -208,8 +213,9 @@ std::optional<MissionRefusal> place_goal(CompleteMap& complete, const ObstacleMa
       Reason::in_buffer,
       fmt::format("the goal disc (radius beta * turn_radius_m = {:.6g} m about [{:.12g}, "
                   "{:.12g}]) reaches into the buffer: it comes within {:.6g} m of an "
-                  "obstacle, {}, so it lacks {:.6g} m (Assumption 1); {}",
-                  radius, x, y, shortage.clearance_m, shortage.needs, shortage.lacks_m, next_try()),
+                  "obstacle, {}, so {} (Assumption 1); {}",
+                  radius, x, y, shortage.clearance_m, shortage.needs, lack_words(shortage),
+                  next_try()),
       shortage.lacks_m);
 }
 
@@ -247,8 +253,8 @@ std::optional<MissionRefusal> place_path(CompleteMap& complete, const ObstacleMa
   return refusal(
       Reason::in_buffer,
       fmt::format("the path enters the buffer near [{:.12g}, {:.12g}]: it comes within {:.6g} m "
-                  "of an obstacle, {}, so it lacks {:.6g} m (Assumption 1); {}",
-                  where.x, where.y, shortage.clearance_m, shortage.needs, shortage.lacks_m,
+                  "of an obstacle, {}, so {} (Assumption 1); {}",
+                  where.x, where.y, shortage.clearance_m, shortage.needs, lack_words(shortage),
                   next_try),
       shortage.lacks_m);
 }

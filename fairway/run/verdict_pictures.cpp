@@ -67,7 +67,7 @@ void write_verdict_pictures(const Plan& plan, const Certificate& certificate,
   VerdictMapOptions sampled;
   sampled.seed = seed;
   const VerdictMap map = verdict_map_of(certificate.flow(), certificate.sections.view(), sampled);
-  write(draw_verdicts(map, {.title = titled(title, "verdicts at the cells' middles")}), folder,
+  write(draw_verdicts(map, {.title = titled(title, "verdicts near the cells' middles")}), folder,
         "verdicts");
   write(draw_proved_shares(map, {.title = titled(title, "verdicts over all headings")}), folder,
         "proved");
