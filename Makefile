@@ -18,6 +18,7 @@ help:
 
 setup:
 	@tools/setup.sh packages.apt
+	@command -v npm >/dev/null 2>&1 || tools/setup.sh tools/packages-web.apt
 
 build: setup
 	cmake --preset release

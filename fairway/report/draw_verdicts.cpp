@@ -52,19 +52,10 @@ std::size_t states_of(const VerdictMap& map, std::size_t sample, Share share) {
 }
 
 /// None, up to an eighth, a half, seven eighths, less than all, all.
-constexpr int share_classes = 6;
 int class_of(std::size_t part, std::size_t of) {
   if (part == 0) return 0;
   if (part >= of) return 5;
   return 8 * part <= of ? 1 : 2 * part <= of ? 2 : 8 * part <= 7 * of ? 3 : 4;
-}
-
-/// White to the deep colour of its share, lightness falling evenly: it survives grey print.
-Color share_color(Share share, int rank) {
-  if (rank == 0) return palette::white;
-  static constexpr std::array<double, shares> hue{255.0, 40.0, 105.0};
-  const double depth = rank / (share_classes - 1.0);
-  return color_of_oklch(0.98 - 0.46 * depth, 0.02 + 0.13 * depth, hue[share]);
 }
 
 /// The three panels' colours of one class side by side.
@@ -73,7 +64,7 @@ LegendEntry class_entry(std::string name, int rank) {
             for (int s = 0; s < shares; ++s) {
               const double width = box.width / shares;
               const Rect part{box.x + s * width, box.y, width, box.height};
-              canvas.fill(part.outline(), share_color(static_cast<Share>(s), rank));
+              canvas.fill(part.outline(), share_color(s, rank));
               canvas.stroke(part.outline(), {palette::ink, 0.4, {}});
             }
           }};

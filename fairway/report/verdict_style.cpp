@@ -1,5 +1,7 @@
 #include "fairway/report/verdict_style.hpp"
 
+#include <array>
+#include <cstddef>
 #include <utility>
 
 namespace fairway {
@@ -19,6 +21,14 @@ VerdictStyle style_of(Verdict verdict) {
       return {color_of_oklch(0.98, 0.12, 105.0), {palette::ink, 0.7, {0.7, 1.8}}, false, true};
   }
   return {};
+}
+
+Color share_color(int share, int rank) {
+  if (rank == 0) return palette::white;
+  static constexpr std::array<double, 3> hue{255.0, 40.0, 105.0};
+  const double depth = rank / (share_classes - 1.0);
+  return color_of_oklch(0.98 - 0.46 * depth, 0.02 + 0.13 * depth,
+                        hue[static_cast<std::size_t>(share)]);
 }
 
 LegendEntry verdict_entry(std::string name, Verdict verdict) {

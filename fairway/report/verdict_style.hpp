@@ -15,6 +15,13 @@ struct VerdictStyle {
 };
 
 [[nodiscard]] VerdictStyle style_of(Verdict verdict);
+
+/// Of the shares proved to reach (0), proved to fail (1) and undecided (2), the colour of class
+/// `rank`: none, up to an eighth, a half, seven eighths, not quite all, all (5). White to the deep
+/// colour of the share, lightness falling evenly: it survives grey print.
+inline constexpr int share_classes = 6;
+[[nodiscard]] Color share_color(int share, int rank);
+
 [[nodiscard]] LegendEntry verdict_entry(std::string name, Verdict verdict);
 
 }  // namespace fairway

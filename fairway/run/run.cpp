@@ -16,6 +16,7 @@
 #include "fairway/run/checker.hpp"
 #include "fairway/run/mission_on_map.hpp"
 #include "fairway/run/plan_record.hpp"
+#include "fairway/run/report_page.hpp"
 #include "fairway/run/run_pictures.hpp"
 #include "fairway/run/scenario_flights.hpp"
 #include "fairway/run/stage_clock.hpp"
@@ -31,6 +32,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* summary_name = "summary.json";
+constexpr const char* evidence_words = "Flights are evidence, not a proof.";
 
 /// Seconds that the stages after the map will take, from rates seen on one machine with two cores:
 /// no more than what a progress line needs.
@@ -164,10 +166,30 @@ Verified verify_and_check(const Plan& plan, const Scenario& scenario, const fs::
   return {std::move(summary), std::move(made.certificate), std::move(failing)};
 }
 
+/// report.html; where this build has none, a warning says why.
+void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights& flown,
+                const Verified& verified, const std::string& title, const fs::path& place,
+                RunResult& result) {
+  const ReportPage page{title,
+                        {plan_words(plan), flight_words(flown) + evidence_words,
+                         verified.summary["words"].get<std::string>()},
+                        result.summary,
+                        verified.certificate ? &*verified.certificate : nullptr,
+                        verified.failing};
+  const std::string absent = write_report_page(plan, mission, flown, page, place);
+  if (!absent.empty()) result.warnings.push_back(absent);
+}
+
 std::vector<std::string> product_names() {
-  std::vector<std::string> names{
-      "plan.safetensors",        "flights.csv",        "flights.geojson", "outcomes.csv",
-      "certificate.safetensors", "bitmap.safetensors", "failures.csv",    summary_name};
+  std::vector<std::string> names{"plan.safetensors",
+                                 "flights.csv",
+                                 "flights.geojson",
+                                 "outcomes.csv",
+                                 "certificate.safetensors",
+                                 "bitmap.safetensors",
+                                 "failures.csv",
+                                 report_page_name,
+                                 summary_name};
   for (const std::string picture : run_pictures) {
     names.push_back(picture + ".svg");
     names.push_back(picture + ".png");
@@ -214,21 +236,25 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
     write_verdict_pictures(plan, *verified.certificate, verified.failing, scenario.simulate.seed,
                            title, place);
   }
-  clock.end();
-
   RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
   add_flights(result.summary, scenario, flown);
   result.summary["verify"] = verified.summary;
+  result.summary["products"] = product_digests(place);
+  write_page(plan, mission, flown, verified, title, place, result);
+  clock.end();
   result.summary["products"] = product_digests(place);
   add_cost(result.summary, clock);
   write_whole(place / summary_name, Existing::keep, result.summary.dump(2) + "\n");
   products.commit();
   std::string pictures = (folder / "plan.svg").string() + ", " + (folder / "flights.svg").string();
+  if (result.summary["products"].contains(report_page_name)) {
+    pictures = (folder / report_page_name).string() + ", " + pictures;
+  }
   if (verified.certificate) pictures += ", " + (folder / "verdicts.svg").string();
-  result.paragraph = fmt::format(
-      "{} {}Flights are evidence, not a proof. {} {}\nLook at {} and {}.", plan_words(plan),
-      flight_words(flown), verified.summary["words"].get<std::string>(), cost_words(result.summary),
-      pictures, (folder / summary_name).string());
+  result.paragraph =
+      fmt::format("{} {}{} {} {}\nLook at {} and {}.", plan_words(plan), flight_words(flown),
+                  evidence_words, verified.summary["words"].get<std::string>(),
+                  cost_words(result.summary), pictures, (folder / summary_name).string());
   return result;
 }
 

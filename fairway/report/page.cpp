@@ -1,0 +1,222 @@
+#include "fairway/report/page.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "fairway/base/error.hpp"
+#include "fairway/report/color.hpp"
+#include "fairway/report/page_arrays.hpp"
+#include "fairway/report/page_payload.hpp"
+#include "fairway/report/page_template.hpp"
+#include "fairway/report/verdict_style.hpp"
+
+namespace fairway {
+namespace {
+
+using nlohmann::json;
+
+std::string hex(const Color& c) {
+  return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue);
+}
+
+/// The pictures' own colours and patterns, so that page and pictures agree.
+json styles_json() {
+  json verdicts = json::array();
+  for (int v = 0; v < verdict_count; ++v) {
+    const auto verdict = static_cast<Verdict>(v);
+    const VerdictStyle style = style_of(verdict);
+    verdicts.push_back({{"name", name_of(verdict)},
+                        {"ground", hex(style.ground)},
+                        {"pen", hex(style.pen.color)},
+                        {"pen_pt", style.pen.width_pt},
+                        {"dotted", !style.pen.dash_pt.empty()},
+                        {"rising", style.rising},
+                        {"falling", style.falling}});
+  }
+  json ramp = json::array();
+  constexpr int steps = 64;
+  for (int k = 0; k < steps; ++k) ramp.push_back(hex(cost_ramp(k / (steps - 1.0))));
+  json shares = json::array();
+  for (int share = 0; share < 3; ++share) {
+    json colors = json::array();
+    for (int rank = 0; rank < share_classes; ++rank)
+      colors.push_back(hex(share_color(share, rank)));
+    shares.push_back(std::move(colors));
+  }
+  json series = json::array();
+  for (int k = 0; k < 8; ++k) series.push_back(hex(series_color(k)));
+  return {{"verdict", std::move(verdicts)},
+          {"cost_ramp", std::move(ramp)},
+          {"share", std::move(shares)},
+          {"series", std::move(series)},
+          {"obstacle", hex(palette::obstacle)},
+          {"buffer", hex(palette::buffer)},
+          {"buffer_pattern", hex(palette::buffer_pattern)},
+          {"free", hex(palette::free)},
+          {"goal", hex(palette::goal)},
+          {"goal_pattern", hex(palette::goal_pattern)},
+          {"unreachable", hex(palette::unreachable)},
+          {"unreachable_pattern", hex(palette::unreachable_pattern)}};
+}
+
+json mission_json(const Mission& mission) {
+  if (const auto* goal = std::get_if<GoalMission>(&mission)) {
+    return {{"kind", "goal"},
+            {"goal_m", {goal->goal_m.x, goal->goal_m.y}},
+            {"goal_heading_rad", goal->goal_heading_rad ? json(*goal->goal_heading_rad) : json()}};
+  }
+  const auto& path = std::get<PathMission>(mission);
+  json vertices = json::array();
+  for (const Vec2 v : path.vertices_m) vertices.push_back({v.x, v.y});
+  return {{"kind", "path"}, {"closed", path.closed}, {"vertices_m", std::move(vertices)}};
+}
+
+json verdicts_json(const VerdictMap& map) {
+  // The offset of place_m() from the middle of a cell, which is the same for all.
+  const Vec2 middle = map.grid.center(map.cell_of_sample(0));
+  const Vec2 offset = map.place_m(0) - middle;
+  json counts = json::array();
+  for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
+    std::array<std::size_t, verdict_count> count{};
+    for (std::size_t i = 0; i < map.samples(); ++i) {
+      if (map.kind[i] == CellKind::ordinary)
+        ++count[static_cast<std::size_t>(map.verdict_at(h, i))];
+    }
+    counts.push_back(count);
+  }
+  return {{"nx", map.nx},
+          {"ny", map.ny},
+          {"cells_per_sample", map.cells_per_sample},
+          {"heading_rad", map.heading_rad},
+          {"offset_m", {offset.x, offset.y}},
+          {"count", std::move(counts)}};
+}
+
+json flights_json(const std::vector<PageFlights>& groups) {
+  json shown = json::array();
+  std::size_t begin = 0;
+  for (const PageFlights& group : groups) {
+    for (const Flight& f : group.flights.first(std::min(group.most, group.flights.size()))) {
+      const bool ends = std::isfinite(f.result.time_s);
+      shown.push_back(
+          {{"group", group.group},
+           {"outcome", name_of(f.result.outcome)},
+           {"time_s", ends ? json(f.result.time_s) : json()},
+           {"length_m", ends ? json(f.result.length_m) : json()},
+           {"start", {f.start.position_m.x, f.start.position_m.y, f.start.heading.rad()}},
+           {"pieces", {begin, begin + f.segments.size()}}});
+      begin += f.segments.size();
+    }
+  }
+  return shown;
+}
+
+json record_of(const PageContent& content) {
+  const Grid& g = content.plan.grid;
+  json left_out = json::object();
+  for (const PageFlights& group : content.flights) {
+    if (group.flights.size() > group.most)
+      left_out[group.group] = group.flights.size() - group.most;
+  }
+  return {{"format_version", 1},
+          {"title", content.title},
+          {"grid",
+           {{"nx", g.nx}, {"ny", g.ny}, {"x0_m", g.x0_m}, {"y0_m", g.y0_m}, {"cell_m", g.cell_m}}},
+          {"vehicle",
+           {{"speed_mps", content.plan.vehicle.speed_mps},
+            {"turn_radius_m", content.plan.vehicle.turn_radius_m}}},
+          {"mission", mission_json(content.mission)},
+          {"cost_step_m", page_cost_step_m(content.plan)},
+          {"styles", styles_json()},
+          {"verdicts", content.verdicts != nullptr && content.verdicts->samples() > 0
+                           ? verdicts_json(*content.verdicts)
+                           : json()},
+          {"flights", flights_json(content.flights)},
+          {"flights_left_out", std::move(left_out)},
+          {"words", content.words},
+          {"summary", json::parse(content.summary_json)}};
+}
+
+/// JSON that may stand in a script element.
+std::string inert(const json& value) {
+  std::string text;
+  for (const char c : value.dump(-1, ' ', true, json::error_handler_t::replace)) {
+    switch (c) {
+      case '<':
+        text += "\\u003c";
+        break;
+      case '>':
+        text += "\\u003e";
+        break;
+      case '&':
+        text += "\\u0026";
+        break;
+      default:
+        text += c;
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string escaped_html(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&#39;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string page_html(const PageContent& content, std::string_view html) {
+  PagePayload payload;
+  add_plan_arrays(content.plan, payload);
+  if (content.verdicts != nullptr) add_verdict_arrays(*content.verdicts, payload);
+  add_flight_arrays(content, payload);
+  const std::array<std::pair<std::string_view, std::string>, 3> marks{
+      {{"@FAIRWAY_TITLE@", escaped_html(content.title)},
+       {"@FAIRWAY_RECORD@", inert(record_of(content))},
+       {"@FAIRWAY_ARRAYS@", base64(payload.bytes())}}};
+  std::string page;
+  std::size_t done = 0;
+  for (const auto& [mark, text] : marks) {  // in the order in which the template has them
+    const std::size_t at = html.find(mark, done);
+    require(at != std::string_view::npos, "a template of the page has all marks, in their order");
+    page += html.substr(done, at - done);
+    page += text;
+    done = at + mark.size();
+  }
+  page += html.substr(done);
+  return page;
+}
+
+std::string page_html(const PageContent& content) {
+  require(has_page_template(), "this build has a template of the page");
+  return page_html(content, page_template());
+}
+
+}  // namespace fairway

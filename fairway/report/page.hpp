@@ -1,0 +1,51 @@
+// A run as one HTML file: nothing is fetched, it opens from a disk (docs/report.md).
+//
+// The bundle of web/ has two marks, which are replaced:
+//   @FAIRWAY_RECORD@   JSON of everything small: grid, mission, styles, words, numbers
+//   @FAIRWAY_ARRAYS@   arrays in base64 (page_payload.hpp)
+// and @FAIRWAY_TITLE@.
+// Properties that always hold:
+//   1. No text of a file becomes markup: `<`, `>` and `&` are escaped in the record, and the page
+//      shows texts as texts.
+//   2. The bytes depend on what is shown alone: not on the time, the machine, or threads.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fairway/plan/plan.hpp"
+#include "fairway/simulate/flight.hpp"
+#include "fairway/vehicle/mission.hpp"
+#include "fairway/verify/verdict_map.hpp"
+
+namespace fairway {
+
+/// Flights of one origin: "given", "random", "failing".
+struct PageFlights {
+  std::string group;
+  std::span<const Flight> flights;  ///< recorded
+  std::size_t most = 100;           ///< so many are shown; the page says when there are more
+};
+
+struct PageContent {
+  std::string title;
+  const Plan& plan;
+  const Mission& mission;
+  std::vector<PageFlights> flights;
+  const VerdictMap* verdicts = nullptr;  ///< none: nothing was proved
+  std::vector<std::string> words;        ///< the honest paragraph, by sentence groups
+  std::string summary_json = "{}";       ///< an object, shown as numbers and digests
+};
+
+/// Throws ContractViolation when there is no template (page_template.hpp) or arrays do not fit.
+[[nodiscard]] std::string page_html(const PageContent& content);
+
+/// The same with a template of the caller's.
+[[nodiscard]] std::string page_html(const PageContent& content, std::string_view html);
+
+/// Text between tags or in a quoted attribute.
+[[nodiscard]] std::string escaped_html(std::string_view text);
+
+}  // namespace fairway

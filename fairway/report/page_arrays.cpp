@@ -1,0 +1,204 @@
+#include "fairway/report/page_arrays.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "fairway/base/error.hpp"
+#include "fairway/base/heading.hpp"
+#include "fairway/report/contours.hpp"
+#include "fairway/report/streamlines.hpp"
+
+namespace fairway {
+namespace {
+
+constexpr std::uint16_t none = 65535;
+
+/// Lines on the grid, places as shares of its width and height in 65535ths.
+struct GridLines {
+  std::vector<std::uint16_t> x;
+  std::vector<std::uint16_t> y;
+  std::vector<std::uint32_t> begin;  // and the end of the last
+
+  void add_to(PagePayload& payload, const std::string& name) const {
+    std::vector<std::uint32_t> begins = begin;
+    begins.push_back(static_cast<std::uint32_t>(x.size()));
+    payload.add(name + "_x", {x.size()}, std::span<const std::uint16_t>(x), PageFilter::delta);
+    payload.add(name + "_y", {y.size()}, std::span<const std::uint16_t>(y), PageFilter::delta);
+    payload.add(name + "_begin", {begins.size()}, std::span<const std::uint32_t>(begins),
+                PageFilter::delta);
+  }
+};
+
+std::uint16_t share(double value, double of) {
+  return static_cast<std::uint16_t>(std::lround(65535.0 * std::clamp(value / of, 0.0, 1.0)));
+}
+
+/// Leaves out vertices nearer than `tolerance` to the chord over them.
+std::vector<Vec2> without_straight_vertices(const std::vector<Vec2>& line, double tolerance) {
+  constexpr std::size_t longest_look_back = 64;
+  std::vector<Vec2> kept{line.front()};
+  std::size_t anchor = 0;
+  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+    const Vec2 chord = line[i + 1] - line[anchor];
+    bool needed = i - anchor >= longest_look_back;
+    for (std::size_t k = anchor + 1; k <= i && !needed; ++k) {
+      needed = std::abs(cross(chord, line[k] - line[anchor])) > tolerance * norm(chord);
+    }
+    if (!needed) continue;
+    kept.push_back(line[i]);
+    anchor = i;
+  }
+  kept.push_back(line.back());
+  return kept;
+}
+
+void add_streamlines(const Plan& plan, PagePayload& payload) {
+  GridLines lines;
+  const Grid& g = plan.grid;
+  const double longer_m = std::max(g.width_m(), g.height_m());
+  constexpr int across = 45;
+  for (const auto& line : evenly_spaced_streamlines(plan, longer_m / across)) {
+    lines.begin.push_back(static_cast<std::uint32_t>(lines.x.size()));
+    for (const Vec2 p : without_straight_vertices(line, longer_m / 10000.0)) {
+      lines.x.push_back(share(p.x - g.x0_m, g.width_m()));
+      lines.y.push_back(share(p.y - g.y0_m, g.height_m()));
+    }
+  }
+  lines.add_to(payload, "streamline");
+}
+
+void add_contours(const Plan& plan, PagePayload& payload) {
+  GridLines lines;
+  const Grid& g = plan.grid;
+  std::vector<float> levels;
+  for (const double level_m : page_contour_levels_m(plan)) {
+    for (const auto& line : contour_lines(g.nx, g.ny, plan.cost_m, level_m)) {
+      lines.begin.push_back(static_cast<std::uint32_t>(lines.x.size()));
+      levels.push_back(static_cast<float>(level_m));
+      for (const Vec2 p : without_straight_vertices(line, std::max(g.nx, g.ny) / 5000.0)) {
+        lines.x.push_back(share(p.x + 0.5, g.nx));
+        lines.y.push_back(share(p.y + 0.5, g.ny));
+      }
+    }
+  }
+  lines.add_to(payload, "contour");
+  payload.add("contour_level_m", {levels.size()}, levels);
+}
+
+double largest_finite_cost_m(const Plan& plan) {
+  float largest = 0.0F;
+  for (const float cost : plan.cost_m) {
+    if (std::isfinite(cost)) largest = std::max(largest, cost);
+  }
+  return static_cast<double>(largest);
+}
+
+}  // namespace
+
+double page_cost_step_m(const Plan& plan) {
+  const double largest_m = largest_finite_cost_m(plan);
+  return largest_m > 0.0 ? largest_m / (none - 1) : 1.0;
+}
+
+std::vector<double> page_contour_levels_m(const Plan& plan) {
+  const double largest_m = largest_finite_cost_m(plan);
+  if (!(largest_m > 0.0)) return {};
+  constexpr double wanted = 12.0;
+  double step_m = std::pow(10.0, std::floor(std::log10(largest_m / wanted)));
+  for (const double times : {2.0, 2.5, 2.0}) {  // 1, 2, 5, 10
+    if (largest_m / step_m > wanted) step_m *= times;
+  }
+  std::vector<double> levels;
+  for (int k = 1; k * step_m < largest_m; ++k) levels.push_back(k * step_m);
+  return levels;
+}
+
+void add_plan_arrays(const Plan& plan, PagePayload& payload) {
+  const Grid& g = plan.grid;
+  require(plan.heading_rad.size() == g.size() && plan.cost_m.size() == g.size() &&
+              plan.region.size() == g.size(),
+          "a plan's arrays have the size of its grid");
+  const double step_m = page_cost_step_m(plan);
+  std::vector<std::uint8_t> region(g.size());
+  std::vector<std::uint16_t> heading(g.size());
+  std::vector<std::uint16_t> cost(g.size());
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    region[i] = static_cast<std::uint8_t>(static_cast<int>(plan.region[i]) + 1);
+    const double turns = static_cast<double>(plan.heading_rad[i]) / two_pi;
+    heading[i] = std::isfinite(turns)
+                     ? static_cast<std::uint16_t>(
+                           std::lround((turns < 0.0 ? turns + 1.0 : turns) * none) % none)
+                     : none;
+    cost[i] = std::isfinite(plan.cost_m[i])
+                  ? static_cast<std::uint16_t>(std::lround(plan.cost_m[i] / step_m))
+                  : none;
+  }
+  const auto nx = static_cast<std::size_t>(g.nx);
+  const auto ny = static_cast<std::size_t>(g.ny);
+  payload.add("region", {ny, nx}, std::span<const std::uint8_t>(region));
+  payload.add("heading", {ny, nx}, std::span<const std::uint16_t>(heading), PageFilter::delta);
+  payload.add("cost", {ny, nx}, std::span<const std::uint16_t>(cost), PageFilter::delta);
+  add_streamlines(plan, payload);
+  add_contours(plan, payload);
+}
+
+void add_verdict_arrays(const VerdictMap& map, PagePayload& payload) {
+  constexpr std::uint8_t obstacle = verdict_count;
+  constexpr std::uint8_t target = verdict_count + 1;
+  std::vector<std::uint8_t> code(map.heading_rad.size() * map.samples());
+  require(map.kind.size() == map.samples() && map.verdict.size() == code.size(),
+          "a verdict map's arrays fit its samples and headings");
+  for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
+    for (std::size_t i = 0; i < map.samples(); ++i) {
+      code[h * map.samples() + i] = map.kind[i] == CellKind::obstacle ? obstacle
+                                    : map.kind[i] == CellKind::target
+                                        ? target
+                                        : static_cast<std::uint8_t>(map.verdict_at(h, i));
+    }
+  }
+  payload.add_layers(
+      "verdict",
+      {map.heading_rad.size(), static_cast<std::size_t>(map.ny), static_cast<std::size_t>(map.nx)},
+      code);
+  // For each sample, of how many headings each verdict is that; 255 headings at most fit a byte.
+  require(map.heading_rad.size() <= 255, "a page has at most 255 headings");
+  std::vector<std::uint8_t> count(verdict_count * map.samples());
+  for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
+    for (std::size_t i = 0; i < map.samples(); ++i) {
+      if (map.kind[i] != CellKind::ordinary) continue;
+      ++count[static_cast<std::size_t>(map.verdict_at(h, i)) * map.samples() + i];
+    }
+  }
+  payload.add("verdict_count",
+              {verdict_count, static_cast<std::size_t>(map.ny), static_cast<std::size_t>(map.nx)},
+              std::span<const std::uint8_t>(count));
+}
+
+void add_flight_arrays(const PageContent& content, PagePayload& payload) {
+  std::vector<float> x_m, y_m, heading_rad, length_m, curvature_per_m;
+  const Grid& g = content.plan.grid;
+  const auto add = [&](const std::vector<FlightSegment>& pieces) {
+    for (const FlightSegment& piece : pieces) {
+      x_m.push_back(static_cast<float>(piece.start.position_m.x - g.x0_m));
+      y_m.push_back(static_cast<float>(piece.start.position_m.y - g.y0_m));
+      heading_rad.push_back(static_cast<float>(piece.start.heading.rad()));
+      length_m.push_back(static_cast<float>(piece.length_m));
+      curvature_per_m.push_back(static_cast<float>(piece.curvature_per_m));
+    }
+  };
+  for (const PageFlights& group : content.flights) {
+    for (const Flight& flight : group.flights.first(std::min(group.most, group.flights.size()))) {
+      add(flight.segments);
+      add(flight.final_leg.segments);
+    }
+  }
+  payload.add("piece_x_m", {x_m.size()}, x_m);
+  payload.add("piece_y_m", {y_m.size()}, y_m);
+  payload.add("piece_heading_rad", {heading_rad.size()}, heading_rad);
+  payload.add("piece_length_m", {length_m.size()}, length_m);
+  payload.add("piece_curvature_per_m", {curvature_per_m.size()}, curvature_per_m);
+}
+
+}  // namespace fairway

@@ -1,0 +1,35 @@
+// The interactive page of a run, report.html (docs/report.md).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "fairway/certificate/certificate.hpp"
+#include "fairway/plan/plan.hpp"
+#include "fairway/run/scenario_flights.hpp"
+#include "fairway/run/verification.hpp"
+#include "fairway/vehicle/mission.hpp"
+
+namespace fairway {
+
+inline constexpr const char* report_page_name = "report.html";
+
+struct ReportPage {
+  std::string title;
+  std::vector<std::string> words;  ///< the honest paragraph
+  nlohmann::json summary;          ///< without what differs from run to run
+  const Certificate* certificate = nullptr;
+  std::vector<FailingState> failing;  ///< of the certificate
+};
+
+/// Writes `folder`/report.html. Empty when it did; else why this build has no page, one sentence
+/// without its full stop, and nothing is written.
+[[nodiscard]] std::string write_report_page(const Plan& plan, const Mission& mission,
+                                            const ScenarioFlights& flown, const ReportPage& page,
+                                            const std::filesystem::path& folder);
+
+}  // namespace fairway

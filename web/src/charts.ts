@@ -1,0 +1,111 @@
+// Heading and distance over time of the flights looked at.
+import uPlot from "uplot";
+import { byId, cssVariable, el, short } from "./dom";
+import { lineOf, type Pose, type ShownFlight } from "./flights";
+import type { Mission, PageRecord } from "./record";
+
+function distanceToSegment(p: Pose, a: [number, number], b: [number, number]): number {
+  const dx = b[0] - a[0], dy = b[1] - a[1];
+  const squared = dx * dx + dy * dy;
+  const t = squared === 0 ? 0 : Math.min(Math.max(((p.x - a[0]) * dx + (p.y - a[1]) * dy) / squared, 0), 1);
+  return Math.hypot(p.x - a[0] - t * dx, p.y - a[1] - t * dy);
+}
+
+export function distanceToMission(mission: Mission, pose: Pose): number {
+  if (mission.kind === "goal") return Math.hypot(pose.x - mission.goal_m[0], pose.y - mission.goal_m[1]);
+  const v = mission.vertices_m;
+  let least = Infinity;
+  for (let k = 0; k + 1 < v.length; ++k) least = Math.min(least, distanceToSegment(pose, v[k], v[k + 1]));
+  if (mission.closed) least = Math.min(least, distanceToSegment(pose, v[v.length - 1], v[0]));
+  return least;
+}
+
+interface Curve { name: string; color: string; dash: number[]; t: number[]; heading: number[]; distance: number[] }
+
+/** Curves of several flights on one axis of times. */
+function joined(curves: Curve[], of: (curve: Curve) => number[]): uPlot.AlignedData {
+  return uPlot.join(curves.map((curve) => [curve.t, of(curve)] as uPlot.AlignedData));
+}
+
+export class Charts {
+  private plots: uPlot[] = [];
+  private curves: Curve[] = [];
+  private flights: ShownFlight[] = [];
+
+  constructor(private readonly record: PageRecord, private readonly moved: (time_s: number) => void) {
+    window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.show(this.flights));
+    new ResizeObserver(() => {
+      const width = byId("charts").clientWidth;
+      this.plots.forEach((plot) => { if (Math.abs(plot.width - width) > 1) plot.setSize({ width, height: plot.height }); });
+    }).observe(byId("charts"));
+  }
+
+  show(flights: ShownFlight[]): void {
+    this.flights = flights;
+    this.plots.forEach((plot) => plot.destroy());
+    this.plots = [];
+    this.curves = flights.map((flight, k) => this.curve(flight, k));
+    const goal = this.record.mission.kind === "goal";
+    const boxes = [el("div"), el("div")];
+    byId("charts").replaceChildren(...boxes);
+    if (this.curves.length === 0) return;
+    this.plots = [
+      this.plot(boxes[0], "Heading, degrees", joined(this.curves, (c) => c.heading), false),
+      this.plot(boxes[1], `Distance to the ${goal ? "goal" : "path"}, m`, joined(this.curves, (c) => c.distance), true),
+    ];
+  }
+
+  private curve(flight: ShownFlight, k: number): Curve {
+    const t: number[] = [], heading: number[] = [], distance: number[] = [];
+    let unwrapped: number | null = null;
+    for (const { t: time, pose } of flight.track.samples(700)) {
+      if (t.length > 0 && time <= t[t.length - 1]) continue;
+      // The nearest of the angles that mean this heading: no jump of a whole turn.
+      unwrapped = unwrapped === null ? pose.h : unwrapped + Math.atan2(Math.sin(pose.h - unwrapped), Math.cos(pose.h - unwrapped));
+      t.push(time);
+      heading.push(unwrapped * 180 / Math.PI);
+      distance.push(distanceToMission(this.record.mission, pose));
+    }
+    const [x, y] = flight.record.start;
+    const series = this.record.styles.series;
+    return { name: `from (${short(x)}, ${short(y)})`, color: this.flights.length === 1 ? lineOf(flight.record.outcome).color : series[k % series.length],
+      dash: k >= series.length ? [5, 3] : [], t, heading, distance };
+  }
+
+  private plot(box: HTMLElement, title: string, data: uPlot.AlignedData, from_zero: boolean): uPlot {
+    const stroke = cssVariable("--soft");
+    const grid = { stroke: cssVariable("--line"), width: 1 };
+    const axis = { stroke, grid, ticks: grid, font: "11px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif" };
+    const dark = window.matchMedia("(prefers-color-scheme: dark)").matches;
+    box.setAttribute("role", "img");
+    box.setAttribute("aria-label", `${title} over time, of ${this.curves.length} flight${this.curves.length === 1 ? "" : "s"}`);
+    return new uPlot({
+      width: byId("charts").clientWidth || 600,
+      height: 205,
+      title: undefined,
+      cursor: { sync: { key: "fairway" }, drag: { x: false, y: false }, bind: { click: (plot, _target, handler) => (event) => {
+        handler(event);
+        const left = plot.cursor.left ?? -1;
+        if (left >= 0) this.moved(plot.posToVal(left, "x"));
+        return null;
+      } } },
+      scales: { x: { time: false }, y: from_zero ? { range: (_plot, _min, max) => [0, (max || 1) * 1.05] } : {} },
+      axes: [{ ...axis, label: "time, s", labelSize: 18, size: 34 }, { ...axis, label: title, labelSize: 20, size: 46 }],
+      series: [{ label: "time, s", value: (_plot, value) => value === null ? "–" : value.toFixed(1) },
+        ...this.curves.map((curve) => ({ label: curve.name, stroke: dark ? lighter(curve.color) : curve.color, width: 1.6, dash: curve.dash, spanGaps: true,
+          points: { show: false }, value: (_plot: uPlot, value: number | null) => value === null ? "–" : value.toFixed(1) }))],
+    }, data, box);
+  }
+
+  /** Puts the cursors at a time. */
+  mark(time_s: number): void {
+    for (const plot of this.plots) plot.setCursor({ left: plot.valToPos(time_s, "x"), top: 10 }, false);
+  }
+}
+
+/** Line colours are made for paper; on a dark sheet they are mixed with white. */
+function lighter(color: string): string {
+  const n = parseInt(color.slice(1), 16);
+  const mix = (c: number) => Math.round(c + (255 - c) * 0.45);
+  return `rgb(${mix(n >> 16)} ${mix(n >> 8 & 255)} ${mix(n & 255)})`;
+}

@@ -1,0 +1,130 @@
+// The heading of the vehicle: a slider with, above it, the shares of verdicts at every heading.
+import { byId, cssVariable, degrees, fitted, headingWords, percent, wind } from "./dom";
+import { Code, type PageRecord } from "./record";
+import type { Tiles } from "./layers";
+
+/** Verdicts in the order of the strip, from below. */
+const order = [Code.reach, Code.collide, Code.leave, Code.trapped, Code.undecided];
+
+export class HeadingSlider {
+  index = 0;
+  private playing = 0;
+  private last = 0;
+
+  constructor(private readonly record: PageRecord, private readonly tiles: () => Tiles, private readonly changed: () => void) {
+    const range = byId<HTMLInputElement>("heading-range");
+    const headings = record.verdicts?.heading_rad.length ?? 72;
+    range.max = String(headings - 1);
+    range.addEventListener("input", () => { this.stop(); this.turnTo(Number(range.value)); });
+    // The arrow keys go round: after the last heading comes the first.
+    range.addEventListener("keydown", (event) => {
+      const step = event.key === "ArrowRight" || event.key === "ArrowUp" ? 1
+        : event.key === "ArrowLeft" || event.key === "ArrowDown" ? -1 : 0;
+      if (step === 0) return;
+      event.preventDefault();
+      this.stop();
+      this.turnBy(step);
+    });
+    byId("heading-play").addEventListener("click", () => this.playing ? this.stop() : this.play());
+    this.dial();
+  }
+
+  get rad(): number { return this.record.verdicts?.heading_rad[this.index] ?? this.index * Math.PI / 36; }
+  private get headings(): number { return Number(byId<HTMLInputElement>("heading-range").max) + 1; }
+
+  turnBy(steps: number): void { this.turnTo((this.index + steps + this.headings) % this.headings); }
+
+  turnTo(index: number): void {
+    if (index === this.index) return;
+    this.index = index;
+    this.show();
+    this.changed();
+  }
+
+  /** The heading nearest to an angle. */
+  turnToRad(rad: number): void {
+    this.turnTo(Math.round(degrees(rad) / 360 * this.headings) % this.headings);
+  }
+
+  private play(): void {
+    byId("heading-play").setAttribute("aria-pressed", "true");
+    const step = (now: number) => {
+      if (now - this.last > 85) {
+        this.last = now;
+        this.turnBy(1);
+      }
+      this.playing = requestAnimationFrame(step);
+    };
+    this.playing = requestAnimationFrame(step);
+  }
+
+  stop(): void {
+    if (!this.playing) return;
+    cancelAnimationFrame(this.playing);
+    this.playing = 0;
+    byId("heading-play").setAttribute("aria-pressed", "false");
+  }
+
+  private dial(): void {
+    const dial = byId("heading-dial");
+    const ticks = Array.from({ length: 24 }, (_, k) => {
+      const a = k * Math.PI / 12, inner = k % 6 === 0 ? 23 : 26;
+      return `M${inner * Math.cos(a)} ${inner * Math.sin(a)}L${29 * Math.cos(a)} ${29 * Math.sin(a)}`;
+    }).join("");
+    dial.innerHTML = `<path d="${ticks}" stroke="var(--faint)" fill="none"/>` +
+      `<g id="heading-needle"><path d="M-17 0H12" stroke="var(--accent)" stroke-width="3" stroke-linecap="round"/>` +
+      `<path d="M22 0L9 6.5V-6.5Z" fill="var(--accent)"/></g>`;
+  }
+
+  show(): void {
+    const range = byId<HTMLInputElement>("heading-range");
+    range.value = String(this.index);
+    const words = `${headingWords(this.rad)}, ${wind(this.rad)}`;
+    range.setAttribute("aria-valuetext", words);
+    byId("heading-needle").setAttribute("transform", `rotate(${-degrees(this.rad)})`);
+    const output = byId("heading-words");
+    const big = document.createElement("b");
+    big.textContent = headingWords(this.rad);
+    const small = document.createElement("span");
+    small.textContent = `${this.rad.toFixed(3)} rad, ${wind(this.rad)}`;
+    const proved = document.createElement("span");
+    const count = this.record.verdicts?.count[this.index];
+    if (count) proved.textContent = `${percent(count[Code.reach] / Math.max(1, count.reduce((a, b) => a + b, 0)))} of places reach`;
+    output.replaceChildren(big, small, proved);
+    this.strip();
+  }
+
+  /** Shares of verdicts by heading, stacked, with the heading that is shown marked. */
+  strip(): void {
+    const canvas = byId<HTMLCanvasElement>("heading-strip");
+    const info = this.record.verdicts;
+    if (!info) return;
+    fitted(canvas);
+    const context = canvas.getContext("2d")!;
+    const { width, height } = canvas;
+    const image = new ImageData(width, height);
+    const out = new Uint32Array(image.data.buffer);
+    const { size, pixels } = this.tiles();
+    const n = info.heading_rad.length;
+    // The thumb of a slider stays within it: its middle goes from half a thumb to the end less that.
+    const inset = 8 * width / Math.max(1, canvas.clientWidth);
+    for (let x = 0; x < width; ++x) {
+      const k = Math.min(n - 1, Math.max(0, Math.round((x - inset) / Math.max(1, width - 2 * inset) * (n - 1))));
+      const count = info.count[k];
+      const all = Math.max(1, count.reduce((a, b) => a + b, 0));
+      let y = height, sum = 0;
+      for (const verdict of order) {
+        sum += count[verdict];
+        const top = verdict === Code.undecided ? 0 : Math.round(height * (1 - sum / all));
+        while (y > top) {
+          --y;
+          out[y * width + x] = pixels[verdict * size * size + y % size * size + x % size];
+        }
+      }
+    }
+    context.putImageData(image, 0, 0);
+    const x = inset + this.index / Math.max(1, n - 1) * (width - 2 * inset);
+    context.fillStyle = cssVariable("--accent");
+    context.fillRect(x - 1, 0, 2.5, height);
+  }
+}

@@ -1,0 +1,179 @@
+// Codes and how they look: every picture of cells is an array of codes and a tile of pixels for
+// each code, a ground colour with a pattern on it. Colours and patterns are those of the pictures.
+import type { Numbers, Arrays } from "./arrays";
+import { Code, no_value, RegionCode, type PageRecord, type VerdictStyle } from "./record";
+
+export interface CodeLayer {
+  codes: Uint8Array;
+  nx: number;
+  ny: number;
+  cells: number;  // of the plan along each axis, for one code
+}
+
+interface Look { ground: string; pen?: string; pen_px?: number; rising?: boolean; falling?: boolean; dotted?: boolean }
+
+const period_px = 8;
+
+function rgb(hex: string): [number, number, number] {
+  const n = parseInt(hex.slice(1), 16);
+  return [n >> 16, n >> 8 & 255, n & 255];
+}
+
+/** Tiles of side `size` pixels, [code][y][x], as ImageData holds them on a little-endian machine. */
+export class Tiles {
+  readonly size: number;
+  readonly pixels: Uint32Array;
+
+  constructor(looks: Look[], ratio: number) {
+    this.size = Math.round(period_px * ratio);
+    const area = this.size * this.size;
+    this.pixels = new Uint32Array(looks.length * area);
+    looks.forEach((look, code) => this.draw(look, code * area, ratio));
+  }
+
+  private draw(look: Look, at: number, ratio: number): void {
+    const size = this.size;
+    const ground = rgb(look.ground);
+    const pen = look.pen ? rgb(look.pen) : ground;
+    const half = (look.pen_px ?? 1) * ratio / 2;
+    // The share of a pixel that lies within a line along which `along` is constant.
+    const cover = (along: number): number => {
+      const off = Math.abs((along % size + size) % size - size / 2) / Math.SQRT2;
+      return Math.min(Math.max(half + 0.5 - off, 0), 1);
+    };
+    for (let y = 0; y < size; ++y) {
+      for (let x = 0; x < size; ++x) {
+        let ink = 0;
+        if (look.rising) ink = Math.max(ink, cover(x + y + 0.5));
+        if (look.falling && look.dotted) {
+          // Dots: two to a period on each line.
+          const step = ((x + y) % (size / 2) + size / 2) % (size / 2);
+          ink = Math.max(ink, step < 1.6 * ratio ? cover(x - y + 0.5) : 0);
+        } else if (look.falling) {
+          ink = Math.max(ink, cover(x - y + 0.5));
+        }
+        const mix = (k: number) => Math.round(ground[k] + (pen[k] - ground[k]) * ink);
+        this.pixels[at + y * size + x] = (0xff000000 | mix(2) << 16 | mix(1) << 8 | mix(0)) >>> 0;
+      }
+    }
+  }
+}
+
+export function lookOf(style: VerdictStyle): Look {
+  return { ground: style.ground, pen: style.pen, pen_px: 1.3 * style.pen_pt + 0.35, dotted: style.dotted,
+    rising: style.rising, falling: style.falling };
+}
+
+export function obstacleLook(record: PageRecord): Look { return { ground: record.styles.obstacle }; }
+export function goalLook(record: PageRecord): Look {
+  const { goal, goal_pattern } = record.styles;
+  return { ground: goal, pen: goal_pattern, pen_px: 1.1, rising: true, falling: true };
+}
+export function bufferLook(record: PageRecord): Look {
+  const { buffer, buffer_pattern } = record.styles;
+  return { ground: buffer, pen: buffer_pattern, pen_px: 0.8, falling: true };
+}
+export function unreachableLook(record: PageRecord): Look {
+  const { unreachable, unreachable_pattern } = record.styles;
+  return { ground: unreachable, pen: unreachable_pattern, pen_px: 0.9, rising: true };
+}
+
+/** Codes 0..6 of the verdict layers. */
+export function verdictLooks(record: PageRecord): Look[] {
+  return [...record.styles.verdict.map(lookOf), obstacleLook(record), goalLook(record)];
+}
+
+// Cost: ramp steps of free cells, the same of buffer cells, then obstacle, goal, unreachable.
+export function costLooks(record: PageRecord): Look[] {
+  const ramp = record.styles.cost_ramp;
+  return [...ramp.map((ground) => ({ ground })),
+    ...ramp.map((ground) => ({ ground, pen: "#ffffff", pen_px: 0.7, falling: true })),
+    obstacleLook(record), goalLook(record), unreachableLook(record)];
+}
+
+export function costLayer(record: PageRecord, region: Numbers, cost: Numbers): CodeLayer {
+  const steps = record.styles.cost_ramp.length;
+  const codes = new Uint8Array(region.length);
+  for (let i = 0; i < codes.length; ++i) {
+    const ramp = Math.min(steps - 1, Math.floor(cost[i] / (no_value - 1) * steps));
+    codes[i] = region[i] === RegionCode.obstacle ? 2 * steps
+      : region[i] === RegionCode.goal ? 2 * steps + 1
+      : cost[i] === no_value ? 2 * steps + 2
+      : region[i] === RegionCode.buffer ? steps + ramp : ramp;
+  }
+  return { codes, nx: record.grid.nx, ny: record.grid.ny, cells: 1 };
+}
+
+// Regions: those of the plan, and what is free but has no way to the goal.
+export function regionLooks(record: PageRecord): Look[] {
+  return [bufferLook(record), { ground: record.styles.free }, obstacleLook(record), goalLook(record),
+    unreachableLook(record)];
+}
+
+export function regionLayer(record: PageRecord, region: Numbers, cost: Numbers): CodeLayer {
+  const codes = new Uint8Array(region.length);
+  for (let i = 0; i < codes.length; ++i) {
+    codes[i] = region[i] === RegionCode.free && cost[i] === no_value ? 4 : region[i];
+  }
+  return { codes, nx: record.grid.nx, ny: record.grid.ny, cells: 1 };
+}
+
+export const share_kinds = ["proved to reach", "proved to fail", "undecided"] as const;
+export const share_classes = ["none", "up to 1/8", "up to 1/2", "up to 7/8", "not quite all", "all"];
+
+// Shares: six classes, then obstacle and target.
+export function shareLooks(record: PageRecord, kind: number): Look[] {
+  return [...record.styles.share[kind].map((ground) => ({ ground })), obstacleLook(record), goalLook(record)];
+}
+
+/** How many of the headings are of a kind, for each sample. */
+export function headingsOfKind(count: Uint8Array, samples: number, kind: number): Uint16Array {
+  const of = new Uint16Array(samples);
+  const verdicts = kind === 0 ? [Code.reach] : kind === 1 ? [Code.collide, Code.leave, Code.trapped] : [Code.undecided];
+  for (const v of verdicts) {
+    for (let i = 0; i < samples; ++i) of[i] += count[v * samples + i];
+  }
+  return of;
+}
+
+export function shareLayer(record: PageRecord, first: Uint8Array, count: Uint8Array, kind: number): CodeLayer {
+  const info = record.verdicts!;
+  const headings = info.heading_rad.length;
+  const of = headingsOfKind(count, info.nx * info.ny, kind);
+  const codes = new Uint8Array(of.length);
+  for (let i = 0; i < codes.length; ++i) {
+    const n = of[i];
+    codes[i] = first[i] >= Code.obstacle ? first[i] + 1
+      : n === 0 ? 0 : n === headings ? 5 : 8 * n <= headings ? 1 : 2 * n <= headings ? 2 : 8 * n <= 7 * headings ? 3 : 4;
+  }
+  return { codes, nx: info.nx, ny: info.ny, cells: info.cells_per_sample };
+}
+
+/** The verdict layers, inflated when they are shown, and the rest while nothing else is to be done. */
+export class VerdictLayers {
+  private readonly kept: (Uint8Array | undefined)[];
+  private readonly asked: (Promise<Uint8Array> | undefined)[];
+  readonly length: number;
+
+  constructor(private readonly arrays: Arrays, private readonly record: PageRecord) {
+    this.length = record.verdicts!.heading_rad.length;
+    this.kept = new Array(this.length);
+    this.asked = new Array(this.length);
+  }
+
+  /** The layer if it is at hand. */
+  at(heading: number): Uint8Array | undefined { return this.kept[heading]; }
+
+  ask(heading: number): Promise<Uint8Array> {
+    return this.asked[heading] ??= this.arrays.layer("verdict", heading).then((codes) => this.kept[heading] = codes);
+  }
+
+  async askAll(): Promise<void> {
+    for (let k = 0; k < this.length; ++k) await this.ask(k);
+  }
+
+  layer(codes: Uint8Array): CodeLayer {
+    const { nx, ny, cells_per_sample } = this.record.verdicts!;
+    return { codes, nx, ny, cells: cells_per_sample };
+  }
+}

@@ -1,0 +1,64 @@
+// What the colours and patterns of the map mean.
+import { byId, el, grouped, percent, short } from "./dom";
+import { paintSample } from "./base_map";
+import { share_classes, share_kinds, type Tiles } from "./layers";
+import { Code, no_value, type PageRecord } from "./record";
+
+function entries(items: { code: number; name: string; number?: string }[], tiles: Tiles): { list: HTMLElement; paint: () => void } {
+  const samples: [HTMLCanvasElement, number][] = [];
+  const list = el("ul", {}, ...items.map(({ code, name, number }) => {
+    const canvas = el("canvas", { "aria-hidden": "true" });
+    samples.push([canvas, code]);
+    return el("li", {}, canvas, name, ...(number ? [el("span", { class: "num" }, number)] : []));
+  }));
+  return { list, paint: () => samples.forEach(([canvas, code]) => paintSample(canvas, tiles, code)) };
+}
+
+export function showVerdictLegend(record: PageRecord, tiles: Tiles, heading: number): void {
+  const info = record.verdicts!;
+  const count = info.count[heading];
+  const all = Math.max(1, count.reduce((a, b) => a + b, 0));
+  const order = [Code.reach, Code.collide, Code.leave, Code.trapped, Code.undecided];
+  const words: Record<number, string> = { [Code.trapped]: "proved: circles forever", [Code.undecided]: "undecided" };
+  const { list, paint } = entries([
+    ...order.map((code) => ({ code: code as number, name: words[code] ?? `proved: ${record.styles.verdict[code].name}`, number: percent(count[code] / all) })),
+    { code: Code.obstacle, name: "obstacle" }, { code: Code.target, name: "target" }], tiles);
+  const per = info.cells_per_sample;
+  const each = per === 1 ? "each cell" : `one cell in each block of ${per} × ${per}`;
+  byId("legend").replaceChildren(list, el("p", {},
+    `One state of ${each}, sampled beside the cell's middle, at the slider's heading: ${grouped(all)} states, each proved by itself. ` +
+    "Other states of the same cell may differ; the volumes below count all of them."));
+  paint();
+}
+
+export function showShareLegend(record: PageRecord, tiles: Tiles, kind: number): void {
+  const { list, paint } = entries([
+    ...share_classes.map((name, code) => ({ code, name })).reverse(),
+    { code: 6, name: "obstacle" }, { code: 7, name: "target" }], tiles);
+  byId("legend").replaceChildren(list, el("p", {},
+    `Of ${record.verdicts!.heading_rad.length} headings at the sampled place of each cell, the share that is ${share_kinds[kind]}.`));
+  paint();
+}
+
+export function showCostLegend(record: PageRecord, tiles: Tiles): void {
+  const steps = record.styles.cost_ramp.length;
+  const ramp = el("canvas", { class: "ramp", "aria-hidden": "true" });
+  const { list, paint } = entries([
+    { code: steps + (steps >> 2), name: "buffer" }, { code: 2 * steps, name: "obstacle" },
+    { code: 2 * steps + 1, name: "target" }, { code: 2 * steps + 2, name: "no way to the target" }], tiles);
+  byId("legend").replaceChildren(ramp, el("div", { class: "ends" }, el("span", {}, "0 m"), el("span", {}, "cost to go"),
+    el("span", {}, `${short(record.cost_step_m * (no_value - 1))} m`)), list);
+  ramp.width = steps;
+  ramp.height = 1;
+  const context = ramp.getContext("2d")!;
+  record.styles.cost_ramp.forEach((color, k) => { context.fillStyle = color; context.fillRect(k, 0, 1, 1); });
+  paint();
+}
+
+export function showRegionLegend(tiles: Tiles): void {
+  const { list, paint } = entries([
+    { code: 1, name: "safe start: both turning circles fit" }, { code: 0, name: "buffer about obstacles" },
+    { code: 2, name: "obstacle" }, { code: 3, name: "target" }, { code: 4, name: "no way to the target" }], tiles);
+  byId("legend").replaceChildren(list);
+  paint();
+}

@@ -1,0 +1,144 @@
+// What was found, in words and figures: facts, volumes, assumptions, digests.
+import { byId, el, fitted, grouped, percent, short, term } from "./dom";
+import type { Tiles } from "./layers";
+import { Code, type PageRecord } from "./record";
+
+const verdict_order = [Code.reach, Code.collide, Code.leave, Code.trapped, Code.undecided];
+
+function missionWords(record: PageRecord): string {
+  const { mission } = record;
+  if (mission.kind === "goal") return `to (${mission.goal_m.map(short).join(", ")})`;
+  return `along a ${mission.closed ? "closed path" : "path"} of ${mission.vertices_m.length} vertices`;
+}
+
+export function showTitle(record: PageRecord): void {
+  const { grid, vehicle } = record;
+  byId("title").textContent = record.title;
+  byId("subtitle").textContent = `${grid.nx} × ${grid.ny} cells of ${short(grid.cell_m)} m · ${short(vehicle.speed_mps)} m/s · ` +
+    `turning radius ${short(vehicle.turn_radius_m)} m · ${missionWords(record)}`;
+}
+
+export function showFacts(record: PageRecord): void {
+  const { summary } = record;
+  const verify = summary.verify ?? {};
+  const facts: HTMLElement[] = [];
+  const fact = (name: string, ...value: (Node | string)[]) => facts.push(term(name, ...value));
+  if (verify.volume_fraction) {
+    fact("of safe-start states proved to reach", percent(verify.volume_fraction_free.reach, 2));
+    fact("of all states proved to reach", percent(verify.volume_fraction.reach, 2));
+    const failing = verify.volume_fraction.collide + verify.volume_fraction.leave + verify.volume_fraction.trapped;
+    fact("of all states proved to fail", percent(failing, 2));
+    fact("undecided", percent(verify.volume_fraction.undecided, 2));
+    if (verify.worst_time_s > 0) fact("longest bound to reach, sampled", verify.worst_time_s.toFixed(1), el("small", {}, " s"));
+  }
+  const random = summary.random_flights;
+  if (random?.count > 0) {
+    fact("random safe starts reach (flown, evidence only)", `${grouped(random.outcomes.reach)}`, el("small", {}, ` of ${grouped(random.count)}`));
+  }
+  if (facts.length < 5) fact("cells", grouped(record.grid.nx * record.grid.ny));
+  byId("facts").replaceChildren(...facts);
+}
+
+export function showWords(record: PageRecord): void {
+  byId("words").replaceChildren(...record.words.map((words) => el("p", {}, words)));
+}
+
+/** A bar for each region of states: verdicts by their share of volume. */
+export function showVolumes(record: PageRecord, tiles: Tiles): void {
+  const verify = record.summary.verify ?? {};
+  const rows: [string, Record<string, number>][] = [];
+  if (verify.volume_fraction) {
+    rows.push(["All states", verify.volume_fraction], ["Safe starts", verify.volume_fraction_free],
+      ["Buffer about obstacles", verify.volume_fraction_buffer]);
+  }
+  const paints: (() => void)[] = [];
+  byId("volumes").replaceChildren(...rows.map(([name, share]) => {
+    const canvas = el("canvas", { role: "img", "aria-label": `${name}: ` + verdict_order.map((v) => `${percent(share[record.styles.verdict[v].name], 2)} ${record.styles.verdict[v].name}`).join(", ") });
+    paints.push(() => {
+      fitted(canvas);
+      const image = new ImageData(canvas.width, canvas.height);
+      const out = new Uint32Array(image.data.buffer);
+      const { size, pixels } = tiles;
+      let from = 0, sum = 0;
+      for (const v of verdict_order) {
+        sum += share[record.styles.verdict[v].name];
+        const to = v === Code.undecided ? canvas.width : Math.round(sum * canvas.width);
+        for (let x = from; x < to; ++x) {
+          for (let y = 0; y < canvas.height; ++y) out[y * canvas.width + x] = pixels[v * size * size + y % size * size + x % size];
+        }
+        from = Math.max(from, to);
+      }
+      canvas.getContext("2d")!.putImageData(image, 0, 0);
+    });
+    const words = verdict_order.filter((v) => share[record.styles.verdict[v].name] > 0)
+      .map((v) => `${percent(share[record.styles.verdict[v].name], 2)} ${record.styles.verdict[v].name}`).join(" · ");
+    return el("div", { class: "volume" }, el("b", {}, name), canvas, el("span", {}, words));
+  }));
+  paints.forEach((paint) => paint());
+}
+
+const assumed = [
+  "The vehicle follows the model: constant speed, exact turns at the turning radius towards the commanded heading, exact position and heading. No wind, no delay.",
+  "The map is static and right; an obstacle is the cells that the plan calls so.",
+  "The processor computes IEEE 754 doubles and the compiler does not reorder floating-point operations.",
+];
+const shown = [
+  "A verdict on the map is that of one sampled state of a cell at one heading: proved for that very state by the certificate, the same answer that a query of it gives.",
+  "Shares of volume are measured with a million sampled states, each proved; the certificate itself covers every state.",
+  "A flight is computed exactly for the model, but in rounded arithmetic: it is evidence, not a proof.",
+  "Headings count counter-clockwise from east; x is east, y is north, in metres.",
+];
+
+export function showTrust(record: PageRecord): void {
+  const list = (items: string[]) => el("ul", {}, ...items.map((item) => el("li", {}, item)));
+  const verify = record.summary.verify ?? {};
+  const checked = verify.method !== "certified" ? "Nothing was proved in this run: no certificate was asked for."
+    : verify.checked ? "fairway-check, a separate program that shares no code with the prover, re-proved the certificate."
+    : "The certificate was not re-proved by the separate program in this run.";
+  byId("trust").replaceChildren(
+    el("h3", {}, "What is assumed"), list(assumed),
+    el("h3", {}, "What is shown"), list(record.verdicts ? shown : shown.slice(2)),
+    el("h3", {}, "Who checked it"), list([checked]));
+}
+
+function digestTable(head: string, rows: [string, string][]): HTMLElement {
+  return el("table", {}, el("thead", {}, el("tr", {}, el("th", {}, head), el("th", {}, "SHA-256"))),
+    el("tbody", {}, ...rows.map(([name, digest]) => el("tr", {}, el("td", {}, name), el("td", { class: "digest" }, digest)))));
+}
+
+function flatRows(value: any, prefix = ""): [string, string][] {
+  if (value === null || typeof value !== "object") return [[prefix, value === null ? "not set" : String(value)]];
+  if (Array.isArray(value)) return [[prefix, JSON.stringify(value)]];
+  return Object.entries(value).flatMap(([key, inner]) => flatRows(inner, prefix ? `${prefix}.${key}` : key));
+}
+
+function valueTable(rows: [string, string][]): HTMLElement {
+  return el("table", {}, el("tbody", {}, ...rows.map(([name, value]) => el("tr", {}, el("th", { scope: "row" }, name), el("td", {}, value)))));
+}
+
+export function showNumbers(record: PageRecord): void {
+  const { summary } = record;
+  const fold = (title: string, ...content: Node[]) => el("details", {}, el("summary", {}, title), el("div", {}, ...content));
+  const parts: HTMLElement[] = [];
+  const regions = summary.region_cells ?? {};
+  const verify = { ...(summary.verify ?? {}) };
+  for (const key of ["words", "levels", "plan_sha256", "options"]) delete verify[key];
+  parts.push(fold("Cells and regions", valueTable([...flatRows({ cells: summary.cells, cell_m: summary.cell_m, origin_m: summary.origin_m, ...regions,
+    unreachable_free_cells: summary.unreachable_free_cells })])));
+  if (summary.random_flights) parts.push(fold("Flights", valueTable([...flatRows(summary.random_flights, "random"), ...flatRows(summary.given_flights, "given")])));
+  if (Object.keys(verify).length > 0) {
+    const levels: any[] = summary.verify.levels ?? [];
+    parts.push(fold("Proof", valueTable(flatRows(verify)), ...(levels.length > 0 ? [el("table", {},
+      el("thead", {}, el("tr", {}, ...["level", "leaves", "undecided leaves", "undecided volume"].map((name) => el("th", { class: "num" }, name)))),
+      el("tbody", {}, ...levels.map((l) => el("tr", {}, ...[l.level, grouped(l.leaves), grouped(l.undecided_leaves), percent(l.undecided_volume, 2)]
+        .map((text) => el("td", { class: "num" }, String(text)))))))] : [])));
+  }
+  parts.push(fold("Every option", valueTable(flatRows(summary.options ?? {}))));
+  const digests: HTMLElement[] = [];
+  if (summary.inputs) digests.push(digestTable("Input", summary.inputs.map((i: any) => [i.path, i.sha256])));
+  if (summary.products) digests.push(digestTable("Product", Object.entries(summary.products)));
+  if (summary.verify?.plan_sha256) digests.push(digestTable("Array of the plan", Object.entries(summary.verify.plan_sha256)));
+  parts.push(fold("Digests", ...digests));
+  byId("numbers").replaceChildren(...parts);
+  byId("footer").textContent = `Made by ${summary.program ?? "fairway"}. All data are in this file; nothing was fetched to show it.`;
+}

@@ -1,0 +1,66 @@
+// What the page knows of a run, as fairway/report/page.cpp writes it.
+
+export interface GridShape { nx: number; ny: number; x0_m: number; y0_m: number; cell_m: number }
+
+export interface VerdictStyle {
+  name: string; ground: string; pen: string; pen_pt: number; dotted: boolean; rising: boolean; falling: boolean;
+}
+
+export interface FlightRecord {
+  group: string;
+  outcome: string;
+  time_s: number | null;
+  length_m: number | null;
+  start: [number, number, number];
+  pieces: [number, number];
+  leg?: { state: string; pieces: [number, number] };
+}
+
+export type Mission =
+  | { kind: "goal"; goal_m: [number, number]; goal_heading_rad: number | null }
+  | { kind: "path"; closed: boolean; vertices_m: [number, number][] };
+
+export interface VerdictInfo {
+  nx: number;
+  ny: number;
+  cells_per_sample: number;
+  heading_rad: number[];
+  offset_m: [number, number];
+  count: number[][];  // [heading][verdict]
+}
+
+export interface PageRecord {
+  format_version: number;
+  title: string;
+  grid: GridShape;
+  vehicle: { speed_mps: number; turn_radius_m: number };
+  mission: Mission;
+  cost_step_m: number;
+  styles: {
+    verdict: VerdictStyle[];
+    cost_ramp: string[];
+    share: string[][];
+    series: string[];
+    obstacle: string; buffer: string; buffer_pattern: string; free: string;
+    goal: string; goal_pattern: string; unreachable: string; unreachable_pattern: string;
+  };
+  verdicts: VerdictInfo | null;
+  flights: FlightRecord[];
+  flights_left_out: Record<string, number>;
+  words: string[];
+  summary: Record<string, any>;
+}
+
+/** Codes of fairway/verify/verdict.hpp, and those of cells without states. */
+export const enum Code { undecided = 0, reach = 1, collide = 2, leave = 3, trapped = 4, obstacle = 5, target = 6 }
+
+/** Codes of the array `region`: those of a plan file plus 1. */
+export const enum RegionCode { buffer = 0, free = 1, obstacle = 2, goal = 3 }
+
+export const no_value = 65535;
+
+export function recordOfPage(): PageRecord {
+  const record = JSON.parse(document.getElementById("record")!.textContent!) as PageRecord;
+  if (record.format_version !== 1) throw new Error(`this page holds data of format ${record.format_version}, not 1`);
+  return record;
+}
