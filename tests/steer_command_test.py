@@ -69,9 +69,8 @@ class Steer(unittest.TestCase):
 
     def test_pairs_have_the_least_length_and_end_at_their_goals(self):
         draw = np.random.default_rng(4)
-        for radius in (1.0, 20.0):
+        for radius, n in ((1.0, 10_000), (20.0, 100_000)):
             for box in (1, 4, 40):
-                n = 100_000
                 start, goal = (np.column_stack([draw.uniform(0, box * radius, (n, 2)),
                                                 draw.uniform(-math.pi, math.pi, n)])
                                for _ in range(2))

@@ -1,7 +1,5 @@
 // fairway query: what a certificate says of a state.
 #include <filesystem>
-#include <iostream>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,10 +31,7 @@ struct QueryArguments {
 std::vector<State> states_of(const QueryArguments& a) {
   std::vector<State> states;
   for (const std::string& text : a.states) states.push_back(state_of_argument(text));
-  if (a.states_file == "-") {
-    const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
-    for (const State& s : states_of_csv(text, "standard input")) states.push_back(s);
-  } else if (!a.states_file.empty()) {
+  if (!a.states_file.empty()) {
     for (const State& s : read_states(a.states_file)) states.push_back(s);
   }
   return states;

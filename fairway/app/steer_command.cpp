@@ -1,9 +1,6 @@
 // fairway steer: to a pose where nothing is in the way.
 #include <cstddef>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -13,16 +10,14 @@
 
 #include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
-#include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/steer/dubins_words.hpp"
-#include "fairway/steer/pose_pairs.hpp"
+#include "fairway/steer/pose_csv.hpp"
 #include "fairway/steer/steering_flight.hpp"
 
 namespace fairway {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 struct SteerArguments {
@@ -43,17 +38,7 @@ struct Steered {
 
 PosePairs read_pairs(const SteerArguments& a) {
   if (a.pairs_file.empty()) return {{state_of_argument(a.from)}, {state_of_argument(a.to)}};
-  if (a.pairs_file == "-") {
-    const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
-    return pose_pairs_of_csv(text, "standard input", a.turn_radius_m);
-  }
-  std::ifstream file(a.pairs_file, std::ios::binary);
-  if (!file || fs::is_directory(a.pairs_file)) {
-    throw InputError(a.pairs_file,
-                     "cannot be read: expected a CSV file x0_m,y0_m,h0_rad,x1_m,y1_m,h1_rad");
-  }
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  return pose_pairs_of_csv(text, a.pairs_file, a.turn_radius_m);
+  return read_pose_pairs(a.pairs_file, a.turn_radius_m);
 }
 
 Steered steered(const SteerArguments& a, const State& from, const State& to) {

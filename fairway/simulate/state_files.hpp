@@ -1,9 +1,7 @@
 // Starts as text: the states CSV of `fairway simulate --states`, and `--state X,Y,H`.
 //
-// Columns x_m, y_m, heading_rad. With a header, columns are found by name and others are passed
-// over (so an outcomes file is a states file); without one, exactly these three. Blank lines and
-// lines that start with # are skipped. A heading is in radians, or degrees with the suffix deg, and
-// is wrapped into (-pi, pi]. Line ends may be CRLF, and a byte order mark may come first.
+// Columns x_m,y_m,heading_rad, as base/number_csv.hpp reads them: others are passed over when there
+// is a header, so an outcomes file is a states file.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +13,8 @@
 
 namespace fairway {
 
-/// Throws InputError{FILE:LINE, ...}, and when the file cannot be read or holds no state.
+/// Of a file or, for "-", the standard input. Throws InputError{FILE:LINE, ...}, and when the file
+/// cannot be read or holds no state.
 [[nodiscard]] std::vector<State> read_states(const std::filesystem::path& path);
 
 /// The same for a text in memory; `where` stands for the file's name in errors.

@@ -1,0 +1,53 @@
+// CSV files of places and headings, read strictly: states, pairs of poses, way-points.
+//
+// With a header, columns are found by name and others are passed over; without one, a line has
+// exactly the columns asked for. Blank lines and lines that start with # are skipped. A heading is
+// in radians, or degrees with the suffix deg, and comes back wrapped into (-pi, pi]. Every number
+// is finite. Line ends may be CRLF, and a byte order mark may come first.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fairway {
+
+enum class CsvQuantity : std::uint8_t { metres, heading };
+
+struct CsvColumn {
+  std::string_view name;
+  CsvQuantity quantity = CsvQuantity::metres;
+};
+
+/// Where a line is; put into words only when something is wrong with it.
+struct CsvPlace {
+  const std::string& where;
+  std::size_t line = 0;  ///< from 1; 0: no line of a file
+  /// Throws InputError{where:line, what}.
+  [[noreturn]] void refuse(const std::string& what) const;
+};
+
+/// One value per column, in the order of the columns.
+using CsvTake = std::function<void(std::span<const double> values, const CsvPlace& place)>;
+
+/// Calls take for every line of numbers. Throws InputError{where:LINE, ...} for what is none, and
+/// InputError{where, ...} when there is no line: "no states: expected lines x_m,...", where `lines`
+/// says what they are.
+void for_csv_lines(std::string_view text, const std::string& where,
+                   std::span<const CsvColumn> columns, const char* lines, const CsvTake& take);
+
+/// The values of one line without a header. Throws InputError{where, ...}.
+[[nodiscard]] std::vector<double> csv_values(std::string_view line, const std::string& where,
+                                             std::span<const CsvColumn> columns);
+
+/// The text of a file, or of the standard input for "-". Throws InputError when it cannot be read.
+[[nodiscard]] std::string csv_text(const std::string& file, std::span<const CsvColumn> columns);
+
+/// What messages call it: the file's name, or "standard input".
+[[nodiscard]] std::string csv_name(const std::string& file);
+
+}  // namespace fairway

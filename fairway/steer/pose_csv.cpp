@@ -1,0 +1,60 @@
+#include "fairway/steer/pose_csv.hpp"
+
+#include <array>
+#include <span>
+
+#include "fairway/base/error.hpp"
+#include "fairway/base/number_csv.hpp"
+#include "fairway/steer/dubins_words.hpp"
+
+namespace fairway {
+namespace {
+
+constexpr std::array<CsvColumn, 6> pair_columns{{{"x0_m"},
+                                                 {"y0_m"},
+                                                 {"h0_rad", CsvQuantity::heading},
+                                                 {"x1_m"},
+                                                 {"y1_m"},
+                                                 {"h1_rad", CsvQuantity::heading}}};
+constexpr std::array<CsvColumn, 3> waypoint_columns{
+    {{"x_m"}, {"y_m"}, {"heading_rad", CsvQuantity::heading}}};
+
+State state_of(std::span<const double> v) { return {{v[0], v[1]}, Heading::from_rad(v[2])}; }
+
+void add(PosePairs& pairs, const State& from, const State& to, double turn_radius_m,
+         const CsvPlace& place) {
+  if (!can_steer(from, to, turn_radius_m)) {
+    place.refuse("the poses are more than 1e100 turning radii apart");
+  }
+  pairs.from.push_back(from);
+  pairs.to.push_back(to);
+}
+
+}  // namespace
+
+PosePairs read_pose_pairs(const std::string& file, double turn_radius_m) {
+  PosePairs pairs;
+  for_csv_lines(csv_text(file, pair_columns), csv_name(file), pair_columns, "pairs",
+                [&](std::span<const double> v, const CsvPlace& place) {
+                  add(pairs, state_of(v), state_of(v.subspan(3)), turn_radius_m, place);
+                });
+  return pairs;
+}
+
+PosePairs read_waypoints(const std::string& file, const std::optional<State>& start,
+                         double turn_radius_m) {
+  PosePairs pairs;
+  std::optional<State> last = start;
+  for_csv_lines(csv_text(file, waypoint_columns), csv_name(file), waypoint_columns, "way-points",
+                [&](std::span<const double> v, const CsvPlace& place) {
+                  if (last) add(pairs, *last, state_of(v), turn_radius_m, place);
+                  last = state_of(v);
+                });
+  if (pairs.from.empty()) {
+    throw InputError(csv_name(file),
+                     "one way-point: expected two or more, or a start to come from");
+  }
+  return pairs;
+}
+
+}  // namespace fairway
