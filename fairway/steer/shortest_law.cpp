@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "fairway/base/error.hpp"
+
 namespace fairway {
 namespace {
 
@@ -31,11 +33,25 @@ double turn_over(const DubinsPath& path, double length_m) {
   return turn_m / path.turn_radius_m;
 }
 
+/// How much longer a path to the goal may be than one that ends at `end` to be taken for the same
+/// path, corrected. The factor is a choice: on straight parts 1 would do.
+double growth_for(const State& end, const State& goal, double turn_radius_m) {
+  constexpr double factor = 4.0;
+  return factor * (norm(end.position_m - goal.position_m) +
+                   turn_radius_m * std::abs(end.heading.turn_to(goal.heading)));
+}
+
 }  // namespace
 
 bool PoseTolerance::holds(const State& state, const State& goal) const {
   return norm2(state.position_m - goal.position_m) <= place_m * place_m &&
          std::abs(state.heading.turn_to(goal.heading)) <= heading_rad;
+}
+
+bool PoseTolerance::covers(double step_m, double turn_radius_m) const {
+  // Half a step beside the goal along its way; and what two joins within a step add.
+  const double half = 0.5 * step_m / turn_radius_m;
+  return place_m > 0.5 * step_m * (1.0 + half) && heading_rad > half;
 }
 
 void ShortestLaw::choose(const State& state, const State& goal, double turn_radius_m) {
@@ -51,14 +67,22 @@ void ShortestLaw::choose(const State& state, const State& goal, double turn_radi
       chosen = *same_word;
     }
   }
-  // Longer by more than a tie: behind a jump. What is left of the old path may still do.
+  // Longer than what is left of the old path: by what that one ends beside the goal, times a
+  // factor, or by a jump. Behind a jump the old path will do while it ends within the tolerance.
   const DubinsPath rest = rest_of(*path_, driven_m_, state);
-  const bool jump = chosen.length_m() > rest.length_m() + options_.tie_m;
-  path_ = jump && options_.tolerance.holds(end_of(rest), goal) ? rest : chosen;
+  const double growth_m = chosen.length_m() - rest.length_m();
+  path_ = chosen;
+  if (growth_m <= 1e-9 * turn_radius_m) return;
+  const State end = end_of(rest);
+  if (options_.tolerance.holds(end, goal) && growth_m > growth_for(end, goal, turn_radius_m)) {
+    path_ = rest;
+  }
 }
 
 double ShortestLaw::curvature_per_m(const State& state, const State& goal, double turn_radius_m,
                                     double step_m) {
+  require(step_m > 0.0 && options_.tolerance.covers(step_m, turn_radius_m),
+          "the tolerance is more than step / 2 + step^2 / (4 r), and step / (2 r)");
   choose(state, goal, turn_radius_m);
   driven_m_ = step_m;
   return turn_over(*path_, step_m) / step_m;

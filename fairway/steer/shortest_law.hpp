@@ -4,21 +4,21 @@
 // The length of a shortest path V(state) falls by exactly what is driven along it. Three things
 // keep plain feedback from that, and each has its answer here:
 //   Ties. Where two words are equally long (a goal straight behind) noise would flip the choice
-//   back
-//     and forth. The word once chosen is kept while its path from the present state is at most
+//     back and forth. The word once chosen is kept while its path from the present state is at most
 //     `tie` longer than the shortest.
 //   Jumps. V jumps by a whole loop where a last turn would have to be tighter than the least
-//   radius:
-//     every state on a last arc is such a place, and the smallest error puts the vehicle on the
-//     wrong side. Then the path chosen before is driven on as long as it ends within the tolerance.
+//     radius: every state on a last arc is such a place, and the smallest error puts the vehicle on
+//     the wrong side. A path that is longer than what is left of the one followed, by more than
+//     that one ends beside the goal can explain, is not taken while that one ends within the
+//     tolerance.
 //   Sampling. A control holds for a step. Where a part ends within the step the mean curvature is
 //     held, so that the heading after the step is the path's; the place errs by step^2 / (8 r) at
 //     most for each join, and the goal is passed at half a step at most: the tolerance must be more
-//     than step / 2 + step^2 / (4 r) (that of steering_flight.hpp is).
+//     than step / 2 + step^2 / (4 r) in place and step / (2 r) in heading, which is a contract.
 // Properties that always hold, with W the length of what is left of the path that is followed:
-//   1. Undisturbed, W falls by the step in every step, to nothing: W never grows but by `tie`, once
-//   for
-//      each change of word, which needs a gain of more than `tie` over the word before.
+//   1. While that path ends within the tolerance of the goal, W falls by the step in every step,
+//      but for at most four times what it ends beside the goal (place, and heading times r).
+//      Undisturbed that is step^2 / r at most, as a path has two joins.
 //   2. The path followed ends within `tolerance` of the goal, or is a path to the goal itself.
 // docs/steering.md argues the descent, with noise and with a moving goal.
 #pragma once
@@ -34,6 +34,8 @@ struct PoseTolerance {
   double place_m = 0.0;
   double heading_rad = 0.0;
   [[nodiscard]] bool holds(const State& state, const State& goal) const;
+  /// Whether it is wide enough for a control held over `step_m` not to miss it.
+  [[nodiscard]] bool covers(double step_m, double turn_radius_m) const;
 };
 
 struct ShortestLawOptions {
@@ -46,7 +48,8 @@ class ShortestLaw {
   explicit ShortestLaw(const ShortestLawOptions& options) : options_(options) {}
 
   /// The curvature (1/m, left positive, at most 1/turn_radius_m) to hold for the next `step_m`. The
-  /// goal may be another every time. No heap.
+  /// goal may be another every time. No heap. Throws ContractViolation unless the step is positive,
+  /// the tolerance covers it, and can_steer().
   [[nodiscard]] double curvature_per_m(const State& state, const State& goal, double turn_radius_m,
                                        double step_m);
 

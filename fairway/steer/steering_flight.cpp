@@ -3,35 +3,10 @@
 #include <cmath>
 
 #include "fairway/base/error.hpp"
+#include "fairway/steer/driven_word.hpp"
 
 namespace fairway {
 namespace {
-
-/// Letters of what was driven, with the length of each.
-class DrivenWord {
- public:
-  void add(double curvature, double length) {
-    const char letter = curvature > 0.5 ? 'L' : curvature < -0.5 ? 'R' : 'S';
-    if (parts_.empty() || parts_.back().letter != letter) parts_.push_back({letter, 0.0});
-    parts_.back().length += length;
-  }
-  std::string text(double shortest) const {
-    std::string word;
-    for (const Part& part : parts_) {
-      if (part.length < shortest || (!word.empty() && word.back() == part.letter)) continue;
-      word += part.letter;
-      if (word.size() == 16) break;  // it wanders
-    }
-    return word;
-  }
-
- private:
-  struct Part {
-    char letter;
-    double length;
-  };
-  std::vector<Part> parts_;
-};
 
 template <typename Law, typename Disturb>
 SteeringFlight flown(Law& law, const State& from, const State& goal, double turn_radius_m,
