@@ -10,6 +10,12 @@ function(fairway_defaults target)
     # GCC 12 sees overlaps in "literal" + std::string that are not there (GCC bug 105651).
     target_compile_options(${target} PRIVATE -Wno-restrict)
   endif()
+  get_target_property(type ${target} TYPE)
+  if(FAIRWAY_BUILD_PYTHON AND type STREQUAL "STATIC_LIBRARY")
+    # For the Python module; calls within the library stay direct, and are inlined, all the same.
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+  endif()
   if(FAIRWAY_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

@@ -50,6 +50,16 @@ json frame_json(const ObstacleMap& map) {
   return frame;
 }
 
+std::string record_text(const ObstacleMap& map, const Mission& mission, const json& options,
+                        const json& inputs) {
+  const json record = {{"program", program_version},
+                       {"mission", mission_json(mission)},
+                       {"options", options},
+                       {"inputs", inputs},
+                       {"frame", frame_json(map)}};
+  return record.dump(-1, ' ', true, json::error_handler_t::replace);
+}
+
 /// Relative to the scenario's folder, so that a record does not depend on where a checkout lies.
 std::string path_in_record(const fs::path& path, const Scenario& scenario) {
   const fs::path folder = fs::absolute(scenario.file).lexically_normal().parent_path();
@@ -75,12 +85,18 @@ std::string plan_record(const Scenario& scenario, const ObstacleMap& map, const 
   json options = {{"map", effective_values(scenario, "map")},
                   {"plan", effective_values(scenario, "plan")}};
   options["map"].erase("file");  // it stands among the inputs
-  const json record = {{"program", program_version},
-                       {"mission", mission_json(mission)},
-                       {"options", options},
-                       {"inputs", inputs_json(scenario, map)},
-                       {"frame", frame_json(map)}};
-  return record.dump(-1, ' ', true, json::error_handler_t::replace);
+  return record_text(map, mission, options, inputs_json(scenario, map));
+}
+
+std::string plan_record(const ObstacleMap& map, const Mission& mission,
+                        const FieldOptions& options) {
+  Scenario asked;
+  asked.plan = options;
+  json inputs = json::array();
+  for (const InputFile& input : map.inputs) {
+    inputs.push_back({{"path", input.path}, {"sha256", input.sha256}});
+  }
+  return record_text(map, mission, {{"plan", effective_values(asked, "plan")}}, inputs);
 }
 
 Plan plan_of_field(Field&& field, const Vehicle& vehicle, std::string record_json) {

@@ -20,6 +20,10 @@ namespace fairway {
 [[nodiscard]] std::string plan_record(const Scenario& scenario, const ObstacleMap& map,
                                       const Mission& mission);
 
+/// The same for a plan made without a scenario.
+[[nodiscard]] std::string plan_record(const ObstacleMap& map, const Mission& mission,
+                                      const FieldOptions& options);
+
 /// The field becomes a plan; its arrays move.
 [[nodiscard]] Plan plan_of_field(Field&& field, const Vehicle& vehicle, std::string record_json);
 

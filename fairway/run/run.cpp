@@ -87,12 +87,7 @@ void add_flights(json& summary, const Scenario& scenario, const ScenarioFlights&
   summary["final_legs"] = final_legs_json(flown.final_legs);
 }
 
-/// map -> field -> plan, what both commands begin with.
-struct Planned {
-  ObstacleMap map;
-  Mission mission;
-  Plan plan;
-};
+}  // namespace
 
 std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& scenario, StageClock& clock) {
   clock.begin("reading the map", unknown_time);
@@ -109,6 +104,8 @@ std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& scenario, St
                             plan_record(scenario, map, mission));
   return Planned{std::move(map), std::move(mission), std::move(plan)};
 }
+
+namespace {
 
 void write_flights(const ScenarioFlights& flown, const ObstacleMap& map, double speed_mps,
                    const fs::path& place) {

@@ -3,15 +3,32 @@
 
 #include <filesystem>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "fairway/base/atomic_file.hpp"
+#include "fairway/field/field.hpp"
+#include "fairway/map/obstacle_map.hpp"
+#include "fairway/plan/plan.hpp"
 #include "fairway/run/progress.hpp"
 #include "fairway/run/scenario.hpp"
+#include "fairway/run/stage_clock.hpp"
+#include "fairway/vehicle/mission.hpp"
 
 namespace fairway {
+
+struct Planned {
+  ObstacleMap map;
+  Mission mission;
+  Plan plan;
+};
+
+/// map -> field -> plan, in memory: what every run begins with. A refusal is `unreachable`; what
+/// else speaks against the mission is the input's fault, an InputError at the scenario's line.
+[[nodiscard]] std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& scenario,
+                                                                  StageClock& clock);
 
 struct RunResult {
   bool unreachable = false;  ///< the answer is no: nothing was written, `paragraph` says why

@@ -1,0 +1,29 @@
+// What a certificate says of many states at once, and of every cell for one heading.
+//
+// Properties that always hold: those of fairway/runtime.hpp; the answers do not depend on threads.
+// Cost: about a microsecond a state and core.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fairway/base/heading.hpp"
+#include "fairway/certificate/certificate.hpp"
+#include "fairway/runtime.hpp"
+#include "fairway/vehicle/vehicle.hpp"
+
+namespace fairway {
+
+/// Answer [i] belongs to state [i].
+[[nodiscard]] std::vector<runtime::Answer> ask(const Certificate& certificate,
+                                               std::span<const State> states);
+
+/// [iy][ix]: the verdict of the vehicle near each cell's middle with (nearly) this heading. Beside
+/// the middle, as in verify/verdict_map.hpp: exactly in the middle flights meet ties that have no
+/// volume. In an obstacle: collide; in the target: reach.
+[[nodiscard]] std::vector<Verdict> verdicts_at(const Certificate& certificate, Heading heading);
+
+/// The states that verdicts_at() asks for, [iy][ix].
+[[nodiscard]] std::vector<State> states_asked_at(const Grid& grid, Heading heading);
+
+}  // namespace fairway

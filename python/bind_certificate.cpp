@@ -1,0 +1,204 @@
+// certificate: what was proved, and asking it.
+#include "bind_certificate.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <pybind11/stl/filesystem.h>
+#include <nlohmann/json.hpp>
+
+#include "binding.hpp"
+#include "fairway/certificate/certificate_file.hpp"
+#include "fairway/report/draw_verdicts.hpp"
+#include "fairway/run/ask_certificate.hpp"
+#include "fairway/run/checker.hpp"
+#include "fairway/verify/sample_verdicts.hpp"
+#include "fairway/verify/verdict.hpp"
+
+namespace fairway::python {
+namespace {
+
+using namespace pybind11::literals;
+
+py::tuple query(const HeldCertificate& held, const py::object& rows) {
+  const std::vector<State> states = states_of(rows, "states");
+  std::vector<std::int8_t> verdict(states.size());
+  std::vector<double> time_s(states.size());
+  {
+    const py::gil_scoped_release unlocked;
+    const std::vector<runtime::Answer> answers = ask(held.certificate, states);
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      verdict[i] = static_cast<std::int8_t>(answers[i].verdict);
+      time_s[i] = answers[i].time_bound_s;
+    }
+  }
+  return py::make_tuple(owning(std::move(verdict)), owning(std::move(time_s)));
+}
+
+py::array verdict_map(const HeldCertificate& held, double heading_rad) {
+  if (!std::isfinite(heading_rad)) throw py::value_error("heading_rad: is not finite");
+  std::vector<Verdict> verdicts;
+  {
+    const py::gil_scoped_release unlocked;
+    verdicts = verdicts_at(held.certificate, Heading::from_rad(heading_rad));
+  }
+  auto* kept = new std::vector<Verdict>(std::move(verdicts));
+  const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<Verdict>*>(p); });
+  const Grid& grid = held.certificate.grid;
+  return py::array(py::dtype::of<std::int8_t>(), std::vector<py::ssize_t>{grid.ny, grid.nx},
+                   std::vector<py::ssize_t>{grid.nx, 1},
+                   reinterpret_cast<const std::int8_t*>(kept->data()), owner);
+}
+
+nlohmann::json record_of(const HeldCertificate& held) {
+  return nlohmann::json::parse(held.certificate.record_json);
+}
+
+/// One member of the record as a dict; None when a file of other origin lacks it.
+py::object member_of(const HeldCertificate& held, const char* name) {
+  const nlohmann::json record = record_of(held);
+  return record.contains(name) ? python_of(record[name]) : py::none();
+}
+
+VerdictMap sampled(const HeldCertificate& held, int headings, int states) {
+  VerdictMapOptions options;
+  options.headings = headings;
+  options.states_per_sample = states;
+  return verdict_map_of(held.certificate.flow(), held.certificate.sections.view(), options);
+}
+
+Picture picture(const HeldCertificate& held, int headings, const std::string& title) {
+  const py::gil_scoped_release unlocked;
+  return draw_verdicts(sampled(held, headings, 0), {.title = title});
+}
+
+Picture shares_picture(const HeldCertificate& held, const std::string& title) {
+  const py::gil_scoped_release unlocked;
+  return draw_proved_shares(sampled(held, 1, VerdictMapOptions{}.states_per_sample),
+                            {.title = title});
+}
+
+py::object check(const std::filesystem::path& path, const py::object& plan) {
+  std::vector<std::string> words{path.string(), "--json"};
+  if (!plan.is_none()) {
+    words.insert(words.end(), {"--plan", plan.cast<std::filesystem::path>().string()});
+  }
+  CheckRun run;
+  {
+    const py::gil_scoped_release unlocked;
+    run = run_checker(std::move(words), true);
+  }
+  if (run.exit_code == 0 || run.exit_code == 1) return python_of_json(run.output);
+  if (run.exit_code == 127) {
+    throw std::runtime_error(
+        "cannot run fairway-check: it is installed with fairway, expected on "
+        "the PATH");
+  }
+  if (run.exit_code == 65) throw py::value_error(run.output);
+  throw std::runtime_error(run.output);
+}
+
+}  // namespace
+
+void bind_certificate(py::module_& m) {
+  std::vector<std::pair<const char*, int>> codes;
+  for (int v = 0; v < verdict_count; ++v) codes.emplace_back(name_of(static_cast<Verdict>(v)), v);
+  add_enum(m, "Verdict", "What is proved of a state, as Certificate.query has it.", codes);
+
+  py::class_<HeldCertificate, std::shared_ptr<HeldCertificate>>(
+      m, "Certificate",
+      "What was proved of a plan: a verdict for every place and heading. docs/trust.md says what "
+      "that rests on; fairway.check has a separate program prove it again.")
+      .def("query", &query, "states"_a,
+           R"(What is proved of states, in about a microsecond each.
+
+states  float64 [n, 3]: x_m, y_m, heading_rad
+
+Returns (verdict int8 [n], time_bound_s float64 [n]): codes of Verdict (0 undecided, 1 reach,
+2 collide, 3 leave, 4 trapped); seconds within which a state that reaches does, else +inf.)")
+      .def("verdict_map", &verdict_map, "heading_rad"_a,
+           R"(The verdict of the vehicle near every cell's middle for one heading.
+
+Returns int8 [ny, nx], the lowest row first, codes of Verdict; collide in an obstacle, reach in
+the goal. The states are cell_m / 37 and cell_m / 53 beside the middle and 0.0005 rad beside the
+heading: exactly in the middle, flights meet ties that have no volume.)")
+      .def_property_readonly(
+          "volume_fraction",
+          [](const HeldCertificate& held) { return member_of(held, "volume_fraction"); },
+          "Shares of the volume of all states outside obstacles and target, a dict by verdict.")
+      .def_property_readonly(
+          "volume_fraction_free",
+          [](const HeldCertificate& held) { return member_of(held, "volume_fraction_free"); },
+          "The same of the safe-start cells alone.")
+      .def_property_readonly(
+          "summary", [](const HeldCertificate& held) { return python_of(record_of(held)); },
+          "All that is recorded of the proof, a dict (docs/formats.md): shares, options, levels, "
+          "why the work ended, digests of the plan.")
+      .def_property_readonly(
+          "leaves", [](const HeldCertificate& held) { return held.certificate.sections.leaves(); },
+          "How many pieces the proof has.")
+      .def_property_readonly(
+          "shape",
+          [](const HeldCertificate& held) {
+            return py::make_tuple(held.certificate.grid.ny, held.certificate.grid.nx);
+          },
+          "(ny, nx).")
+      .def_property_readonly(
+          "cell_m", [](const HeldCertificate& held) { return held.certificate.grid.cell_m; },
+          "Side of a cell, metres.")
+      .def_property_readonly(
+          "origin_m",
+          [](const HeldCertificate& held) {
+            return py::make_tuple(held.certificate.grid.x0_m, held.certificate.grid.y0_m);
+          },
+          "(x, y) of the lower left corner, metres.")
+      .def_property_readonly(
+          "extent_m", [](const HeldCertificate& held) { return extent_of(held.certificate.grid); },
+          "(x low, x high, y low, y high), metres: matplotlib's `extent`, with origin=\"lower\".")
+      .def("picture", &picture, py::kw_only(), "headings"_a = VerdictMapOptions{}.headings,
+           "title"_a = "",
+           "A Picture with a panel for each of so many headings: what is proved where.")
+      .def("shares_picture", &shares_picture, py::kw_only(), "title"_a = "",
+           "A Picture of the shares of headings proved to reach, to fail, and undecided, per cell.")
+      .def(
+          "save",
+          [](const HeldCertificate& held, const std::filesystem::path& path, bool force) {
+            const py::gil_scoped_release unlocked;
+            write_certificate(held.certificate, path, force ? Existing::replace : Existing::keep);
+          },
+          "path"_a, py::kw_only(), "force"_a = false,
+          "Writes a certificate file (safetensors), whole or not at all. One that is there is kept "
+          "unless `force`: then ValueError.")
+      .def("_repr_png_",
+           [](const HeldCertificate& held) {
+             return py::bytes(picture(held, VerdictMapOptions{}.headings, "").png);
+           })
+      .def("__repr__", [](const HeldCertificate& held) {
+        return fmt::format("<fairway.Certificate: {}, {} leaves>", words_of(held.certificate.grid),
+                           held.certificate.sections.leaves());
+      });
+
+  m.def(
+      "load_certificate",
+      [](const std::filesystem::path& path) {
+        const py::gil_scoped_release unlocked;
+        return std::make_shared<HeldCertificate>(HeldCertificate{read_certificate(path)});
+      },
+      "path"_a,
+      "Reads a certificate file and checks its digests; it proves nothing, see check(). Raises "
+      "InputError (a ValueError).");
+
+  m.def("check", &check, "path"_a, "plan"_a = py::none(),
+        R"(Has the separate program fairway-check prove a certificate file again.
+
+plan  path of the plan file that it must be the certificate of
+
+Returns what it reports, a dict: "accepted" is True or False, "reason" says why not. Raises
+ValueError for what is no certificate, RuntimeError when the program is not on the PATH.)");
+}
+
+}  // namespace fairway::python

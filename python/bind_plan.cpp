@@ -1,0 +1,95 @@
+// plan: the product, its arrays without copies, its files.
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "binding.hpp"
+#include "fairway/base/atomic_file.hpp"
+#include "fairway/plan/plan_file.hpp"
+
+namespace fairway::python {
+namespace {
+
+using namespace pybind11::literals;
+
+template <typename T, typename Code>
+py::array array_of(const py::object& self, const std::vector<T> Plan::*member) {
+  const Plan& plan = self.cast<const HeldPlan&>().plan;
+  return grid_view(reinterpret_cast<const Code*>((plan.*member).data()), plan.grid, self);
+}
+
+}  // namespace
+
+void bind_plan(py::module_& m) {
+  py::class_<HeldPlan, std::shared_ptr<HeldPlan>>(
+      m, "Plan",
+      "A feedback plan: for every cell the heading to steer.\n\n"
+      "Arrays are [ny, nx], the lowest row first, and read-only views of the plan's own memory, "
+      "which they keep alive. Cell [iy, ix] covers origin_m + cell_m * (ix, iy) to origin_m + "
+      "cell_m * (ix + 1, iy + 1).")
+      .def_property_readonly(
+          "heading_rad",
+          [](const py::object& self) { return array_of<float, float>(self, &Plan::heading_rad); },
+          "float32 [ny, nx]: commanded heading, radians counter-clockwise from east, in (-pi, pi]; "
+          "NaN: no command, the cell is crossed straight.")
+      .def_property_readonly(
+          "cost_m",
+          [](const py::object& self) { return array_of<float, float>(self, &Plan::cost_m); },
+          "float32 [ny, nx]: cost to go, metres; +inf: the goal cannot be reached from here.")
+      .def_property_readonly(
+          "region",
+          [](const py::object& self) { return array_of<Region, std::int8_t>(self, &Plan::region); },
+          "int8 [ny, nx]: 0 free (safe start), 1 obstacle, -1 buffer, 2 goal; see Region.")
+      .def_property_readonly(
+          "cell_m", [](const HeldPlan& p) { return p.plan.grid.cell_m; }, "Side of a cell, metres.")
+      .def_property_readonly(
+          "origin_m",
+          [](const HeldPlan& p) { return py::make_tuple(p.plan.grid.x0_m, p.plan.grid.y0_m); },
+          "(x, y) of the lower left corner, metres.")
+      .def_property_readonly(
+          "shape", [](const HeldPlan& p) { return py::make_tuple(p.plan.grid.ny, p.plan.grid.nx); },
+          "(ny, nx).")
+      .def_property_readonly(
+          "extent_m", [](const HeldPlan& p) { return extent_of(p.plan.grid); },
+          "(x low, x high, y low, y high), metres: matplotlib's `extent`, with origin=\"lower\".")
+      .def_property_readonly(
+          "vehicle",
+          [](const HeldPlan& p) {
+            return py::dict("speed_mps"_a = p.plan.vehicle.speed_mps,
+                            "turn_radius_m"_a = p.plan.vehicle.turn_radius_m);
+          },
+          "{\"speed_mps\": metres per second, \"turn_radius_m\": metres}.")
+      .def_property_readonly(
+          "record", [](const HeldPlan& p) { return python_of_json(p.plan.record_json); },
+          "How the plan came about, a dict: mission, every effective option, inputs, frame "
+          "(docs/formats.md).")
+      .def(
+          "save",
+          [](const HeldPlan& p, const std::filesystem::path& path, bool force) {
+            const py::gil_scoped_release unlocked;
+            write_plan(p.plan, path, force ? Existing::replace : Existing::keep);
+          },
+          "path"_a, py::kw_only(), "force"_a = false,
+          "Writes a plan file (safetensors), whole or not at all. One that is there is kept unless "
+          "`force`: then ValueError.")
+      .def("__repr__", [](const HeldPlan& p) {
+        return fmt::format("<fairway.Plan: {}, {:g} m/s, turning radius {:g} m>",
+                           words_of(p.plan.grid), p.plan.vehicle.speed_mps,
+                           p.plan.vehicle.turn_radius_m);
+      });
+
+  m.def(
+      "load_plan",
+      [](const std::filesystem::path& path) {
+        const py::gil_scoped_release unlocked;
+        return std::make_shared<HeldPlan>(read_plan(path));
+      },
+      "path"_a,
+      "Reads a plan file, strictly. Raises InputError (a ValueError) naming the field that is "
+      "wrong.");
+}
+
+}  // namespace fairway::python

@@ -1,0 +1,100 @@
+// verify: plan -> verdicts.
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "bind_certificate.hpp"
+#include "binding.hpp"
+#include "fairway/run/stage_clock.hpp"
+#include "fairway/run/verification.hpp"
+
+#include <pybind11/stl.h>
+
+namespace fairway::python {
+namespace {
+
+using namespace pybind11::literals;
+
+RegionOfInterest region_from(const py::object& region) {
+  RegionOfInterest made;
+  if (py::isinstance<py::str>(region)) {
+    made.kind = choice_of<RegionOfInterest::Kind>(
+        "region", region.cast<std::string>(),
+        {{"goal", RegionOfInterest::Kind::goal}, {"obstacle", RegionOfInterest::Kind::obstacle}});
+    return made;
+  }
+  made.kind = RegionOfInterest::Kind::rectangle;
+  try {
+    made.rectangle_m = region.cast<std::array<double, 4>>();
+  } catch (const py::cast_error&) {
+    throw py::type_error("region: expected \"goal\", \"obstacle\" or (x0, y0, x1, y1) in metres");
+  }
+  const auto& [x0, y0, x1, y1] = made.rectangle_m;
+  if (!(x0 < x1 && y0 < y1)) {
+    throw py::value_error("region: expected (x0, y0, x1, y1) with x0 < x1 and y0 < y1");
+  }
+  return made;
+}
+
+std::shared_ptr<HeldCertificate> verify(const std::shared_ptr<HeldPlan>& plan,
+                                        const py::object& region, double undecided_max,
+                                        std::optional<double> time_limit_s,
+                                        std::optional<double> memory_limit_mb, std::size_t samples,
+                                        std::uint64_t seed,
+                                        const std::shared_ptr<HeldCertificate>& resume,
+                                        const py::object& progress) {
+  CertifyOptions options;
+  if (!(undecided_max >= 0.0 && undecided_max <= 1.0)) {
+    throw py::value_error("undecided_max: expected a share, 0 to 1");
+  }
+  options.undecided_max = undecided_max;
+  for (const auto& [name, limit] :
+       {std::pair{"time_limit_s", time_limit_s}, std::pair{"memory_limit_mb", memory_limit_mb}}) {
+    if (limit && !(*limit > 0.0 && *limit < 1e12)) {
+      throw py::value_error(std::string(name) + ": expected a number > 0, or None");
+    }
+  }
+  options.time_limit_s = time_limit_s.value_or(0.0);
+  options.memory_limit_bytes = static_cast<std::size_t>(memory_limit_mb.value_or(0.0) * 1e6);
+  options.samples = samples;
+  options.seed = seed;
+  const RegionOfInterest of_interest = region_from(region);
+  const Progress told = progress_of(progress);
+
+  const py::gil_scoped_release unlocked;
+  std::optional<Certificate> earlier;
+  if (resume) earlier = resume->certificate;
+  StageClock clock(told);
+  clock.begin("verifying", unknown_time);
+  Verification made =
+      verify_plan(plan->plan, "plan", of_interest, options, std::move(earlier), clock);
+  return std::make_shared<HeldCertificate>(HeldCertificate{std::move(made.certificate)});
+}
+
+}  // namespace
+
+void bind_verify(py::module_& m) {
+  const CertifyOptions d;
+  m.def("verify", &verify, "plan"_a, py::kw_only(), "region"_a = "goal",
+        "undecided_max"_a = d.undecided_max, "time_limit_s"_a = py::none(),
+        "memory_limit_mb"_a = py::none(), "samples"_a = d.samples, "seed"_a = d.seed,
+        "resume"_a = nullptr, "progress"_a = py::none(),
+        R"(Proves, for every place and heading, what the vehicle does under `plan`.
+
+region           what is to be reached: "goal", "obstacle", or the cells wholly inside
+                 (x0, y0, x1, y1), metres
+undecided_max    stop once this share of the volume is undecided
+time_limit_s     stop after this time, seconds
+memory_limit_mb  stop before using more, megabytes
+samples, seed    random states that measure the volumes
+resume           a Certificate of the same plan and region to go on from
+progress         called as progress(stage, left_s) now and then in the calling thread; left_s is
+                 None when unknown; what it raises ends the work, and so does Ctrl-C
+
+Returns a Certificate. Raises ValueError when the plan cannot be verified.)");
+}
+
+}  // namespace fairway::python

@@ -1,0 +1,178 @@
+"""Plans from arrays, scenarios and files."""
+import gc
+import math
+import os
+
+import numpy as np
+import pytest
+
+import fairway
+
+
+def test_arrays_have_the_shape_of_the_obstacles_and_their_meaning(plan, obstacles):
+    assert plan.heading_rad.shape == plan.cost_m.shape == plan.region.shape == obstacles.shape
+    assert plan.shape == obstacles.shape
+    assert (plan.heading_rad.dtype, plan.cost_m.dtype, plan.region.dtype) == (
+        np.float32, np.float32, np.int8)
+    assert np.array_equal(plan.region == fairway.Region.OBSTACLE, obstacles)
+    goal = plan.region == fairway.Region.GOAL
+    assert np.all(plan.cost_m[goal] <= 2 * 12.0)
+    iy, ix = np.nonzero(goal)
+    reach_m = np.hypot((ix + 0.5) * 4.0 - 500.0, (iy + 0.5) * 4.0 - 360.0)
+    assert reach_m.max() <= 2 * 12.0  # beta turning radii about goal_m
+    free = (plan.region == fairway.Region.FREE) & np.isfinite(plan.cost_m)
+    assert np.all(np.abs(plan.heading_rad[free]) <= math.pi)
+    assert plan.vehicle == {"speed_mps": 10.0, "turn_radius_m": 12.0}
+    assert plan.extent_m == (0.0, 640.0, 0.0, 480.0)
+
+
+def test_arrays_are_read_only_views_that_keep_the_plan_alive(small_plan):
+    plan = fairway.plan_arrays(np.zeros((40, 50), np.uint8), 1.0, (-10, 5), speed_mps=2,
+                               turn_radius_m=2.5, goal_m=(20, 25))
+    first, second = plan.heading_rad, plan.heading_rad
+    assert np.shares_memory(first, second)
+    for array in (first, plan.cost_m, plan.region):
+        assert not array.flags.owndata
+        assert not array.flags.writeable
+        with pytest.raises(ValueError):
+            array[0, 0] = 0
+    assert first.base is plan
+    del plan, second, array
+    gc.collect()
+    assert np.array_equal(first, small_plan.heading_rad, equal_nan=True)
+
+
+def test_array_options_are_those_of_scenarios(obstacles):
+    plan = fairway.plan_arrays(obstacles, 4, speed_mps=5, turn_radius_m=9, goal_m=[500, 360],
+                               metric="octile", filter="paper", blend="paper", sigma_cells=3.0,
+                               mu_path=0.25, sigma_path=1.25, mu_border=0.75, sigma_border=0.25,
+                               alpha=2.5, beta=3.0, axis_capture_rad=0.01)
+    assert plan.record["options"]["plan"] == {
+        "metric": "octile", "filter": "paper", "blend": "paper", "sigma_cells": 3.0,
+        "mu_path": 0.25, "sigma_path": 1.25, "mu_border": 0.75, "sigma_border": 0.25,
+        "alpha": 2.5, "beta": 3.0, "axis_capture_rad": 0.01}
+    assert plan.record["mission"] == {"kind": "goal", "goal_m": [500.0, 360.0],
+                                      "goal_heading_rad": None}
+
+
+def test_defaults_are_those_of_scenarios(plan, source):
+    scenario = fairway.Scenario(source / "demo/demo.toml")
+    assert plan.record["options"]["plan"] == scenario.options["plan"]
+
+
+def test_any_layout_of_the_same_obstacles_gives_the_same_plan(plan, obstacles):
+    wide = np.zeros((240, 320), bool)
+    wide[::2, ::2] = obstacles
+    for same in (np.asfortranarray(obstacles), obstacles.astype(np.uint8), obstacles.tolist(),
+                 wide[::2, ::2]):
+        other = fairway.plan_arrays(same, 4.0, (0.0, 0.0), speed_mps=10.0, turn_radius_m=12.0,
+                                    goal_m=np.array([500, 360]))
+        assert np.array_equal(other.heading_rad, plan.heading_rad, equal_nan=True)
+
+
+def test_a_path_is_followed(obstacles):
+    plan = fairway.plan_arrays(obstacles, 4.0, speed_mps=10.0, turn_radius_m=12.0,
+                               path_m=[[100, 100], [540, 100], [540, 380], [100, 380]],
+                               closed=True)
+    assert plan.record["mission"]["closed"] is True
+    assert plan.fly(plan.random_starts(200)).counts["reach"] > 190
+
+
+def test_the_plan_of_a_scenario_is_that_of_the_command_to_the_byte(command, source, tmp_path):
+    command("plan", source / "demo/demo.toml", "-o", tmp_path / "command.safetensors")
+    stages = []
+    plan = fairway.plan(fairway.Scenario(source / "demo/demo.toml"),
+                        progress=lambda stage, left_s: stages.append((stage, left_s)))
+    plan.save(tmp_path / "python.safetensors")
+    assert ((tmp_path / "python.safetensors").read_bytes()
+            == (tmp_path / "command.safetensors").read_bytes())
+    assert [stage for stage, _ in stages] == ["reading the map", "computing the field"]
+    assert stages[0][1] is None and stages[1][1] > 0
+
+
+def test_a_plan_file_reads_back_the_same(plan, tmp_path):
+    path = tmp_path / "p.safetensors"
+    plan.save(os.fspath(path))
+    back = fairway.load_plan(path)
+    assert np.array_equal(back.heading_rad, plan.heading_rad, equal_nan=True)
+    assert np.array_equal(back.cost_m, plan.cost_m)
+    assert np.array_equal(back.region, plan.region)
+    assert (back.cell_m, back.origin_m, back.record["mission"]) == (
+        plan.cell_m, plan.origin_m, plan.record["mission"])
+    with pytest.raises(fairway.InputError, match="exists"):
+        plan.save(path)
+    plan.save(path, force=True)
+    path.write_bytes(path.read_bytes()[:-1])
+    with pytest.raises(fairway.InputError) as error:
+        fairway.load_plan(path)
+    assert str(path) in error.value.where
+
+
+def test_a_map_of_a_scenario_plans_as_the_scenario_does(source):
+    scenario = fairway.Scenario(source / "demo/demo.toml")
+    grid = scenario.read_map()
+    assert grid.obstacle.shape == grid.shape and set(np.unique(grid.obstacle)) == {0, 1}
+    same = fairway.read_map(source / "demo/basin.yaml", 8.0)
+    assert np.array_equal(same.obstacle, grid.obstacle) and same.origin_m == grid.origin_m
+    one = fairway.plan_arrays(grid, speed_mps=10, turn_radius_m=20, goal_m=(840, 620))
+    assert np.array_equal(one.heading_rad, fairway.plan(scenario).heading_rad, equal_nan=True)
+    with pytest.raises(ValueError, match="has its own"):
+        fairway.plan_arrays(grid, 8.0, speed_mps=10, turn_radius_m=20, goal_m=(840, 620))
+
+
+@pytest.mark.parametrize("obstacles, error, words", [
+    (np.zeros((9, 9)), TypeError, "bool or uint8"),
+    (np.zeros((9, 9), int), TypeError, "compare"),
+    (np.zeros(9, bool), ValueError, r"shape \[9\], expected \[ny, nx\]"),
+    (np.zeros((2, 3, 4), bool), ValueError, "expected"),
+    (np.zeros((0, 3), bool), ValueError, "expected"),
+    (np.full((9, 9), 255, np.uint8), ValueError, "other than 0"),
+    (None, TypeError, "bool or uint8"),
+    ([[1, 2], [3]], TypeError, "bool or uint8"),
+])
+def test_other_arrays_are_refused_in_words(obstacles, error, words):
+    with pytest.raises(error, match=words):
+        fairway.plan_arrays(obstacles, 1.0, speed_mps=1.0, turn_radius_m=2.0, goal_m=(4, 4))
+
+
+@pytest.mark.parametrize("keywords, error, words", [
+    ({"speed_mps": -1.0}, ValueError, "speed > 0"),
+    ({"speed_mps": math.nan}, ValueError, "speed > 0"),
+    ({"turn_radius_m": 1.0}, ValueError, "turning radius is larger than the cell"),
+    ({"goal_m": (1.0, math.inf)}, ValueError, "goal_m: is not finite"),
+    ({"goal_m": (1.0, 2.0, 3.0)}, ValueError, "2 numbers: x_m, y_m"),
+    ({"goal_m": None}, ValueError, "one of the two"),
+    ({"path_m": [[0, 0], [1, 1]]}, ValueError, "one of the two"),
+    ({"goal_m": None, "path_m": [[0, 0]]}, ValueError, "two or more"),
+    ({"metric": "manhattan"}, ValueError, 'expected one of "euclidean", "octile", "paper"'),
+    ({"mu_path": 2.0}, ValueError, "mu"),
+    ({"colour": 1}, TypeError, "incompatible"),
+])
+def test_options_out_of_range_are_refused_in_words(obstacles, keywords, error, words):
+    given = {"speed_mps": 10.0, "turn_radius_m": 12.0, "goal_m": (500.0, 360.0), **keywords}
+    with pytest.raises(error, match=words):
+        fairway.plan_arrays(obstacles, 4.0, **given)
+
+
+def test_a_mission_the_map_does_not_allow_says_why(obstacles):
+    def ask(goal_m):
+        with pytest.raises(fairway.MissionRefused) as error:
+            fairway.plan_arrays(obstacles, 4.0, speed_mps=10.0, turn_radius_m=12.0, goal_m=goal_m)
+        return error.value
+    assert isinstance(ask((300.0, 220.0)), ValueError)
+    assert ask((300.0, 220.0)).reason == "in_obstacle"
+    near = ask((300.0, 270.0))
+    assert near.reason == "in_buffer" and near.lacks_m > 0.0
+    assert ask((-5000.0, 0.0)).reason == "outside_map"
+
+
+def test_a_wrong_scenario_names_the_line(tmp_path):
+    file = tmp_path / "s.toml"
+    file.write_text("[map]\nfile = 'a.pgm'\ncell_m = -1\n")
+    with pytest.raises(fairway.InputError, match=r"s\.toml:3: map\.cell_m") as error:
+        fairway.Scenario(file)
+    assert error.value.where == f"{file}:3"
+    with pytest.raises(ValueError, match="nowhere.toml"):
+        fairway.Scenario(tmp_path / "nowhere.toml")
+    with pytest.raises(ValueError, match="there is no such key"):
+        fairway.Scenario.from_text("[map]\nfiel = 'a'\n")
