@@ -1,0 +1,57 @@
+#include "fairway/map/degrees_from_frame.hpp"
+
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+#include <ogr_spatialref.h>
+
+#include "fairway/base/error.hpp"
+#include "fairway/map/gdal_session.hpp"
+#include "fairway/map/tangent_plane.hpp"
+
+namespace fairway {
+
+namespace {
+
+std::shared_ptr<OGRCoordinateTransformation> to_degrees(const std::string& projected_crs,
+                                                        const std::string& where) {
+  const GdalSession session;
+  OGRSpatialReference from;
+  OGRSpatialReference to;
+  std::shared_ptr<OGRCoordinateTransformation> projection;
+  if (from.importFromWkt(projected_crs.c_str()) == OGRERR_NONE &&
+      to.SetWellKnownGeogCS("WGS84") == OGRERR_NONE) {
+    from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    to.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    projection.reset(OGRCreateCoordinateTransformation(&from, &to));
+  }
+  if (!projection) {
+    throw InputError(where, "its reference system is not understood: " + session.message());
+  }
+  return projection;
+}
+
+}  // namespace
+
+std::function<GeodeticPoint(Vec2)> degrees_from_frame(
+    const std::optional<GeoReference>& geo, const std::optional<std::string>& projected_crs,
+    const std::string& where) {
+  if (geo) {
+    const TangentPlane plane({geo->latitude_deg, geo->longitude_deg});
+    return [plane](Vec2 position_m) { return plane.from_plane(position_m); };
+  }
+  if (!projected_crs) return {};
+  return [projection = to_degrees(*projected_crs, where), where](Vec2 position_m) {
+    const GdalSession session;
+    double x = position_m.x;
+    double y = position_m.y;
+    if (projection->Transform(1, &x, &y) == 0 || !std::isfinite(x) || !std::isfinite(y)) {
+      throw InputError(where, fmt::format("({:g}, {:g}) lies outside its reference system",
+                                          position_m.x, position_m.y));
+    }
+    return GeodeticPoint{y, x};
+  };
+}
+
+}  // namespace fairway

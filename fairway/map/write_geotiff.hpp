@@ -1,0 +1,49 @@
+// Values over a grid as a GeoTIFF, laid on Earth where the map was.
+//
+// Properties that always hold:
+//   1. Values read back bit for bit, the pixel of row r and column c being cell (c, ny - 1 - r):
+//      images have their highest row first.
+//   2. The place is that of the grid: in the map's projected system; else, for maps in degrees, in
+//      the azimuthal equidistant one about the map's reference point, whose axes are the tangent
+//      plane's; else in metres of a system of its own, which no other knows. A grid that is turned
+//      in its world has a turned transform.
+//   3. The bytes depend on the arguments and the version of GDAL alone: no times, no sidecar files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "fairway/base/atomic_file.hpp"
+#include "fairway/base/grid.hpp"
+#include "fairway/map/obstacle_map.hpp"
+
+namespace fairway {
+
+/// Where a grid lies, as ObstacleMap and the records of products say it.
+struct WorldPlace {
+  WorldFromGrid world_from_grid;
+  std::optional<GeoReference> geo;
+  std::optional<std::string> projected_crs;  ///< WKT
+};
+
+struct RasterBand {
+  std::string name;     ///< shown by GIS programs
+  std::string unit;     ///< "m", "rad", or empty
+  std::string meaning;  ///< a sentence for people
+  /// [iy][ix], all of one kind in a file. Without value: NaN, or no_value_byte.
+  std::variant<std::span<const float>, std::span<const std::uint8_t>> values;
+};
+inline constexpr std::uint8_t no_value_byte = 255;
+
+/// Writes it whole or not at all. Throws InputError when the place cannot be written or the record
+/// names a reference system that GDAL does not understand, ContractViolation when bands are
+/// missing, of several kinds, or not as large as the grid.
+void write_geotiff(const Grid& grid, const WorldPlace& place, std::span<const RasterBand> bands,
+                   const std::filesystem::path& path, Existing existing);
+
+}  // namespace fairway
