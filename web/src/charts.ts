@@ -83,7 +83,7 @@ export class Charts {
       width: byId("charts").clientWidth || 600,
       height: 205,
       title: undefined,
-      cursor: { sync: { key: "fairway" }, drag: { x: false, y: false }, bind: { click: (plot, _target, handler) => (event) => {
+      cursor: { y: false, sync: { key: "fairway" }, drag: { x: false, y: false }, bind: { click: (plot, _target, handler) => (event) => {
         handler(event);
         const left = plot.cursor.left ?? -1;
         if (left >= 0) this.moved(plot.posToVal(left, "x"));

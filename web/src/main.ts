@@ -237,7 +237,7 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
     if ((event.target as HTMLElement).closest(".zoom")) return;
     pointers.set(event.pointerId, place(event));
     cross = view.toWorld(...place(event));
-    if (pointers.size === 1 && live?.takes(view.toWorld(...place(event)))) {
+    if (pointers.size === 1 && live?.takes(view.toWorld(...place(event)), view)) {
       map.setPointerCapture(event.pointerId);
     } else if (view.zoomedIn) {
       map.setPointerCapture(event.pointerId);
@@ -252,7 +252,7 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
       if (event.pointerType === "mouse") { cross = view.toWorld(px, py); redraw("marks"); }
       return;
     }
-    if (live?.drags(view.toWorld(px, py))) {
+    if (live?.drags(view.toWorld(px, py), view)) {
       redraw("marks");
       return;
     }
@@ -331,7 +331,7 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
   if (verdicts) {
     await needCounts();
     void verdicts.askAll();
-    cut = showSolid(record, verdicts, tiles.verdict!, () => slider.index);
+    cut = showSolid(record, verdicts);
   } else {
     byId("solid-section").hidden = true;
   }

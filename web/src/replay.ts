@@ -1,11 +1,12 @@
 // The flights of the run: a table to choose from, and their replay in time.
 import { Charts } from "./charts";
-import { byId, el, headingWords, short } from "./dom";
+import { byId, degrees, el, short } from "./dom";
 import { drawVehicle, lineOf, strokeTrack, type ShownFlight } from "./flights";
 import type { PageRecord } from "./record";
 import type { Viewport } from "./viewport";
 
-const groups: Record<string, string> = { given: "scenario", random: "random", failing: "fails" };
+const groups: Record<string, string> = { given: "given", random: "random", failing: "to fail" };
+const place = (m: number): string => Math.abs(m) < 100 ? short(m) : String(Math.round(m));
 const lines_in_charts = 5;
 
 export class Replay {
@@ -18,6 +19,7 @@ export class Replay {
   private readonly scrub = el("input", { type: "range", min: 0, max: 1000, value: 0, "aria-label": "Time of the replay" });
   private readonly play = el("button", { type: "button", class: "round", "aria-pressed": "false", "aria-label": "Replay" });
   private readonly clock = el("output", {});
+  private readonly which = el("span", { class: "which" });
   private rows: HTMLTableRowElement[] = [];
   private ready = false;
 
@@ -32,7 +34,8 @@ export class Replay {
     speeds.addEventListener("change", () => { this.speed = Number(speeds.value); });
     this.scrub.addEventListener("input", () => { this.stop(); this.moveTo(Number(this.scrub.value) / 1000 * this.duration_s); });
     this.play.addEventListener("click", () => this.frame ? this.stop() : this.start());
-    byId("replay").replaceChildren(this.play, this.scrub, speeds, this.clock);
+    byId("replay").replaceChildren(this.play, this.which, this.scrub, speeds, this.clock);
+    byId("replay").hidden = false;
     this.table(record);
     this.choose(-1);
     this.ready = true;
@@ -55,8 +58,8 @@ export class Replay {
       const mark = el("span", { class: "mark" });
       mark.style.background = lineOf(flight.outcome).color;
       const [x, y, h] = flight.start;
-      this.rows.push(row(k, el("span", {}, mark, flight.outcome + (flight.group === "random" ? "" : ` (${groups[flight.group] ?? flight.group})`)),
-        `(${short(x)}, ${short(y)}) ${headingWords(h)}`,
+      this.rows.push(row(k, el("span", {}, mark, flight.outcome, " ", el("small", {}, groups[flight.group] ?? flight.group)),
+        `${place(x)}, ${place(y)}, ${Math.round(degrees(h)) % 360}°`,
         flight.time_s === null ? "–" : `${flight.time_s.toFixed(1)} s`, flight.length_m === null ? "–" : `${Math.round(flight.length_m)} m`));
     }
     const body = el("tbody", {}, ...this.rows);
@@ -85,6 +88,8 @@ export class Replay {
     const given = this.flights.filter((f) => f.record.group === "given");
     this.charts.show(k >= 0 ? [this.flights[k]] : (given.length > 0 ? given : this.flights).slice(0, lines_in_charts));
     this.time_s = Math.min(this.time_s, this.duration_s);
+    const start = this.flights[k]?.record.start;
+    this.which.textContent = start ? `Flight from (${short(start[0])}, ${short(start[1])})` : `All ${this.flights.length} flights`;
     this.showTime();
     if (this.ready) this.changed("choice");
   }

@@ -1,3 +1,276 @@
-import type { VerdictLayers, Tiles } from "./layers";
-import type { PageRecord } from "./record";
-export function showSolid(_r: PageRecord, _v: VerdictLayers, _t: Tiles, _h: () => number): (heading: number) => void { return () => {}; }
+// The sampled states of a verdict as a body over (x, y, heading), cut at the slider's heading.
+import { BufferAttribute, BufferGeometry, CanvasTexture, Color, DoubleSide, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
+  NearestFilter, PerspectiveCamera, Plane, PlaneGeometry, Scene, Sprite, SpriteMaterial, SRGBColorSpace, Vector3, WebGLRenderer } from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { byId, cssVariable, el, headingWords, pixelRatio } from "./dom";
+import type { VerdictLayers } from "./layers";
+import { Code, type PageRecord } from "./record";
+import { boundary } from "./solid_mesh";
+
+const most_across = 128;
+const height = 0.62;  // of the longer side of the map
+
+const bodies: { name: string; has: (code: number) => boolean; code: number }[] = [
+  { name: "reach", has: (code) => code === Code.reach, code: Code.reach },
+  { name: "fail", has: (code) => code === Code.collide || code === Code.leave || code === Code.trapped, code: Code.collide },
+  { name: "undecided", has: (code) => code === Code.undecided, code: Code.undecided },
+];
+
+class Solid {
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(32, 1, 0.01, 20);
+  private readonly controls: OrbitControls;
+  private readonly cutting = new Plane(new Vector3(0, 0, -1), height);
+  private readonly slice: Mesh<PlaneGeometry, MeshBasicMaterial>;
+  private readonly floor: Mesh<PlaneGeometry, MeshBasicMaterial>;
+  private kind = 0;
+  private readonly marks: (LineSegments | Sprite)[] = [];
+  private body: Mesh<BufferGeometry, MeshBasicMaterial> | null = null;
+  private readonly width: number;
+  private readonly depth: number;
+  private readonly colors: string[];
+  private asked = false;
+
+  constructor(private readonly box: HTMLElement, private readonly record: PageRecord, private readonly layers: VerdictLayers, private heading: number) {
+    const { nx, ny } = record.verdicts!;
+    this.width = nx / Math.max(nx, ny);
+    this.depth = ny / Math.max(nx, ny);
+    this.colors = [...record.styles.verdict.map((style) => style.ground), record.styles.obstacle, record.styles.goal_pattern];
+    this.renderer = new WebGLRenderer({ antialias: true, alpha: true });
+    this.renderer.setPixelRatio(pixelRatio());
+    this.renderer.localClippingEnabled = true;
+    this.renderer.domElement.setAttribute("aria-hidden", "true");
+    box.append(this.renderer.domElement);
+    this.camera.up.set(0, 0, 1);
+    this.camera.position.set(-1.05, -1.78, 1.4);
+    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.controls.target.set(0, 0, 0.4 * height);
+    this.controls.enableZoom = false;  // the wheel scrolls the page until the view has the focus
+    this.controls.maxPolarAngle = 0.55 * Math.PI;
+    this.controls.update();
+    this.controls.addEventListener("change", () => this.redraw());
+    this.slice = this.cellsPlane();
+    this.floor = this.cellsPlane();
+    this.floor.position.z = -0.001;
+    this.frame();
+    new ResizeObserver(() => this.resize()).observe(box);
+    window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { this.frame(); this.redraw(); });
+    this.resize();
+  }
+
+  /** A horizontal plane of the map's size with a pixel for each sample; see paintCells. */
+  private cellsPlane(): Mesh<PlaneGeometry, MeshBasicMaterial> {
+    const canvas = document.createElement("canvas");
+    canvas.width = this.record.verdicts!.nx;
+    canvas.height = this.record.verdicts!.ny;
+    const map = new CanvasTexture(canvas);
+    map.colorSpace = SRGBColorSpace;
+    map.magFilter = NearestFilter;
+    const plane = new Mesh(new PlaneGeometry(this.width, this.depth), new MeshBasicMaterial({ map, side: DoubleSide, alphaTest: 0.5 }));
+    this.scene.add(plane);
+    return plane;
+  }
+
+  private paintCells(plane: Mesh<PlaneGeometry, MeshBasicMaterial>, codes: Uint8Array, shown: (code: number) => boolean): void {
+    const { nx, ny } = this.record.verdicts!;
+    const image = new ImageData(nx, ny);
+    const out = new Uint32Array(image.data.buffer);
+    const colors = this.colors.map((hex, code) => {
+      const n = parseInt(hex.slice(1), 16);
+      return shown(code) ? (0xff000000 | (n & 255) << 16 | (n & 0xff00) | n >> 16) >>> 0 : 0;
+    });
+    for (let y = 0; y < ny; ++y) {
+      for (let x = 0; x < nx; ++x) out[(ny - 1 - y) * nx + x] = colors[codes[y * nx + x]];
+    }
+    const map = plane.material.map as CanvasTexture;
+    (map.image as HTMLCanvasElement).getContext("2d")!.putImageData(image, 0, 0);
+    map.needsUpdate = true;
+  }
+
+  private label(text: string, x: number, y: number, z: number): void {
+    const canvas = document.createElement("canvas");
+    canvas.width = 256;
+    canvas.height = 64;
+    const context = canvas.getContext("2d")!;
+    context.font = "500 34px system-ui, sans-serif";
+    context.textAlign = "center";
+    context.textBaseline = "middle";
+    context.fillStyle = cssVariable("--soft");
+    context.fillText(text, 128, 32);
+    const texture = new CanvasTexture(canvas);
+    texture.colorSpace = SRGBColorSpace;
+    const sprite = new Sprite(new SpriteMaterial({ map: texture, depthTest: false }));
+    sprite.scale.set(0.2, 0.05, 1);
+    sprite.position.set(x, y, z);
+    this.marks.push(sprite);
+    this.scene.add(sprite);
+  }
+
+  /** The box's edges, and what its axes count. */
+  private frame(): void {
+    for (const mark of this.marks.splice(0)) this.scene.remove(mark);
+    const [x, y] = [this.width / 2, this.depth / 2];
+    const points: number[] = [];
+    const line = (...p: number[]) => points.push(...p);
+    for (const [a, b] of [[-x, -y], [x, -y], [x, y], [-x, y]]) line(a, b, 0, a, b, height);
+    for (const z of [0, height]) line(-x, -y, z, x, -y, z, x, -y, z, x, y, z, x, y, z, -x, y, z, -x, y, z, -x, -y, z);
+    for (let k = 0; k <= 4; ++k) line(-x, y, height * k / 4, -x - 0.02, y, height * k / 4);
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
+    const edges = new LineSegments(geometry, new LineBasicMaterial({ color: new Color(cssVariable("--faint")), transparent: true, opacity: 0.7 }));
+    this.marks.push(edges);
+    this.scene.add(edges);
+    for (let k = 0; k <= 4; ++k) this.label(`${90 * k}°`, -x - 0.09, y, height * k / 4);
+    this.label("x, east", 0, -y - 0.07, 0);
+    this.label("y, north", x + 0.1, 0, 0);
+    this.label("heading", -x - 0.09, y, height + 0.06);
+  }
+
+  private resize(): void {
+    const width = this.box.clientWidth, tall = this.box.clientHeight;
+    if (width === 0 || tall === 0) return;
+    this.renderer.setSize(width, tall, false);
+    this.camera.aspect = width / tall;
+    // Narrow windows look from farther away.
+    this.camera.fov = width < tall * 1.25 ? 32 * Math.min(1.8, 1.25 * tall / width) : 32;
+    this.camera.updateProjectionMatrix();
+    this.redraw();
+  }
+
+  redraw(): void {
+    if (this.asked) return;
+    this.asked = true;
+    requestAnimationFrame(() => { this.asked = false; this.renderer.render(this.scene, this.camera); });
+  }
+
+  async show(kind: number): Promise<void> {
+    this.kind = kind;
+    const { nx, ny, heading_rad } = this.record.verdicts!;
+    const step = Math.ceil(Math.max(nx, ny) / most_across);
+    const [mx, my, mz] = [Math.floor(nx / step), Math.floor(ny / step), heading_rad.length];
+    const inside = new Uint8Array(mx * my * mz);
+    for (let k = 0; k < mz; ++k) {
+      const codes = await this.layers.ask(k);
+      for (let y = 0; y < my; ++y) {
+        for (let x = 0; x < mx; ++x) {
+          if (bodies[kind].has(codes[(y * step + (step >> 1)) * nx + x * step + (step >> 1)])) inside[(k * my + y) * mx + x] = 1;
+        }
+      }
+    }
+    const quads = boundary({ nx: mx, ny: my, nz: mz, inside });
+    const color = new Color(this.colors[bodies[kind].code]);
+    const position = quads.position;
+    const tint = new Float32Array(position.length);
+    const sx = this.width / mx, sy = this.depth / my, sz = height / mz;
+    for (let v = 0; v < position.length; v += 3) {
+      // A little darker towards the floor, so that depth is seen.
+      const shade = quads.shade[Math.floor(v / 12)] * (0.78 + 0.22 * position[v + 2] / mz);
+      position[v] = position[v] * sx - this.width / 2;
+      position[v + 1] = position[v + 1] * sy - this.depth / 2;
+      position[v + 2] *= sz;
+      tint[v] = color.r * shade;
+      tint[v + 1] = color.g * shade;
+      tint[v + 2] = color.b * shade;
+    }
+    const index = new Uint32Array(quads.count * 6);
+    for (let q = 0; q < quads.count; ++q) index.set([0, 1, 2, 0, 2, 3].map((k) => 4 * q + k), 6 * q);
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(position, 3));
+    geometry.setAttribute("color", new BufferAttribute(tint, 3));
+    geometry.setIndex(new BufferAttribute(index, 1));
+    if (this.body) {
+      this.scene.remove(this.body);
+      this.body.geometry.dispose();
+    }
+    this.body = new Mesh(geometry, new MeshBasicMaterial({ vertexColors: true, side: DoubleSide, clippingPlanes: [this.cutting] }));
+    this.scene.add(this.body);
+    await this.cut(this.heading);
+    this.box.dataset.quads = String(quads.count);
+  }
+
+  async cut(heading: number): Promise<void> {
+    this.heading = heading;
+    const codes = await this.layers.ask(heading);
+    if (this.heading !== heading) return;
+    const z = height * (heading + 1) / this.layers.length;
+    this.cutting.constant = z - 1e-4;
+    this.slice.position.z = z;
+    const in_map = (code: number) => code >= Code.obstacle;
+    // Of a thin body the cut shows the body alone, so that its inside can be seen.
+    this.paintCells(this.slice, codes, (code) => this.kind === 0 || in_map(code) && heading + 1 === this.layers.length || bodies[this.kind].has(code));
+    this.paintCells(this.floor, codes, in_map);
+    this.redraw();
+  }
+
+  turn(azimuth: number, polar: number, nearer = 1): void {
+    const from = this.camera.position.clone().sub(this.controls.target);
+    const r = from.length() / nearer;
+    const a = Math.atan2(from.y, from.x) + azimuth;
+    const p = Math.min(Math.max(Math.acos(from.z / from.length()) + polar, 0.05), 0.55 * Math.PI);
+    from.set(r * Math.sin(p) * Math.cos(a), r * Math.sin(p) * Math.sin(a), r * Math.cos(p));
+    this.camera.position.copy(this.controls.target).add(from);
+    this.controls.update();
+    this.redraw();
+  }
+
+  set zooms(on: boolean) { this.controls.enableZoom = on; }
+}
+
+/** Builds the view when it comes into sight; gives what to call when the heading changes. */
+export function showSolid(record: PageRecord, layers: VerdictLayers): (heading: number) => void {
+  const box = byId("solid");
+  const first_cut = Math.round(0.68 * layers.length);
+  let follow: (heading: number) => void = () => {};
+  box.tabIndex = 0;
+  box.setAttribute("role", "application");
+  box.setAttribute("aria-label", "Body of states over place and heading; arrow keys turn it, plus and minus zoom");
+  let solid: Solid | null = null;
+  const begin = () => {
+    try {
+      solid = new Solid(box, record, layers, first_cut);
+    } catch {
+      box.replaceChildren(el("p", { class: "hint" }, "This browser gives no 3-D canvas (WebGL): the map above shows the same states, heading by heading."));
+      return;
+    }
+    const tools = el("div", { class: "solid-tools", role: "group", "aria-label": "Which states" });
+    bodies.forEach((body, kind) => {
+      const button = el("button", { type: "button", "aria-pressed": kind === 0 ? "true" : "false" }, body.name);
+      button.addEventListener("click", () => {
+        tools.querySelectorAll("button").forEach((b, k) => b.setAttribute("aria-pressed", String(k === kind)));
+        void solid!.show(kind);
+      });
+      tools.append(button);
+    });
+    const cut = el("input", { type: "range", min: 0, max: layers.length - 1, value: first_cut, "aria-label": "Heading of the cut" });
+    const words = el("output", {}, "");
+    const moved = () => {
+      words.textContent = `cut at ${headingWords(record.verdicts!.heading_rad[Number(cut.value)])}`;
+      cut.setAttribute("aria-valuetext", words.textContent);
+      void solid!.cut(Number(cut.value));
+    };
+    cut.addEventListener("input", moved);
+    follow = (index) => { cut.value = String(index); moved(); };
+    tools.append(el("label", { class: "cut" }, cut, words));
+    box.append(tools, el("p", { class: "solid-note" }, "Drag to turn, arrow keys and + − too."));
+    moved();
+    void solid.show(0);
+  };
+  new IntersectionObserver((entries, observer) => {
+    if (!entries.some((entry) => entry.isIntersecting)) return;
+    observer.disconnect();
+    begin();
+  }, { rootMargin: "200px" }).observe(box);
+  box.addEventListener("focus", () => { if (solid) solid.zooms = true; });
+  box.addEventListener("blur", () => { if (solid) solid.zooms = false; });
+  box.addEventListener("pointerdown", () => box.focus({ preventScroll: true }));
+  box.addEventListener("keydown", (event) => {
+    const turns: Record<string, [number, number, number]> = { ArrowLeft: [-0.1, 0, 1], ArrowRight: [0.1, 0, 1], ArrowUp: [0, -0.08, 1], ArrowDown: [0, 0.08, 1],
+      "+": [0, 0, 1.12], "=": [0, 0, 1.12], "-": [0, 0, 1 / 1.12] };
+    const turn = turns[event.key];
+    if (!turn || !solid || event.target !== box) return;
+    event.preventDefault();
+    solid.turn(...turn);
+  });
+  return (index) => follow(index);
+}
