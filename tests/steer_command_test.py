@@ -131,6 +131,91 @@ class Steer(unittest.TestCase):
             self.assertEqual(self.steer(*arguments, "--threads", 1, text=text).stdout,
                              self.steer(*arguments, "--threads", 2, text=text).stdout)
 
+    def waypoints(self, rows, header="x_m,y_m,heading_rad\n"):
+        return header + "".join(",".join(map(repr, row)) + "\n" for row in rows)
+
+    def test_waypoints_are_legs_from_each_to_the_next(self):
+        draw = np.random.default_rng(7)
+        rows = np.column_stack([draw.uniform(0, 200, (40, 2)), draw.uniform(-3, 3, 40)])
+        text = self.waypoints(rows.tolist())
+        legs = self.rows(self.steer("--turn-radius", 20, "--waypoints", "-", text=text))
+        lengths = np.array([float(leg["length_m"]) for leg in legs])
+        np.testing.assert_allclose(lengths, brute_force(rows[:-1], rows[1:], 20.0), atol=1e-7)
+        for leg, goal in zip(legs, rows[1:]):
+            self.assertAlmostEqual(float(leg["end_x_m"]), goal[0], places=8)
+            self.assertAlmostEqual(float(leg["end_y_m"]), goal[1], places=8)
+        # A start of one's own is one leg more, and one way-point is then enough.
+        more = self.rows(self.steer("--turn-radius", 20, "--waypoints", "-", "--from", "5,5,1",
+                                    text=text))
+        self.assertEqual(more[1:], legs)
+        one = self.rows(self.steer("--turn-radius", 20, "--waypoints", "-", "--from", "5,5,1",
+                                   text="100,50,90deg\n"))
+        direct = self.rows(self.steer("--turn-radius", 20, "--from", "5,5,1", "--to", "100,50,90deg"))
+        self.assertEqual(one, direct)
+
+    def test_the_papers_law_goes_on_from_where_it_arrived(self):
+        rows = [[0, 0, 0], [120, 60, 1.5], [40, 140, 3.0], [40, 140, 0.0]]
+        with tempfile.TemporaryDirectory() as folder:
+            track = Path(folder) / "t.csv"
+            legs = self.rows(self.steer("--turn-radius", 20, "--law", "clf", "--waypoints", "-",
+                                        "--track", track, text=self.waypoints(rows)))
+            points = np.loadtxt(track, delimiter=",", skiprows=1)
+        self.assertEqual([leg["converged"] for leg in legs], ["true"] * 3)
+        for k, (leg, goal) in enumerate(zip(legs, rows[1:])):
+            of_leg = points[points[:, 0] == k]
+            end = [float(leg[c]) for c in COLUMNS[3:]]
+            np.testing.assert_array_equal(of_leg[-1, 2:5], end)
+            self.assertLess(math.dist(end[:2], goal[:2]), 0.4)
+            self.assertLess(abs(math.remainder(end[2] - goal[2], 2 * math.pi)), 0.02)
+            if k:  # no jump between legs
+                before = points[points[:, 0] == k - 1][-1]
+                np.testing.assert_array_equal(of_leg[0, 1:5], before[1:5])
+            # Each row leads to the next: the arc of its curvature.
+            s = np.diff(of_leg[:, 1])
+            half = of_leg[:-1, 5] * s / 2
+            along = np.sinc(half / np.pi) * s
+            x = of_leg[:-1, 2] + along * np.cos(of_leg[:-1, 4] + half)
+            y = of_leg[:-1, 3] + along * np.sin(of_leg[:-1, 4] + half)
+            np.testing.assert_allclose(x, of_leg[1:, 2], atol=1e-9)
+            np.testing.assert_allclose(y, of_leg[1:, 3], atol=1e-9)
+            self.assertLessEqual(np.abs(of_leg[:, 5]).max(), 0.05 + 1e-15)
+
+    def test_a_track_of_the_shortest_path_has_v_fall_by_what_is_driven(self):
+        with tempfile.TemporaryDirectory() as folder:
+            track = Path(folder) / "t.csv"
+            leg = self.rows(self.steer("--turn-radius", 20, "--from", "0,0,0", "--to=-30,9,2",
+                                       "--track", track))[0]
+            self.assertEqual(track.read_text().splitlines()[0],
+                             "leg,driven_m,x_m,y_m,heading_rad,curvature_per_m,value")
+            points = np.loadtxt(track, delimiter=",", skiprows=1)
+        length = float(leg["length_m"])
+        np.testing.assert_allclose(points[:, 6], (length - points[:, 1]) / 20, atol=1e-12)
+        self.assertAlmostEqual(points[-1, 1], length, places=9)
+        self.assertLessEqual(np.diff(points[:, 1]).max(), 0.2 + 1e-9)
+        self.assertEqual(set(np.round(np.unique(points[:, 5]) * 20, 12)) - {-1.0, 0.0, 1.0}, set())
+
+    def test_pictures_appear_whole_and_are_kept_unless_forced(self):
+        poses = ("--from", "0,0,0", "--to", "50,80,90deg", "--turn-radius", 20)
+        with tempfile.TemporaryDirectory() as folder:
+            svg, png = Path(folder) / "p.svg", Path(folder) / "p.png"
+            plain = self.steer(*poses).stdout
+            self.assertEqual(self.steer(*poses, "--picture", svg).stdout, plain)
+            for text in ("start", "goal", "V: what is left of the path"):
+                self.assertIn(f">{text}<", svg.read_text())
+            self.steer(*poses, "--law", "clf", "--picture", png)
+            self.assertEqual(png.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+            before = svg.read_bytes()
+            done = self.steer(*poses, "--law", "clf", "--picture", svg, code=65)
+            self.assertIn("p.svg", done.stderr)
+            self.assertEqual(svg.read_bytes(), before)
+            self.steer(*poses, "--law", "clf", "--picture", svg, "--force")
+            for text in ("V (Eq. 20)", "V_A, attraction (Eq. 9)"):
+                self.assertIn(f">{text}<", svg.read_text())
+            self.steer("--turn-radius", 20, "--waypoints", "-", "--picture", svg, "--force",
+                       text=self.waypoints([[0, 0, 0], [90, 9, 1], [50, 50, 2]]))
+            self.assertIn(">way-points<", svg.read_text())
+            self.assertEqual(sorted(Path(folder).iterdir()), [png, svg])
+
     def test_wrong_usage_is_64(self):
         poses = ("--from", "0,0,0", "--to", "1,1,1")
         for arguments in (("--turn-radius", 1), ("--from", "0,0,0", "--turn-radius", 1), poses,
@@ -141,7 +226,14 @@ class Steer(unittest.TestCase):
                           (*poses, "--turn-radius", 1, "--law", "fastest"),
                           ("--from", "0,0", "--to", "1,1,1", "--turn-radius", 1),
                           ("--from", "0,nan,0", "--to", "1,1,1", "--turn-radius", 1),
-                          ("--from", "0,0,0", "--to", "1e300,1,1", "--turn-radius", 1)):
+                          ("--from", "0,0,0", "--to", "1e300,1,1", "--turn-radius", 1),
+                          ("--from", "0,0,0", "--to", "1e5,1,1", "--turn-radius", 1, "--law", "clf"),
+                          (*poses, "--turn-radius", 1, "--waypoints", "x.csv"),
+                          ("--pairs", "x.csv", "--turn-radius", 1, "--waypoints", "x.csv"),
+                          ("--pairs", "x.csv", "--turn-radius", 1, "--picture", "x.svg"),
+                          ("--pairs", "x.csv", "--turn-radius", 1, "--track", "x.csv"),
+                          (*poses, "--turn-radius", 1, "--picture", "x.jpg"),
+                          ("--from", "0,0,0", "--turn-radius", 1)):
             done = self.steer(*arguments, code=64)
             self.assertTrue(done.stderr.strip())
             self.assertEqual(done.stdout, "")
@@ -160,6 +252,27 @@ class Steer(unittest.TestCase):
                 self.assertIn(f"pairs.csv{line}", done.stderr)
                 self.assertEqual(done.stdout, "")
         self.steer("--pairs", "/nowhere/pairs.csv", "--turn-radius", 1, code=65)
+
+    def test_bad_waypoints_are_65_and_say_where(self):
+        header = "x_m,y_m,heading_rad\n"
+        for text, where in ((header + "0,0,0\n1,1\n", ":3: 2 fields: expected 3"),
+                            ("0,0,0\n1,1,north\n", ":2: heading_rad is 'north'"),
+                            ("0,0,0\n\nnan,1,1\n", ":3: x_m is 'nan'"),
+                            ("0,0,0\n1e200,1,1\n", ":2: the poses are more than"),
+                            ("x_m,y_m\n0,0\n", ":1: no column heading_rad"),
+                            (header, ": no way-points"), ("0,0,0\n", ": one way-point")):
+            with tempfile.TemporaryDirectory() as folder:
+                path = Path(folder) / "w.csv"
+                path.write_text(text)
+                done = self.steer("--waypoints", path, "--turn-radius", 1, "--picture",
+                                  Path(folder) / "p.svg", code=65)
+                self.assertIn(f"w.csv{where}", done.stderr)
+                self.assertEqual(done.stdout, "")
+                self.assertEqual([p.name for p in Path(folder).iterdir()], ["w.csv"])
+        done = self.steer("--waypoints", "-", "--law", "clf", "--turn-radius", 1, code=65,
+                          text="0,0,0\n1e5,0,0\n")
+        self.assertIn("standard input:2: the poses are more than", done.stderr)
+        self.steer("--waypoints", "/nowhere/w.csv", "--turn-radius", 1, code=65)
 
 
 def read_region(path):

@@ -1,16 +1,20 @@
-// fairway steer: to a pose where nothing is in the way.
+// fairway steer: to a pose, or along poses one by one, where nothing is in the way.
 #include <cstddef>
 #include <cstdio>
+#include <filesystem>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
-#include "fairway/base/parallel.hpp"
+#include "fairway/app/steered.hpp"
+#include "fairway/base/atomic_file.hpp"
 #include "fairway/steer/dubins_words.hpp"
 #include "fairway/steer/pose_csv.hpp"
 #include "fairway/steer/steering_flight.hpp"
@@ -18,69 +22,121 @@
 namespace fairway {
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 
 struct SteerArguments {
   std::string from;
   std::string to;
   std::string pairs_file;
+  std::string waypoints_file;
   std::string law = "shortest";
   double turn_radius_m = 0.0;
+  fs::path picture;
+  fs::path track;
+
+  SteeringLaw steering_law() const {
+    return law == "clf" ? SteeringLaw::clf : SteeringLaw::shortest;
+  }
+  /// A flight takes a hundred steps for each.
+  double most_radii() const { return law == "clf" ? farthest_flown_radii : farthest_radii; }
+  LegTrack legs_track() const {
+    return picture.empty() && track.empty() ? LegTrack::none : LegTrack::all;
+  }
 };
 
-/// One line of the answer.
-struct Steered {
+std::vector<SteeredLeg> steered(const SteerArguments& a) {
+  const double r = a.turn_radius_m;
+  const SteeringLaw law = a.steering_law();
+  if (!a.waypoints_file.empty()) {
+    std::optional<State> start;
+    if (!a.from.empty()) start = state_of_argument(a.from);
+    const PosePairs legs = read_waypoints(a.waypoints_file, start, r, a.most_radii());
+    return steer_waypoints(legs, r, law, a.legs_track());
+  }
+  const PosePairs pairs = a.pairs_file.empty()
+                              ? PosePairs{{state_of_argument(a.from)}, {state_of_argument(a.to)}}
+                              : read_pose_pairs(a.pairs_file, r, a.most_radii());
+  return steer_pairs(pairs, r, law, a.legs_track());
+}
+
+json report(const SteerArguments& a, const std::vector<SteeredLeg>& legs) {
+  json lines = json::array();
   double length_m = 0.0;
-  std::string word;
-  bool converged = false;
-  State end;
-};
-
-PosePairs read_pairs(const SteerArguments& a) {
-  if (a.pairs_file.empty()) return {{state_of_argument(a.from)}, {state_of_argument(a.to)}};
-  return read_pose_pairs(a.pairs_file, a.turn_radius_m);
+  for (const SteeredLeg& s : legs) {
+    lines.push_back({{"length_m", s.length_m},
+                     {"word", s.word},
+                     {"converged", s.converged},
+                     {"end_x_m", s.end.position_m.x},
+                     {"end_y_m", s.end.position_m.y},
+                     {"end_heading_rad", s.end.heading.rad()}});
+    length_m += s.length_m;
+  }
+  json all = {{"law", a.law}, {"turn_radius_m", a.turn_radius_m}, {"paths", std::move(lines)}};
+  if (!a.waypoints_file.empty()) all["length_m"] = length_m;
+  return all;
 }
 
-Steered steered(const SteerArguments& a, const State& from, const State& to) {
-  if (a.law == "shortest") {
-    const DubinsPath path = shortest_path(from, to, a.turn_radius_m);
-    return {path.length_m(), name_of(path.word), true, end_of(path)};
-  }
-  ClfLaw law;
-  SteeringFlight flight =
-      fly(law, from, to, a.turn_radius_m, steering_options(from, to, a.turn_radius_m));
-  return {flight.length_m, std::move(flight.word), flight.converged, flight.end};
-}
-
-int steer_command(const SteerArguments& a, const Session& session) {
-  const PosePairs pairs = read_pairs(a);
-  std::vector<Steered> all(pairs.from.size());
-  for_ranges(all.size(), a.law == "shortest" ? 1024 : 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) all[i] = steered(a, pairs.from[i], pairs.to[i]);
-  });
-  if (session.json) {
-    json lines = json::array();
-    for (const Steered& s : all) {
-      lines.push_back({{"length_m", s.length_m},
-                       {"word", s.word},
-                       {"converged", s.converged},
-                       {"end_x_m", s.end.position_m.x},
-                       {"end_y_m", s.end.position_m.y},
-                       {"end_heading_rad", s.end.heading.rad()}});
-    }
-    session.tell({{"law", a.law}, {"turn_radius_m", a.turn_radius_m}, {"paths", std::move(lines)}},
-                 "");
-    return exit_done;
-  }
+void print_csv(const std::vector<SteeredLeg>& legs) {
   fmt::memory_buffer text;
   fmt::format_to(std::back_inserter(text),
                  "length_m,word,converged,end_x_m,end_y_m,end_heading_rad\n");
-  for (const Steered& s : all) {
+  for (const SteeredLeg& s : legs) {
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", s.length_m, s.word, s.converged,
                    s.end.position_m.x, s.end.position_m.y, s.end.heading.rad());
   }
   std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+int steer_command(const SteerArguments& a, const Session& session) {
+  for (const fs::path& place : {a.picture, a.track}) {
+    if (!place.empty()) require_writable_place(place, session.existing());
+  }
+  const std::vector<SteeredLeg> legs = steered(a);
+  if (!a.track.empty()) write_whole(a.track, session.existing(), track_csv(legs));
+  if (!a.picture.empty()) {
+    const Picture picture = steering_picture(legs, a.turn_radius_m, a.steering_law());
+    write_whole(a.picture, session.existing(),
+                a.picture.extension() == ".png" ? picture.png : picture.svg);
+  }
+  if (session.json) {
+    session.tell(report(a, legs), "");
+  } else {
+    print_csv(legs);
+  }
   return exit_done;
+}
+
+void check_arguments(const SteerArguments& a) {
+  const bool one = a.waypoints_file.empty() && (!a.from.empty() || !a.to.empty());
+  if (!a.pairs_file.empty()) {
+    if (one) throw CLI::ExcludesError("--from and --to", "--pairs");
+    if (!a.waypoints_file.empty()) throw CLI::ExcludesError("--waypoints", "--pairs");
+    if (!a.picture.empty()) throw CLI::ExcludesError("--picture", "--pairs");
+    if (!a.track.empty()) throw CLI::ExcludesError("--track", "--pairs");
+  } else if (!a.waypoints_file.empty()) {
+    if (!a.to.empty()) throw CLI::ExcludesError("--to", "--waypoints");
+  } else {
+    if (!one) throw CLI::RequiredError("--from and --to, --waypoints, or --pairs");
+    if (a.from.empty() || a.to.empty()) {
+      throw CLI::RequiredError(a.from.empty() ? "--from" : "--to");
+    }
+  }
+  if (!can_steer({}, {}, a.turn_radius_m)) {
+    throw CLI::ValidationError("--turn-radius", "is too small to divide by");
+  }
+  if (one && !is_within_radii(state_of_argument(a.from), state_of_argument(a.to), a.turn_radius_m,
+                              a.most_radii())) {
+    throw CLI::ValidationError(
+        "--turn-radius",
+        fmt::format("the poses are more than {:g} turning radii apart", a.most_radii()));
+  }
+  if (!a.picture.empty() && a.picture.extension() != ".svg" && a.picture.extension() != ".png") {
+    throw CLI::ValidationError("--picture", "expected a file that ends in .svg or .png");
+  }
+  if (!a.picture.empty() && a.picture == a.track) {
+    throw CLI::ValidationError("--picture, --track", "expected two files");
+  }
 }
 
 }  // namespace
@@ -111,29 +167,28 @@ Action declare_steer(CLI::App& options) {
                   "many at once, from a CSV file x0_m,y0_m,h0_rad,x1_m,y1_m,h1_rad; - for standard "
                   "input")
       ->type_name("CSV");
-  options.final_callback([&a] {
-    const bool one = !a.from.empty() || !a.to.empty();
-    if (one && !a.pairs_file.empty()) {
-      throw CLI::ExcludesError("--from and --to", "--pairs");
-    }
-    if (!one && a.pairs_file.empty()) throw CLI::RequiredError("--from and --to, or --pairs");
-    if (a.pairs_file.empty() && (a.from.empty() || a.to.empty())) {
-      throw CLI::RequiredError(a.from.empty() ? "--from" : "--to");
-    }
-    if (one && !can_steer(state_of_argument(a.from), state_of_argument(a.to), a.turn_radius_m)) {
-      throw CLI::ValidationError("--turn-radius",
-                                 "the poses are more than 1e100 turning radii apart");
-    }
-    if (!can_steer({}, {}, a.turn_radius_m)) {
-      throw CLI::ValidationError("--turn-radius", "is too small to divide by");
-    }
-  });
+  options
+      .add_option("--waypoints", a.waypoints_file,
+                  "poses to reach one by one, from a CSV file x_m,y_m,heading_rad; the first is "
+                  "the start unless --from is given; - for standard input")
+      ->type_name("CSV");
+  options
+      .add_option("--picture", a.picture,
+                  "draw the path, the shortest path and V; as SVG or PNG, by the file's ending")
+      ->type_name("FILE");
+  options
+      .add_option("--track", a.track,
+                  "write the path: leg,driven_m,x_m,y_m,heading_rad,curvature_per_m,value")
+      ->type_name("CSV");
+  options.final_callback([&a] { check_arguments(a); });
   options.footer(
-      "Prints CSV length_m,word,converged,end_x_m,end_y_m,end_heading_rad, a line for each pair.\n"
+      "Prints CSV length_m,word,converged,end_x_m,end_y_m,end_heading_rad, a line for each pair "
+      "or\n"
+      "way-point.\n"
       "Nothing is in the way. With the law clf a step is R / 100, and a vehicle has converged "
       "within\n"
       "R / 50 and 0.02 rad; its word is what it drove.\n"
-      "Example: fairway steer --from 0,0,0 --to 100,50,90deg --turn-radius 20");
+      "Example: fairway steer --from 0,0,0 --to 100,50,90deg --turn-radius 20 --picture path.svg");
   return [arguments](const Session& session) { return steer_command(*arguments, session); };
 }
 

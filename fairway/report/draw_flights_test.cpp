@@ -83,6 +83,16 @@ TEST(FlightPath, PiecesOfTheSameTurnBecomeOneArc) {
   EXPECT_EQ(flight_path(flight, frame).pieces().size(), 3U);
 }
 
+TEST(FlightPath, ArcsTooFlatToSeeAreDrawnAsLinesToTheirEnds) {
+  // Of a radius of 1e14 m the centre would be a hundredth of a metre off.
+  const Flight flight = flight_of({{10.0, 20.0}, Heading::from_rad(0.3)}, {{50.0, 1e-14}});
+  const PlotFrame frame{{0.0, 0.0, 100.0, 100.0}, {0.0, 100.0, "", 6}, {0.0, 100.0, "", 6}};
+  const DrawingPath path = flight_path(flight, frame);
+  EXPECT_EQ(path.pieces().back().kind, DrawingPath::Kind::line);
+  const Vec2 end{10.0 + 50.0 * std::cos(0.3), 100.0 - 20.0 - 50.0 * std::sin(0.3)};
+  EXPECT_LT(norm(path.pieces().back().end - end), 1e-9);
+}
+
 TEST(DrawFlights, AQuarterTurnIsDrawnOnItsCircle) {
   const Plan plan = open_water();
   const double r = 60.0;

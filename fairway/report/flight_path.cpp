@@ -6,11 +6,13 @@ namespace fairway {
 namespace {
 
 void add_piece(DrawingPath& path, const FlightSegment& piece, const PlotFrame& frame) {
-  const Vec2 along = piece.start.heading.unit();
-  if (piece.curvature_per_m == 0.0) {
-    path.line_to(frame.to_page(piece.start.position_m + piece.length_m * along));
+  // Straight to the eye; the centre of so flat an arc would be too far away for its digits.
+  constexpr double flat_rad = 1e-4;
+  if (std::abs(piece.length_m * piece.curvature_per_m) < flat_rad) {
+    path.line_to(frame.to_page(state_at(piece, piece.length_m).position_m));
     return;
   }
+  const Vec2 along = piece.start.heading.unit();
   const double radius_m = 1.0 / piece.curvature_per_m;  // signed, positive to the left
   const Vec2 center_m = piece.start.position_m + radius_m * left_of(along);
   const Vec2 center = frame.to_page(center_m);

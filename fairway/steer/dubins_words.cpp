@@ -190,13 +190,17 @@ const char* name_of(DubinsWord word) {
   return names[static_cast<std::size_t>(word)];
 }
 
-bool can_steer(const State& from, const State& to, double turn_radius_m) {
+bool is_within_radii(const State& from, const State& to, double turn_radius_m, double most_radii) {
   // Not a number and infinity fail every comparison they should.
-  const double farthest_m = farthest_radii * turn_radius_m;
+  const double farthest_m = most_radii * turn_radius_m;
   return turn_radius_m > 0.0 && std::isfinite(turn_radius_m) && turn_radius_m >= least_radius_m &&
          std::isfinite(from.heading.rad()) && std::isfinite(to.heading.rad()) &&
          std::abs(to.position_m.x - from.position_m.x) <= farthest_m &&
          std::abs(to.position_m.y - from.position_m.y) <= farthest_m;
+}
+
+bool can_steer(const State& from, const State& to, double turn_radius_m) {
+  return is_within_radii(from, to, turn_radius_m, farthest_radii);
 }
 
 double shortest_length_m(const State& from, const State& to, double turn_radius_m) {

@@ -64,6 +64,10 @@ inline constexpr double least_radius_m = 1e-300;
 /// Whether every number is finite, the radius positive and the distance within `farthest_radii`.
 [[nodiscard]] bool can_steer(const State& from, const State& to, double turn_radius_m);
 
+/// can_steer(), and no coordinates farther apart than `most_radii` <= farthest_radii.
+[[nodiscard]] bool is_within_radii(const State& from, const State& to, double turn_radius_m,
+                                   double most_radii);
+
 /// All below throw ContractViolation unless can_steer().
 [[nodiscard]] double shortest_length_m(const State& from, const State& to, double turn_radius_m);
 [[nodiscard]] DubinsPath shortest_path(const State& from, const State& to, double turn_radius_m);

@@ -3,6 +3,8 @@
 #include <array>
 #include <span>
 
+#include <fmt/format.h>
+
 #include "fairway/base/error.hpp"
 #include "fairway/base/number_csv.hpp"
 #include "fairway/steer/dubins_words.hpp"
@@ -21,10 +23,15 @@ constexpr std::array<CsvColumn, 3> waypoint_columns{
 
 State state_of(std::span<const double> v) { return {{v[0], v[1]}, Heading::from_rad(v[2])}; }
 
-void add(PosePairs& pairs, const State& from, const State& to, double turn_radius_m,
+struct Limit {
+  double turn_radius_m;
+  double most_radii;
+};
+
+void add(PosePairs& pairs, const State& from, const State& to, const Limit& limit,
          const CsvPlace& place) {
-  if (!can_steer(from, to, turn_radius_m)) {
-    place.refuse("the poses are more than 1e100 turning radii apart");
+  if (!is_within_radii(from, to, limit.turn_radius_m, limit.most_radii)) {
+    place.refuse(fmt::format("the poses are more than {:g} turning radii apart", limit.most_radii));
   }
   pairs.from.push_back(from);
   pairs.to.push_back(to);
@@ -32,22 +39,23 @@ void add(PosePairs& pairs, const State& from, const State& to, double turn_radiu
 
 }  // namespace
 
-PosePairs read_pose_pairs(const std::string& file, double turn_radius_m) {
+PosePairs read_pose_pairs(const std::string& file, double turn_radius_m, double most_radii) {
   PosePairs pairs;
-  for_csv_lines(csv_text(file, pair_columns), csv_name(file), pair_columns, "pairs",
-                [&](std::span<const double> v, const CsvPlace& place) {
-                  add(pairs, state_of(v), state_of(v.subspan(3)), turn_radius_m, place);
-                });
+  for_csv_lines(
+      csv_text(file, pair_columns), csv_name(file), pair_columns, "pairs",
+      [&](std::span<const double> v, const CsvPlace& place) {
+        add(pairs, state_of(v), state_of(v.subspan(3)), {turn_radius_m, most_radii}, place);
+      });
   return pairs;
 }
 
 PosePairs read_waypoints(const std::string& file, const std::optional<State>& start,
-                         double turn_radius_m) {
+                         double turn_radius_m, double most_radii) {
   PosePairs pairs;
   std::optional<State> last = start;
   for_csv_lines(csv_text(file, waypoint_columns), csv_name(file), waypoint_columns, "way-points",
                 [&](std::span<const double> v, const CsvPlace& place) {
-                  if (last) add(pairs, *last, state_of(v), turn_radius_m, place);
+                  if (last) add(pairs, *last, state_of(v), {turn_radius_m, most_radii}, place);
                   last = state_of(v);
                 });
   if (pairs.from.empty()) {

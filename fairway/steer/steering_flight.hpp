@@ -18,6 +18,10 @@ struct SteeringOptions {
   double length_limit_m = 0.0;
 };
 
+/// How far apart poses may be, in radii, for a flight in steps to end soon enough: ten million
+/// steps.
+inline constexpr double farthest_flown_radii = 1e4;
+
 /// Steps of a hundredth of the radius, converged within a fiftieth of it and of a radian, given up
 /// after three times the distance and sixty radii.
 [[nodiscard]] SteeringOptions steering_options(const State& from, const State& goal,

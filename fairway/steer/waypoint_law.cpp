@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -16,6 +17,7 @@ struct UnderWay {
   WaypointLeg leg;
   DrivenWord word;
   double limit_m = 0.0;
+  std::size_t steps = 0;
 };
 
 UnderWay begun(const State& at, const State& waypoint, double turn_radius_m) {
@@ -68,7 +70,7 @@ WaypointFlight follow_waypoints(WaypointLaw<Law> law, const State& from,
       break;
     }
     now->word.add(per_m * turn_radius_m, step_m);
-    now->leg.length_m += step_m;
+    now->leg.length_m = static_cast<double>(++now->steps) * step_m;
     at = driven(at, step_m, per_m);
     if (disturbed) at = disturbed(at);
   }
