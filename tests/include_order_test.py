@@ -8,9 +8,9 @@ import re
 import sys
 
 STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "verify", "certificate", "steer", "report",
-          "run", "app"]
+          "run", "view", "app"]
 TOOLBOXES = {"base", "vehicle"}
-JOINERS = {"run", "app"}
+JOINERS = {"run", "view", "app"}
 NOUNS = {
     "map": {"obstacle_map.hpp", "region.hpp"},
     "field": {"field.hpp"},
@@ -29,6 +29,8 @@ OUTSIDE = [
     (re.compile(r"cairo"), {"report"}),
     (re.compile(r"CLI/|CLI11"), {"app"}),
     (re.compile(r"openssl"), {"base"}),
+    (re.compile(r"zlib"), {"report"}),
+    (re.compile(r"httplib"), {"view"}),
 ]
 RUNTIME = "fairway/runtime.hpp"  # beside the stages: what a vehicle needs of them
 RUNTIME_STAGES = {"base", "vehicle", "verify"}

@@ -27,5 +27,6 @@ Action declare_verify(CLI::App& options);
 Action declare_query(CLI::App& options);
 Action declare_check(CLI::App& options);
 Action declare_steer(CLI::App& options);
+Action declare_view(CLI::App& options);
 
 }  // namespace fairway

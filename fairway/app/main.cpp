@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "fairway/app/command.hpp"
+#include "fairway/app/ending.hpp"
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/run/scenario_keys.hpp"
@@ -33,6 +34,7 @@ constexpr Command commands[] = {
     {"check", "re-prove a certificate with a separate program", declare_check},
     {"steer", "to a pose by a shortest path, or under a control law; nothing is in the way",
      declare_steer},
+    {"view", "the interactive page of a run, live on this machine", declare_view},
 };
 
 /// Ctrl-C and friends must leave nothing half-written: they are taken by a thread of their own,
@@ -44,7 +46,8 @@ void tidy_up_on_signals() {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::thread([signals] {
     int caught = 0;
-    sigwait(&signals, &caught);
+    do sigwait(&signals, &caught);
+    while (ends_gently());
     remove_unfinished();
     ::_exit(128 + caught);
   }).detach();

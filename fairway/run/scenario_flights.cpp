@@ -36,15 +36,6 @@ double length_m(const PathMission& path) {
   return length;
 }
 
-Flight recorded(const ExactFlights& flights, const Plan& plan, const Mission& mission,
-                const State& start) {
-  const auto* path = std::get_if<PathMission>(&mission);
-  if (path == nullptr) return flights.record(start);
-  const float cost_m = plan.cost_m[plan.grid.index(plan.grid.cell_of(start.position_m))];
-  const double approach_m = std::isfinite(cost_m) ? static_cast<double>(cost_m) : 0.0;
-  return flights.follow(start, approach_m + length_m(*path));
-}
-
 /// The last leg of every flight that reaches: kept with the recorded ones, counted for all.
 void steer_to_heading(const ExactFlights& flights, const FinalLegs& legs, ScenarioFlights& flown) {
   FinalLegTally tally;
@@ -69,6 +60,15 @@ void steer_to_heading(const ExactFlights& flights, const FinalLegs& legs, Scenar
 }
 
 }  // namespace
+
+Flight recorded_flight(const ExactFlights& flights, const Plan& plan, const Mission& mission,
+                       const State& start) {
+  const auto* path = std::get_if<PathMission>(&mission);
+  if (path == nullptr) return flights.record(start);
+  const float cost_m = plan.cost_m[plan.grid.index(plan.grid.cell_of(start.position_m))];
+  const double approach_m = std::isfinite(cost_m) ? static_cast<double>(cost_m) : 0.0;
+  return flights.follow(start, approach_m + length_m(*path));
+}
 
 ScenarioFlights fly_scenario(const Scenario& scenario, const Plan& plan, const Mission& mission,
                              const StageClock& clock, double after_s) {
@@ -98,7 +98,7 @@ ScenarioFlights fly_scenario(const Scenario& scenario, const Plan& plan, const M
   flown.recorded.resize(to_record);
   for_ranges(to_record, 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      flown.recorded[i] = recorded(flights, plan, mission, starts[i]);
+      flown.recorded[i] = recorded_flight(flights, plan, mission, starts[i]);
     }
   });
   if (const auto goal = goal_pose_of(plan, scenario.file.string())) {

@@ -10,6 +10,7 @@
 #include "fairway/run/final_legs.hpp"
 #include "fairway/run/scenario.hpp"
 #include "fairway/run/stage_clock.hpp"
+#include "fairway/simulate/exact_flight.hpp"
 #include "fairway/simulate/flight.hpp"
 #include "fairway/vehicle/mission.hpp"
 
@@ -25,6 +26,11 @@ struct ScenarioFlights {
   std::span<const FlightResult> given_results() const { return std::span(results).first(given); }
   std::span<const FlightResult> random_results() const { return std::span(results).subspan(given); }
 };
+
+/// A flight as it is recorded: for a path mission beyond its first goal cell, along the path.
+/// `start` lies on the grid.
+[[nodiscard]] Flight recorded_flight(const ExactFlights& flights, const Plan& plan,
+                                     const Mission& mission, const State& start);
 
 /// Flies max(simulate.random, simulate.sample) random safe starts and the given ones. Flights of
 /// path missions are recorded beyond their first goal cell, along the path; those to a goal with a

@@ -123,7 +123,7 @@ class Solid {
     this.scene.add(edges);
     for (let k = 0; k <= 4; ++k) this.label(`${90 * k}°`, -x - 0.09, y, height * k / 4);
     this.label("x, east", 0, -y - 0.07, 0);
-    this.label("y, north", x + 0.1, 0, 0);
+    this.label("y, north", -x - 0.1, 0, 0);
     this.label("heading", -x - 0.09, y, height + 0.06);
   }
 

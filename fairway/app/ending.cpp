@@ -1,0 +1,33 @@
+#include "fairway/app/ending.hpp"
+
+#include <mutex>
+#include <utility>
+
+namespace fairway {
+namespace {
+
+std::mutex guard;
+std::function<void()> wanted;  // guarded
+
+}  // namespace
+
+EndsGently::EndsGently(std::function<void()> end) {
+  const std::lock_guard lock(guard);
+  wanted = std::move(end);
+}
+
+EndsGently::~EndsGently() {
+  const std::lock_guard lock(guard);
+  wanted = nullptr;
+}
+
+bool ends_gently() {
+  // Under the lock, so that what `end` speaks of lives until it is done.
+  const std::lock_guard lock(guard);
+  const auto end = std::exchange(wanted, nullptr);  // the second signal finds none
+  if (!end) return false;
+  end();
+  return true;
+}
+
+}  // namespace fairway

@@ -1,0 +1,140 @@
+#include "fairway/view/engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "fairway/base/error.hpp"
+#include "fairway/certificate/certificate_file.hpp"
+#include "fairway/plan/plan_file.hpp"
+#include "fairway/run/scenario_flights.hpp"
+#include "fairway/run/version.hpp"
+#include "fairway/steer/dubins_words.hpp"
+
+namespace fairway {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// What a page can draw in a moment; a longer flight is cut, and says so.
+constexpr std::size_t most_pieces = 20'000;
+
+json pieces_json(const std::vector<FlightSegment>& segments) {
+  json pieces = json::array();
+  for (const FlightSegment& s : segments) {
+    if (pieces.size() == most_pieces) break;
+    pieces.push_back({s.start.position_m.x, s.start.position_m.y, s.start.heading.rad(), s.length_m,
+                      s.curvature_per_m});
+  }
+  return pieces;
+}
+
+json finite_or_null(double value) { return std::isfinite(value) ? json(value) : json(); }
+
+json leg_json(const FinalLeg& leg) {
+  return {{"state", name_of(leg.state)},
+          {"word", leg.word},
+          {"length_m", leg.length_m},
+          {"time_s", leg.time_s},
+          {"pieces", pieces_json(leg.segments)}};
+}
+
+std::vector<FlightSegment> segments_of(const DubinsPath& path) {
+  std::vector<FlightSegment> segments;
+  State at = path.start;
+  for (int part = 0; part < 3; ++part) {
+    const double length_m = path.part_m[static_cast<std::size_t>(part)];
+    const double per_m = turn_of(path.word, part) / path.turn_radius_m;
+    segments.push_back({at, 0.0, length_m, per_m});
+    at = driven(at, length_m, per_m);
+  }
+  return segments;
+}
+
+Vec2 point_of(const json& value) { return {value.at(0).get<double>(), value.at(1).get<double>()}; }
+
+}  // namespace
+
+Mission mission_of_record(const std::string& record_json, const std::string& where) {
+  try {
+    const json mission = json::parse(record_json).at("mission");
+    if (mission.at("kind") == "goal") {
+      GoalMission goal{point_of(mission.at("goal_m")), {}};
+      if (!mission.at("goal_heading_rad").is_null()) {
+        goal.goal_heading_rad = mission.at("goal_heading_rad").get<double>();
+      }
+      return goal;
+    }
+    PathMission path;
+    path.closed = mission.at("closed").get<bool>();
+    for (const json& vertex : mission.at("vertices_m")) path.vertices_m.push_back(point_of(vertex));
+    return path;
+  } catch (const json::exception&) {
+    throw InputError(where, "its record names no mission: expected a plan made by fairway");
+  }
+}
+
+LiveEngine::LiveEngine(const fs::path& folder)
+    : plan_(read_plan(folder / "plan.safetensors")),
+      mission_(mission_of_record(plan_.record_json, (folder / "plan.safetensors").string())),
+      flights_(plan_) {
+  if (const auto* goal = std::get_if<GoalMission>(&mission_); goal && goal->goal_heading_rad) {
+    final_legs_.emplace(plan_, State{goal->goal_m, Heading::from_rad(*goal->goal_heading_rad)});
+  }
+  const fs::path file = folder / "certificate.safetensors";
+  if (!fs::exists(file)) return;
+  // Once as a whole, which checks digests; the answers then come from the mapped file.
+  const json record = json::parse(read_certificate(file).record_json, nullptr, false);
+  if (!record.is_object() ||
+      record.value("plan_sha256", json()) != json::parse(plan_digests_json(plan_))) {
+    throw InputError(file.string(), "is the certificate of another plan than plan.safetensors");
+  }
+  file_ = std::make_unique<MappedFile>(file);
+  if (certificate_.open(file_->bytes().data(), file_->bytes().size()) != runtime::Status::ok) {
+    throw InputError(file.string(), "is not a certificate");
+  }
+}
+
+json LiveEngine::info() const {
+  return {{"live", true},
+          {"program", program_version},
+          {"verdicts", file_ != nullptr},
+          {"plan_sha256", json::parse(plan_digests_json(plan_))}};
+}
+
+json LiveEngine::state(const State& start) const {
+  json answer = {{"verdict", nullptr}, {"time_bound_s", nullptr}};
+  if (file_ != nullptr) {
+    const runtime::Answer found =
+        certificate_.query(start.position_m.x, start.position_m.y, start.heading.rad());
+    answer["verdict"] = name_of(found.verdict);
+    answer["time_bound_s"] = finite_or_null(found.time_bound_s);
+  }
+  Flight flight = recorded_flight(flights_, plan_, mission_, start);
+  if (final_legs_) flight.final_leg = final_legs_->leg_of(flight);
+  answer["flight"] = {{"outcome", name_of(flight.result.outcome)},
+                      {"time_s", finite_or_null(flight.result.time_s)},
+                      {"length_m", finite_or_null(flight.result.length_m)},
+                      {"cut", flight.segments.size() > most_pieces},
+                      {"pieces", pieces_json(flight.segments)}};
+  if (flight.final_leg.state != FinalLegState::not_asked) {
+    answer["flight"]["leg"] = leg_json(flight.final_leg);
+  }
+  return answer;
+}
+
+json LiveEngine::steer(const State& from, const State& to) const {
+  Flight arrived;  // at `from`: what follows is the leg from there
+  arrived.start = from;
+  arrived.result = {Outcome::reach, 0.0, 0.0};
+  json answer = leg_json(FinalLegs(plan_, to).leg_of(arrived));
+  const DubinsPath shortest = shortest_path(from, to, plan_.vehicle.turn_radius_m);
+  answer["shortest"] = {{"word", name_of(shortest.word)},
+                        {"length_m", shortest.length_m()},
+                        {"pieces", pieces_json(segments_of(shortest))}};
+  return answer;
+}
+
+}  // namespace fairway

@@ -1,0 +1,45 @@
+// A run's folder on this machine's loopback, and the engine behind it (docs/report.md).
+//
+// Properties that always hold:
+//   1. Only 127.0.0.1 is bound, and only requests that name it (or localhost) as their host are
+//      answered.
+//   2. Of the folder only products of a run are served, by their own names, regular files alone: a
+//      link is not followed, a path cannot be given.
+//   3. Every answer but a product is a JSON object; what is wrong is {"error": ...} with status 400
+//      (malformed), 403 (another host), 404 (unknown), 405 (anything but GET and HEAD) or 500.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fairway {
+
+class LiveEngine;
+
+class PageServer {
+ public:
+  /// Binds the port, 0 for a free one; answers are given once serve() runs. Throws InputError when
+  /// the port is taken. `engine` must outlive this object.
+  PageServer(std::filesystem::path folder, const LiveEngine& engine, int port);
+  ~PageServer();
+  PageServer(const PageServer&) = delete;
+  PageServer& operator=(const PageServer&) = delete;
+
+  int port() const;
+  std::string address() const;  ///< "http://127.0.0.1:PORT/"
+
+  /// Answers until stop() is called, from any thread.
+  void serve();
+  void stop();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// The names that are served, "report.html" first.
+[[nodiscard]] const std::vector<std::string>& served_products();
+
+}  // namespace fairway

@@ -1,0 +1,334 @@
+#include "fairway/view/page_server.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <httplib.h>
+#include <ifaddrs.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include "fairway/base/error.hpp"
+#include "fairway/certificate/certificate_file.hpp"
+#include "fairway/map/scratch_folder.hpp"
+#include "fairway/plan/plan_file.hpp"
+#include "fairway/report/sample_plans.hpp"
+#include "fairway/run/stage_clock.hpp"
+#include "fairway/run/verification.hpp"
+#include "fairway/simulate/exact_flight.hpp"
+#include "fairway/view/engine.hpp"
+
+namespace fairway {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+Plan island() {
+  Plan plan = testing::island_plan({30, 24, -8.0, 4.0, 4.0}, {80.0, 60.0}, {10, 12});
+  plan.vehicle = {10.0, 9.0};
+  plan.record_json = R"({"mission":{"kind":"goal","goal_m":[80.0,60.0],"goal_heading_rad":null}})";
+  return plan;
+}
+
+Certificate certificate_of(const Plan& plan) {
+  const Progress silent;
+  StageClock clock(silent);
+  CertifyOptions options;
+  options.undecided_max = 0.2;
+  return verify_plan(plan, "test", {}, options, std::nullopt, clock).certificate;
+}
+
+/// A run's folder with a page, a plan and a certificate; a server over it.
+class Served : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    plan_ = island();
+    certificate_ = certificate_of(plan_);
+  }
+  void SetUp() override {
+    place_ = fs::path(folder_.file("run"));
+    fs::create_directory(place_);
+    write_plan(plan_, place_ / "plan.safetensors", Existing::keep);
+    write_certificate(certificate_, place_ / "certificate.safetensors", Existing::keep);
+    std::ofstream(place_ / "report.html") << "<!doctype html>page";
+    std::ofstream(place_ / "secret.txt") << "secret";
+    std::ofstream(place_ / ".." / "outside.txt") << "outside";
+    fs::create_symlink(place_ / ".." / "outside.txt", place_ / "flights.csv");
+    fs::create_directory(place_ / "outcomes.csv");
+    engine_.emplace(place_);
+    server_.emplace(place_, *engine_, 0);
+    thread_ = std::thread([this] { server_->serve(); });
+    // Until it answers.
+    for (int tries = 0; tries < 500 && !get("/"); ++tries) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+  void TearDown() override {
+    server_->stop();
+    thread_.join();
+  }
+
+  httplib::Client client() const { return httplib::Client("127.0.0.1", server_->port()); }
+  httplib::Result get(const std::string& path, const httplib::Headers& headers = {}) const {
+    return client().Get(path, headers);
+  }
+  json answer(const std::string& path, int status) const {
+    const auto result = get(path);
+    if (!result) throw std::runtime_error("no answer to " + path);
+    EXPECT_EQ(result->status, status) << path << ": " << result->body;
+    EXPECT_EQ(result->get_header_value("Content-Type"), "application/json");
+    return json::parse(result->body);
+  }
+  std::string error(const std::string& path, int status) const {
+    return answer(path, status).at("error").get<std::string>();
+  }
+  /// What comes back for these very bytes.
+  std::string raw(const std::string& bytes) const {
+    const int connection = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<std::uint16_t>(server_->port()));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::connect(connection, reinterpret_cast<sockaddr*>(&to), sizeof to), 0);
+    EXPECT_EQ(::send(connection, bytes.data(), bytes.size(), MSG_NOSIGNAL),
+              static_cast<ssize_t>(bytes.size()));
+    const timeval patience{0, 300'000};
+    ::setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    std::string back;
+    char part[4096];
+    for (ssize_t n = 0; (n = ::recv(connection, part, sizeof part, 0)) > 0;) {
+      back.append(part, static_cast<std::size_t>(n));
+    }
+    ::close(connection);
+    return back;
+  }
+
+  const ScratchFolder folder_;
+  fs::path place_;
+  static inline Plan plan_;
+  static inline Certificate certificate_;
+  std::optional<LiveEngine> engine_;
+  std::optional<PageServer> server_;
+  std::thread thread_;
+};
+
+TEST_F(Served, ThePageAndTheProductsOfARunByTheirNames) {
+  for (const char* path : {"/", "/report.html"}) {
+    const auto page = get(path);
+    ASSERT_TRUE(page);
+    EXPECT_EQ(page->status, 200);
+    EXPECT_EQ(page->body, "<!doctype html>page");
+    EXPECT_EQ(page->get_header_value("Content-Type"), "text/html; charset=utf-8");
+    EXPECT_EQ(page->get_header_value("X-Content-Type-Options"), "nosniff");
+    EXPECT_FALSE(page->has_header("Access-Control-Allow-Origin"));
+  }
+  const auto plan = get("/plan.safetensors");
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(plan->body.size(), fs::file_size(place_ / "plan.safetensors"));
+  EXPECT_EQ(client().Head("/report.html")->body, "");
+}
+
+TEST_F(Served, NothingElseOfTheFolderAndNothingOutsideIt) {
+  for (const char* path :
+       {"/secret.txt", "/summary.json", "/flights.csv", "/outcomes.csv", "/../outside.txt",
+        "/%2e%2e/outside.txt", "/..%2foutside.txt", "/run/../report.html", "//report.html",
+        "/report.html/", "/./report.html", "/report.html%00.txt", "/etc/passwd", "/api", "/api/",
+        "/api/nothing", "/api/info/", "/favicon.ico"}) {
+    const auto result = get(path);
+    ASSERT_TRUE(result) << path;
+    EXPECT_EQ(result->status, 404) << path << ": " << result->body;
+    EXPECT_TRUE(json::parse(result->body).contains("error")) << path;
+  }
+}
+
+TEST_F(Served, MalformedQuestionsGetAReason) {
+  EXPECT_EQ(error("/api/state?x=1&y=10", 400), "parameter \"h\" is missing, expected once");
+  EXPECT_EQ(error("/api/state?x=1&x=2&y=10&h=0", 400),
+            "parameter \"x\" is repeated, expected once");
+  EXPECT_EQ(error("/api/state?x=one&y=10&h=0", 400), "x: \"one\" is not a finite decimal number");
+  EXPECT_NE(error("/api/state?x=1e5&y=10&h=0", 400).find("outside the plan"), std::string::npos);
+  EXPECT_NE(error("/api/state?x=1&y=10&h=0&z=1", 400).find("unknown parameter"), std::string::npos);
+  EXPECT_NE(error("/api/info?x=1", 400).find("unknown parameter"), std::string::npos);
+  EXPECT_NE(error("/?x=1", 400).find("unknown parameter"), std::string::npos);
+  EXPECT_NE(error("/api/steer?x=1&y=10&h=0", 400).find("missing"), std::string::npos);
+}
+
+TEST_F(Served, WhatIsNoRequestGetsA400AndTheServerGoesOn) {
+  const std::vector<std::string> garbage{"GARBAGE\r\n\r\n",
+                                         "GET\r\n\r\n",
+                                         "GET / FTP/1\r\n\r\n",
+                                         std::string("\0\1\2\3\r\n\r\n", 8),
+                                         "GET / HTTP/1.1\r\nHost: localhost\r\nbroken\r\n\r\n",
+                                         "GET /" + std::string(20'000, 'a') + " HTTP/1.1\r\n\r\n"};
+  for (const std::string& bytes : garbage) {
+    const std::string back = raw(bytes);
+    EXPECT_TRUE(back.empty() || back.starts_with("HTTP/1.1 4")) << bytes.substr(0, 40) << back;
+  }
+  EXPECT_TRUE(raw("GARBAGE\r\n\r\n").starts_with("HTTP/1.1 400"));
+  EXPECT_EQ(get("/")->status, 200);
+}
+
+TEST_F(Served, OtherMethodsGetA405) {
+  auto http = client();
+  for (const httplib::Result& result :
+       {http.Post("/api/info", "x", "text/plain"), http.Put("/report.html", "x", "text/plain"),
+        http.Delete("/report.html"), http.Patch("/", "x", "text/plain"), http.Options("/")}) {
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->status, 405);
+    EXPECT_EQ(result->get_header_value("Allow"), "GET, HEAD");
+  }
+  EXPECT_TRUE(fs::exists(place_ / "report.html"));
+}
+
+TEST_F(Served, OtherHostsAreRefused) {
+  const std::string port = std::to_string(server_->port());
+  EXPECT_EQ(get("/", {{"Host", "localhost:" + port}})->status, 200);
+  const std::vector<std::string> others{"evil.example:" + port, "localhost", "127.0.0.1:1", ""};
+  for (const std::string& host : others) {
+    EXPECT_EQ(get("/", {{"Host", host}})->status, 403) << host;
+    EXPECT_EQ(get("/api/info", {{"Host", host}})->status, 403) << host;
+  }
+  EXPECT_NE(raw("GET / HTTP/1.1\r\nConnection: close\r\n\r\n").find("403"),
+            std::string::npos);  // no host at all
+}
+
+TEST_F(Served, NoOtherAddressOfThisMachineAnswers) {
+  ifaddrs* all = nullptr;
+  ASSERT_EQ(::getifaddrs(&all), 0);
+  int others = 0;
+  for (const ifaddrs* one = all; one != nullptr; one = one->ifa_next) {
+    if (one->ifa_addr == nullptr || one->ifa_addr->sa_family != AF_INET) continue;
+    auto to = *reinterpret_cast<const sockaddr_in*>(one->ifa_addr);
+    if (ntohl(to.sin_addr.s_addr) == INADDR_LOOPBACK) continue;
+    ++others;
+    to.sin_port = htons(static_cast<std::uint16_t>(server_->port()));
+    const int connection = ::socket(AF_INET, SOCK_STREAM, 0);
+    EXPECT_NE(::connect(connection, reinterpret_cast<sockaddr*>(&to), sizeof to), 0);
+    ::close(connection);
+  }
+  ::freeifaddrs(all);
+  // 127.0.0.2 is this machine on every Linux, so that the test never passes by having none to try.
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(static_cast<std::uint16_t>(server_->port()));
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK + 1);
+  const int connection = ::socket(AF_INET, SOCK_STREAM, 0);
+  EXPECT_NE(::connect(connection, reinterpret_cast<sockaddr*>(&to), sizeof to), 0) << others;
+  ::close(connection);
+}
+
+TEST_F(Served, APortThatIsTakenIsAnError) {
+  try {
+    const PageServer second(place_, *engine_, server_->port());
+    FAIL() << "two servers share a port";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.where(), "--port");
+  }
+}
+
+TEST_F(Served, StatesAreAnsweredAsTheCertificateAndTheSimulatorDo) {
+  runtime::Certificate certificate;
+  const MappedFile file(place_ / "certificate.safetensors");
+  ASSERT_EQ(certificate.open(file.bytes().data(), file.bytes().size()), runtime::Status::ok);
+  const ExactFlights flights(plan_);
+  Random random = Random::stream(5, 0);
+  int reached = 0;
+  for (int k = 0; k < 60; ++k) {
+    const double x = random.uniform(-8.0, 111.9), y = random.uniform(4.0, 99.9);
+    const double h = random.uniform(-3.0, 3.0);
+    const json found = answer(fmt::format("/api/state?x={}&y={}&h={}", x, y, h), 200);
+    const runtime::Answer expected = certificate.query(x, y, h);
+    EXPECT_EQ(found["verdict"], name_of(expected.verdict));
+    const Flight flight = flights.record({{x, y}, Heading::from_rad(h)});
+    EXPECT_EQ(found["flight"]["outcome"], name_of(flight.result.outcome));
+    EXPECT_EQ(found["flight"]["pieces"].size(), flight.segments.size());
+    EXPECT_FALSE(found["flight"].contains("leg"));
+    if (expected.verdict != Verdict::reach) {
+      EXPECT_TRUE(found["time_bound_s"].is_null());
+      continue;
+    }
+    ++reached;
+    EXPECT_EQ(found["time_bound_s"], expected.time_bound_s);
+    EXPECT_EQ(found["flight"]["time_s"], flight.result.time_s);
+    EXPECT_LE(flight.result.time_s, expected.time_bound_s);
+    if (flight.segments.empty()) continue;  // in the goal
+    const json& first = found["flight"]["pieces"][0];
+    EXPECT_EQ(first[0], x);
+    EXPECT_EQ(first[1], y);
+  }
+  EXPECT_GT(reached, 10);
+}
+
+TEST_F(Served, SteeringEndsAtThePoseAndTellsWhenAnObstacleIsInTheWay) {
+  const json open = answer("/api/steer?x=70&y=20&h=0&to_x=90&to_y=80&to_h=1.5", 200);
+  EXPECT_EQ(open["state"], "shortest");
+  EXPECT_EQ(open["word"], open["shortest"]["word"]);
+  EXPECT_GT(open["length_m"], 60.0);
+  const json& last = open["pieces"].back();
+  const FlightSegment piece{
+      {{last[0], last[1]}, Heading::from_rad(last[2])}, 0.0, last[3], last[4]};
+  const State end = state_at(piece, last[3]);
+  EXPECT_NEAR(end.position_m.x, 90.0, 1e-6);
+  EXPECT_NEAR(end.position_m.y, 80.0, 1e-6);
+  EXPECT_NEAR(end.heading.rad(), 1.5, 1e-9);
+  // The rock is about (34, 54).
+  const json blocked = answer("/api/steer?x=10&y=54&h=0&to_x=60&to_y=54&to_h=0", 200);
+  EXPECT_NE(blocked["state"], "shortest");
+  EXPECT_NEAR(blocked["shortest"]["length_m"].get<double>(), 50.0, 1e-6);
+}
+
+TEST_F(Served, InfoSaysWhichPlanThisIs) {
+  const json info = answer("/api/info", 200);
+  EXPECT_EQ(info["live"], true);
+  EXPECT_EQ(info["verdicts"], true);
+  EXPECT_EQ(info["plan_sha256"], json::parse(plan_digests_json(plan_)));
+}
+
+TEST(LiveEngine, RefusesACertificateOfAnotherPlan) {
+  const ScratchFolder folder;
+  const fs::path place(folder.file(""));
+  Plan plan = island();
+  write_certificate(certificate_of(plan), place / "certificate.safetensors", Existing::keep);
+  plan.cost_m[0] += 1.0F;
+  write_plan(plan, place / "plan.safetensors", Existing::keep);
+  EXPECT_THROW(LiveEngine{place}, InputError);
+}
+
+TEST(LiveEngine, GivesFlightsWithoutVerdictsWhereNothingWasProved) {
+  const ScratchFolder folder;
+  const fs::path place(folder.file(""));
+  Plan plan = island();
+  plan.record_json = R"({"mission":{"kind":"goal","goal_m":[80.0,60.0],"goal_heading_rad":0.5}})";
+  write_plan(plan, place / "plan.safetensors", Existing::keep);
+  const LiveEngine engine(place);
+  EXPECT_EQ(engine.info()["verdicts"], false);
+  const json found = engine.state({{70.0, 60.0}, Heading::from_rad(0.0)});
+  EXPECT_TRUE(found["verdict"].is_null());
+  EXPECT_EQ(found["flight"]["outcome"], "reach");
+  EXPECT_TRUE(found["flight"].contains("leg"));  // to the heading of the goal
+}
+
+TEST(LiveEngine, RefusesAPlanWithoutAMission) {
+  for (const char* record : {"{}", R"({"mission":1})", R"({"mission":{"kind":"goal"}})",
+                             R"({"mission":{"kind":"path","closed":1}})"}) {
+    EXPECT_THROW((void)mission_of_record(record, "p"), InputError) << record;
+  }
+  const Mission path = mission_of_record(
+      R"({"mission":{"kind":"path","closed":true,"vertices_m":[[1,2],[3,4]]}})", "p");
+  EXPECT_EQ(std::get<PathMission>(path).vertices_m.size(), 2U);
+}
+
+}  // namespace
+}  // namespace fairway

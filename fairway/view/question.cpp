@@ -1,0 +1,82 @@
+#include "fairway/view/question.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace fairway {
+namespace {
+
+/// Text of a request in an answer: cut, and without what is not printable ASCII.
+std::string shown(std::string_view text) {
+  constexpr std::size_t most = 40;
+  std::string safe;
+  for (const char c : text.substr(0, most)) safe += c >= ' ' && c <= '~' ? c : '?';
+  return text.size() > most ? safe + "..." : safe;
+}
+
+}  // namespace
+
+void require_parameters(const Parameters& parameters, std::initializer_list<const char*> names) {
+  for (const auto& [name, value] : parameters) {
+    const bool known = std::any_of(names.begin(), names.end(),
+                                   [&, wanted = name](const char* n) { return wanted == n; });
+    if (!known) {
+      std::string expected;
+      for (const char* n : names) expected += fmt::format("{}{}", expected.empty() ? "" : ", ", n);
+      throw BadQuestion(fmt::format("unknown parameter \"{}\", expected {}", shown(name),
+                                    expected.empty() ? "none" : expected));
+    }
+  }
+  for (const char* name : names) {
+    const std::size_t count = parameters.count(name);
+    if (count != 1) {
+      throw BadQuestion(fmt::format("parameter \"{}\" {}, expected once", name,
+                                    count == 0 ? "is missing" : "is repeated"));
+    }
+  }
+}
+
+double number_parameter(const Parameters& parameters, const char* name) {
+  const auto found = parameters.find(name);
+  if (found == parameters.end()) {
+    throw BadQuestion(fmt::format("parameter \"{}\" is missing, expected once", name));
+  }
+  const std::string& text = found->second;
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+    throw BadQuestion(fmt::format("{}: \"{}\" is not a finite decimal number", name, shown(text)));
+  }
+  return value;
+}
+
+State state_parameters(const Parameters& parameters, const Grid& grid, const char* x, const char* y,
+                       const char* h) {
+  const Vec2 p{number_parameter(parameters, x), number_parameter(parameters, y)};
+  const double heading_rad = number_parameter(parameters, h);
+  const bool inside = p.x >= grid.x0_m && p.x < grid.x0_m + grid.width_m() && p.y >= grid.y0_m &&
+                      p.y < grid.y0_m + grid.height_m();
+  if (!inside || !grid.contains(grid.cell_of(p))) {
+    throw BadQuestion(fmt::format(
+        "({}, {}) = ({:g}, {:g}) is outside the plan, expected {:g} <= {} < {:g} and {:g} <= {} < "
+        "{:g}",
+        x, y, p.x, p.y, grid.x0_m, x, grid.x0_m + grid.width_m(), grid.y0_m, y,
+        grid.y0_m + grid.height_m()));
+  }
+  if (std::abs(heading_rad) > 1e6) {
+    throw BadQuestion(fmt::format("{} = {:g} is no heading, expected radians", h, heading_rad));
+  }
+  return {p, Heading::from_rad(heading_rad)};
+}
+
+bool is_local_host(std::string_view host, int port) {
+  for (const std::string_view name : {"127.0.0.1", "localhost"}) {
+    if (host == fmt::format("{}:{}", name, port) || (port == 80 && host == name)) return true;
+  }
+  return false;
+}
+
+}  // namespace fairway

@@ -1,0 +1,38 @@
+// What a request asks, read strictly.
+#pragma once
+
+#include <initializer_list>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "fairway/base/grid.hpp"
+#include "fairway/vehicle/vehicle.hpp"
+
+namespace fairway {
+
+/// A malformed question: what is wrong, and what is expected.
+class BadQuestion : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Decoded parameters as they came, repeated ones repeated.
+using Parameters = std::multimap<std::string, std::string>;
+
+/// Throws BadQuestion unless the parameters are exactly `names`, each once.
+void require_parameters(const Parameters& parameters, std::initializer_list<const char*> names);
+
+/// A finite decimal number, the whole of the text. Throws BadQuestion.
+[[nodiscard]] double number_parameter(const Parameters& parameters, const char* name);
+
+/// A state of which x, y, h are parameters: metres on the grid, radians. Throws BadQuestion.
+[[nodiscard]] State state_parameters(const Parameters& parameters, const Grid& grid, const char* x,
+                                     const char* y, const char* h);
+
+/// Whether a Host header names this machine's loopback, with this port: no page from elsewhere can
+/// then speak to the server under a name of its own that it points here.
+[[nodiscard]] bool is_local_host(std::string_view host, int port);
+
+}  // namespace fairway

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""`fairway view` as a user meets it: it says where it is, ends with Ctrl-C, and what it refuses.
+
+Usage: view_command_test.py FAIRWAY [unittest arguments]
+"""
+import json
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import unittest
+import urllib.request
+
+FAIRWAY = None
+
+SCENARIO = """[map]
+file = "map.pgm"
+resolution_m = 1.0
+cell_m = 2.0
+[vehicle]
+speed_mps = 10.0
+turn_radius_m = 4.0
+[mission]
+kind = "goal"
+goal_m = [45.0, 30.0]
+[verify]
+undecided_max = 0.5
+[simulate]
+random = 5
+sample = 10
+"""
+
+
+class View(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="fairway-view-"))
+        (cls.folder / "map.pgm").write_bytes(b"P5\n70 60\n255\n" + b"\xff" * 4200)
+        (cls.folder / "s.toml").write_text(SCENARIO)
+        subprocess.run([FAIRWAY, "run", "s.toml", "-o", "run"], cwd=cls.folder, check=True, capture_output=True)
+        page = cls.folder / "run/report.html"  # any page will do where the build has none
+        if not page.exists():
+            page.write_text("<!doctype html>")
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def start(self, *arguments):
+        server = subprocess.Popen([FAIRWAY, "--json", "view", *map(str, arguments)], cwd=self.folder, text=True,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(server.stdout.close)
+        self.addCleanup(server.stderr.close)
+        self.addCleanup(server.wait)
+        self.addCleanup(server.kill)
+        lines = []
+        for line in server.stdout:
+            lines.append(line)
+            if line.rstrip() == "}":
+                break
+        return server, json.loads("".join(lines))
+
+    def refused(self, code, *arguments):
+        done = subprocess.run([FAIRWAY, "view", *map(str, arguments)], cwd=self.folder, text=True, capture_output=True,
+                              timeout=60)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stderr
+
+    def test_says_where_it_is_answers_there_and_ends_with_a_signal(self):
+        for ending in (signal.SIGINT, signal.SIGTERM):
+            server, said = self.start("run")
+            self.assertEqual(said["address"], f"http://127.0.0.1:{said['port']}/")
+            with urllib.request.urlopen(said["address"] + "api/state?x=20&y=20&h=0.5", timeout=10) as answer:
+                found = json.load(answer)
+            self.assertEqual(found["flight"]["outcome"], "reach")
+            self.assertEqual(found["verdict"], "reach")
+            server.send_signal(ending)
+            self.assertEqual(server.wait(10), 0)
+
+    def test_a_port_of_ones_own_choice_and_one_that_is_taken(self):
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            port = probe.getsockname()[1]
+        _, said = self.start("run", "--port", port)
+        self.assertEqual(said["port"], port)
+        self.assertIn(f"--port: {port} cannot be had", self.refused(65, "run", "--port", port))
+
+    def test_what_is_not_the_folder_of_a_run_is_refused(self):
+        self.assertIn("is no folder", self.refused(65, "nowhere"))
+        self.assertIn("is no folder", self.refused(65, "s.toml"))
+        self.assertIn("report.html", self.refused(65, "."))
+        broken = self.folder / "broken"
+        shutil.copytree(self.folder / "run", broken)
+        plan = broken / "plan.safetensors"
+        plan.write_bytes(plan.read_bytes()[:-1])
+        self.assertIn("plan.safetensors", self.refused(65, "broken"))
+        plan.unlink()
+        self.assertIn("plan.safetensors", self.refused(65, "broken"))
+        self.refused(64, "run", "--port", "70000")
+        self.refused(64)
+
+
+if __name__ == "__main__":
+    FAIRWAY = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main()
