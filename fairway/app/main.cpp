@@ -32,6 +32,7 @@ constexpr Command commands[] = {
      declare_verify},
     {"query", "what a certificate says of a state", declare_query},
     {"check", "re-prove a certificate with a separate program", declare_check},
+    {"export", "a plan or verdicts as GeoTIFF, for GIS programs", declare_export},
     {"steer", "to a pose by a shortest path, or under a control law; nothing is in the way",
      declare_steer},
     {"view", "the interactive page of a run, live on this machine", declare_view},

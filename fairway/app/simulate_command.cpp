@@ -16,11 +16,13 @@
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/run/export_raster.hpp"
 #include "fairway/run/final_legs.hpp"
 #include "fairway/run/plan_record.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/simulate/flight_files.hpp"
+#include "fairway/simulate/qgc_mission.hpp"
 #include "fairway/simulate/sampled_flight.hpp"
 #include "fairway/simulate/start_states.hpp"
 #include "fairway/simulate/state_files.hpp"
@@ -40,6 +42,8 @@ struct SimulateArguments {
   fs::path csv;
   fs::path outcomes;
   fs::path geojson;
+  fs::path qgc;
+  QgcMissionOptions mission;
   double step_m = 0.0;        // 0: a cell
   std::string law = "exact";  // or "bang-bang", "proportional"
   double gain_per_s = SaturatedProportional{}.gain_per_s;
@@ -117,7 +121,8 @@ Flown fly(const std::vector<State>& starts, bool with_tracks, const std::optiona
 
 Flown fly_as_asked(const SimulateArguments& arguments, const Plan& plan,
                    const std::vector<State>& starts, const StageClock& clock) {
-  const bool with_tracks = !arguments.csv.empty() || !arguments.geojson.empty();
+  const bool with_tracks =
+      !arguments.csv.empty() || !arguments.geojson.empty() || !arguments.qgc.empty();
   if (arguments.law == "exact") {
     const ExactFlights flights(plan);
     std::optional<FinalLegs> legs;
@@ -194,9 +199,32 @@ bool put(const fs::path& path, const Session& session, const std::string& text) 
 }
 
 void check_places(const SimulateArguments& arguments, const Session& session) {
-  for (const fs::path& path : {arguments.csv, arguments.outcomes, arguments.geojson}) {
+  for (const fs::path& path :
+       {arguments.csv, arguments.outcomes, arguments.geojson, arguments.qgc}) {
     if (!path.empty() && path != "-") require_writable_place(path, session.existing());
   }
+}
+
+/// The one flight as a mission, in the format that the file's name asks for.
+std::string mission_text(const SimulateArguments& arguments, const Plan& plan,
+                         const std::vector<Flight>& flights) {
+  const std::string file = arguments.plan.string();
+  if (flights.size() != 1) {
+    throw InputError(arguments.qgc.string(),
+                     fmt::format("a mission is one flight, and there are {} starts; give one "
+                                 "--state",
+                                 flights.size()));
+  }
+  const LonLatOf lon_lat = lon_lat_of(plan, file);
+  if (!lon_lat) {
+    throw InputError(file,
+                     "its map has no place on Earth, so that there is no latitude and longitude to "
+                     "fly to; a mission needs a plan on a map in degrees or in a projected system");
+  }
+  const double speed_mps = plan.vehicle.speed_mps;
+  return arguments.qgc.extension() == ".plan"
+             ? qgc_plan_text(flights.front(), speed_mps, lon_lat, arguments.mission)
+             : qgc_waypoints_text(flights.front(), speed_mps, lon_lat, arguments.mission);
 }
 
 int simulate_command(const SimulateArguments& arguments, const Session& session) {
@@ -218,9 +246,12 @@ int simulate_command(const SimulateArguments& arguments, const Session& session)
     stdout_used |= put(arguments.csv, session, text);
   }
   if (!arguments.geojson.empty()) {
-    const auto georeference = georeference_of(plan, arguments.plan.string());
-    const std::string text = flights_geojson(flown.recorded, step_m, lon_lat_of(georeference));
+    const LonLatOf lon_lat = lon_lat_of(plan, arguments.plan.string());
+    const std::string text = flights_geojson(flown.recorded, step_m, lon_lat);
     stdout_used |= put(arguments.geojson, session, text);
+  }
+  if (!arguments.qgc.empty()) {
+    write_whole(arguments.qgc, session.existing(), mission_text(arguments, plan, flown.recorded));
   }
   if (!arguments.outcomes.empty()) {
     stdout_used |= put(arguments.outcomes, session, outcomes_csv(starts, flown.results));
@@ -262,6 +293,21 @@ void declare_outputs(CLI::App& options, SimulateArguments& a) {
       ->type_name("CSV");
   options.add_option("--geojson", a.geojson, "write the flights' tracks as GeoJSON; - for stdout")
       ->type_name("FILE");
+  options
+      .add_option("--qgc", a.qgc,
+                  "write the one flight as a mission: .plan for QGroundControl, .waypoints or .txt "
+                  "for QGC WPL 110")
+      ->type_name("FILE");
+  options.add_option("--altitude", a.mission.altitude_m, "of the mission, metres above its start")
+      ->type_name("M")
+      ->check(finite_from(0.0))
+      ->capture_default_str();
+  options
+      .add_option("--tolerance", a.mission.tolerance_m,
+                  "farthest that the mission's line may be from the flight, metres")
+      ->type_name("M")
+      ->check(finite_above(0.0))
+      ->capture_default_str();
   options
       .add_option("--step", a.step_m,
                   "longest step between points of a track, metres (default: a cell)")
@@ -320,6 +366,10 @@ Action declare_simulate(CLI::App& options) {
     const auto to_stdout = [](const fs::path& path) { return path == "-" ? 1 : 0; };
     if (to_stdout(a.csv) + to_stdout(a.outcomes) + to_stdout(a.geojson) > 1) {
       throw CLI::ValidationError("--csv, --outcomes, --geojson", "only one of them can be -");
+    }
+    const std::string kind = a.qgc.extension().string();
+    if (!a.qgc.empty() && kind != ".plan" && kind != ".waypoints" && kind != ".txt") {
+      throw CLI::ValidationError("--qgc", "expected a name that ends in .plan, .waypoints or .txt");
     }
     if (a.sampled_only_given && a.law == "exact") {
       throw CLI::ValidationError(

@@ -14,6 +14,7 @@
 #include "fairway/map/read_map.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/run/checker.hpp"
+#include "fairway/run/export_raster.hpp"
 #include "fairway/run/mission_on_map.hpp"
 #include "fairway/run/plan_record.hpp"
 #include "fairway/run/report_page.hpp"
@@ -107,13 +108,13 @@ std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& scenario, St
 
 namespace {
 
-void write_flights(const ScenarioFlights& flown, const ObstacleMap& map, double speed_mps,
+void write_flights(const ScenarioFlights& flown, const Plan& plan, const std::string& where,
                    const fs::path& place) {
-  const double step_m = map.grid.cell_m;
+  const double step_m = plan.grid.cell_m;
   write_whole(place / "flights.csv", Existing::keep,
-              trajectories_csv(flown.recorded, speed_mps, step_m));
+              trajectories_csv(flown.recorded, plan.vehicle.speed_mps, step_m));
   write_whole(place / "flights.geojson", Existing::keep,
-              flights_geojson(flown.recorded, step_m, lon_lat_of(map.geo)));
+              flights_geojson(flown.recorded, step_m, lon_lat_of(plan, where)));
   write_whole(place / "outcomes.csv", Existing::keep, outcomes_csv(flown.starts, flown.results));
 }
 
@@ -222,7 +223,7 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
 
   clock.begin("flying", left.from_flights());
   const ScenarioFlights flown = fly_scenario(scenario, plan, mission, clock, left.pictures_s);
-  write_flights(flown, map, plan.vehicle.speed_mps, place);
+  write_flights(flown, plan, scenario.file.string(), place);
 
   const Verified verified = verify_and_check(plan, scenario, place, clock);
 

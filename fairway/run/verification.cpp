@@ -42,6 +42,12 @@ json options_json(const CertifyOptions& o) {
       {"last_level", o.last_level}};
 }
 
+/// Where the plan says that its grid lies; null when it does not.
+json frame_in(const Plan& plan) {
+  const json record = json::parse(plan.record_json, nullptr, false);
+  return record.is_object() ? record.value("frame", json()) : json();
+}
+
 json record_of(const Plan& plan, const CertifyOptions& options, const Certified& outcome) {
   json levels = json::array();
   for (const LevelRecord& level : outcome.levels) {
@@ -52,6 +58,7 @@ json record_of(const Plan& plan, const CertifyOptions& options, const Certified&
   }
   return {{"program", program_version},
           {"plan_sha256", json::parse(plan_digests_json(plan))},
+          {"frame", frame_in(plan)},
           {"options", options_json(options)},
           {"volume_fraction", fractions_json(outcome.volume.all)},
           {"volume_fraction_free", fractions_json(outcome.volume.free)},

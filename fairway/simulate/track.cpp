@@ -28,12 +28,21 @@ void add_points(const FlightSegment& piece, double speed_mps, double step_m,
   }
 }
 
-void add_end(const Flight& flight, double speed_mps, std::vector<TrackPoint>& track) {
-  if (flight.segments.empty()) {
-    track.push_back({0.0, flight.start, 0.0});
+/// The flight's pieces, then those of its last leg.
+std::vector<FlightSegment> pieces_of(const Flight& flight) {
+  std::vector<FlightSegment> pieces = flight.segments;
+  const std::vector<FlightSegment>& leg = flight.final_leg.segments;
+  pieces.insert(pieces.end(), leg.begin(), leg.end());
+  return pieces;
+}
+
+void add_end(const std::vector<FlightSegment>& pieces, const State& start, double speed_mps,
+             std::vector<TrackPoint>& track) {
+  if (pieces.empty()) {
+    track.push_back({0.0, start, 0.0});
     return;
   }
-  const FlightSegment& last = flight.segments.back();
+  const FlightSegment& last = pieces.back();
   track.push_back({last.time_s + last.length_m / speed_mps, state_at(last, last.length_m),
                    last.curvature_per_m});
 }
@@ -43,8 +52,9 @@ void add_end(const Flight& flight, double speed_mps, std::vector<TrackPoint>& tr
 std::vector<TrackPoint> track_of(const Flight& flight, double speed_mps, double step_m) {
   require(speed_mps > 0.0 && step_m > 0.0, "speed and step are positive");
   std::vector<TrackPoint> track;
-  for (const FlightSegment& piece : flight.segments) add_points(piece, speed_mps, step_m, track);
-  add_end(flight, speed_mps, track);
+  const std::vector<FlightSegment> pieces = pieces_of(flight);
+  for (const FlightSegment& piece : pieces) add_points(piece, speed_mps, step_m, track);
+  add_end(pieces, flight.start, speed_mps, track);
   return track;
 }
 
@@ -52,7 +62,8 @@ std::vector<TrackPoint> thinned_track(const Flight& flight, double speed_mps, do
   require(speed_mps > 0.0 && tolerance_m > 0.0, "speed and tolerance are positive");
   // Chords of an arc of radius R keep within step^2 / (8 R) of it: a quarter of the tolerance.
   std::vector<TrackPoint> track;
-  for (const FlightSegment& piece : flight.segments) {
+  const std::vector<FlightSegment> pieces = pieces_of(flight);
+  for (const FlightSegment& piece : pieces) {
     const double bend_per_m = std::abs(piece.curvature_per_m);
     const double step_m =
         bend_per_m > 0.0 ? std::sqrt(2.0 * tolerance_m / bend_per_m) : piece.length_m + 1.0;
@@ -60,7 +71,7 @@ std::vector<TrackPoint> thinned_track(const Flight& flight, double speed_mps, do
     const double least_m = bend_per_m > 0.0 ? std::min(step_m, 1.0 / bend_per_m) : step_m;
     add_points(piece, speed_mps, least_m, track);
   }
-  add_end(flight, speed_mps, track);
+  add_end(pieces, flight.start, speed_mps, track);
 
   const double reach_m = 0.75 * tolerance_m;
   std::vector<bool> kept(track.size(), false);

@@ -1,4 +1,4 @@
-// A recorded flight as points along it.
+// A recorded flight as points along it, with its last leg when it has one.
 //
 // Properties that always hold of a track:
 //   1. Both ends of every piece are in it, and points between them no farther apart than the step;

@@ -93,6 +93,17 @@ TEST(Track, straight_lines_need_their_ends_alone) {
   EXPECT_EQ(thinned_track(flight, speed_mps, 0.01).size(), 2U);
 }
 
+TEST(Track, goes_on_along_the_last_leg) {
+  Random random(13);
+  const Flight all = wandering(random, 9);
+  Flight flight = all;
+  flight.final_leg.segments.assign(all.segments.begin() + 6, all.segments.end());
+  flight.segments.resize(6);
+  EXPECT_EQ(track_of(flight, speed_mps, 2.0).size(), track_of(all, speed_mps, 2.0).size());
+  EXPECT_EQ(thinned_track(flight, speed_mps, 0.5).back().state,
+            thinned_track(all, speed_mps, 0.5).back().state);
+}
+
 TEST(Track, of_a_flight_without_pieces_is_its_start) {
   Flight flight;
   flight.start = {{3.0, 4.0}, Heading::from_rad(1.0)};

@@ -1,0 +1,115 @@
+// fairway export: a plan or verdicts as GeoTIFF.
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "fairway/app/argument_checks.hpp"
+#include "fairway/app/command.hpp"
+#include "fairway/base/error.hpp"
+#include "fairway/certificate/certificate_file.hpp"
+#include "fairway/plan/plan_file.hpp"
+#include "fairway/run/export_raster.hpp"
+#include "fairway/run/product_file.hpp"
+
+namespace fairway {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct ExportArguments {
+  fs::path product;
+  fs::path output;
+  std::vector<std::string> headings;
+};
+
+State heading_as_state(const std::string& text) { return state_of_argument("0,0," + text); }
+
+CLI::Validator heading_argument() {
+  const auto check = [](const std::string& text) -> std::string {
+    try {
+      static_cast<void>(heading_as_state(text));
+      return text.find(',') == std::string::npos ? "" : "expected one heading";
+    } catch (const InputError&) {
+      return "expected radians, or degrees with the suffix deg, found " + text;
+    }
+  };
+  return {check, "", "heading"};
+}
+
+std::string place_words(const WorldPlace& place) {
+  if (place.projected_crs) return "in the map's projected system";
+  if (place.geo) {
+    return fmt::format("in the tangent plane about latitude {}, longitude {}",
+                       place.geo->latitude_deg, place.geo->longitude_deg);
+  }
+  return "in metres of the map, which has no place on Earth";
+}
+
+int export_command(const ExportArguments& a, const Session& session) {
+  require_writable_place(a.output, session.existing());
+  const std::string where = a.product.string();
+  std::vector<Heading> headings;
+  WorldPlace place;
+  const bool verdicts = product_kind(a.product) == ProductKind::certificate;
+  if (verdicts) {
+    for (const std::string& text : a.headings) {
+      headings.push_back(heading_as_state(text).heading);
+    }
+    if (headings.empty()) headings = even_headings(8);
+    const Certificate certificate = read_certificate(a.product);
+    place = world_place_of(certificate.record_json, where);
+    export_verdicts(certificate, where, headings, a.output, session.existing());
+  } else {
+    if (!a.headings.empty()) {
+      throw InputError(where, "is a plan: --heading asks for verdicts, which a certificate has");
+    }
+    const Plan plan = read_plan(a.product);
+    place = world_place_of(plan.record_json, where);
+    export_plan(plan, where, a.output, session.existing());
+  }
+  json list = json::array();
+  for (const Heading heading : headings) list.push_back(heading.rad());
+  session.tell({{"raster", a.output.string()},
+                {"of", verdicts ? "verdicts" : "plan"},
+                {"headings_rad", verdicts ? list : json()},
+                {"on_earth", place.geo.has_value() || place.projected_crs.has_value()}},
+               fmt::format("{} has {} {}.", a.output.string(),
+                           verdicts ? fmt::format("the verdicts at {} heading{}", headings.size(),
+                                                  headings.size() == 1 ? "" : "s")
+                                    : "heading, cost and region of the plan",
+                           place_words(place)));
+  return exit_done;
+}
+
+}  // namespace
+
+Action declare_export(CLI::App& options) {
+  auto arguments = std::make_shared<ExportArguments>();
+  ExportArguments& a = *arguments;
+  options.add_option("product", a.product, "a plan or a certificate")
+      ->required()
+      ->type_name("PLAN|CERT");
+  options.add_option("-o,--output", a.output, "the GeoTIFF to write")
+      ->required()
+      ->type_name("FILE.tif");
+  options
+      .add_option("--heading", a.headings,
+                  "certificates: verdicts at this heading, radians or degrees with the suffix deg; "
+                  "may be repeated (default: eight, evenly spaced)")
+      ->type_name("H")
+      ->check(heading_argument())
+      ->allow_extra_args(false);
+  options.footer(
+      "A plan becomes the bands heading_rad, cost_m and region; a certificate a band of verdicts "
+      "for "
+      "each\nheading: 0 undecided, 1 reach, 2 collide, 3 leave, 4 trapped. QGIS opens both where "
+      "the "
+      "map was.\nExample: fairway export out/demo/plan.safetensors -o demo.tif");
+  return [arguments](const Session& session) { return export_command(*arguments, session); };
+}
+
+}  // namespace fairway

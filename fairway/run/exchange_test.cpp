@@ -1,0 +1,279 @@
+// What goes out to GIS programs and autopilots reads back as what it was.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gdal_priv.h>
+#include <ogr_spatialref.h>
+#include <nlohmann/json.hpp>
+
+#include "fairway/base/error.hpp"
+#include "fairway/base/random.hpp"
+#include "fairway/map/frame_from_degrees.hpp"
+#include "fairway/map/gdal_raster.hpp"
+#include "fairway/map/read_map.hpp"
+#include "fairway/map/read_path.hpp"
+#include "fairway/map/scratch_folder.hpp"
+#include "fairway/run/ask_certificate.hpp"
+#include "fairway/run/export_raster.hpp"
+#include "fairway/run/plan_map.hpp"
+#include "fairway/run/verification.hpp"
+#include "fairway/simulate/exact_flight.hpp"
+#include "fairway/simulate/qgc_mission.hpp"
+#include "fairway/simulate/start_states.hpp"
+#include "fairway/simulate/track.hpp"
+
+namespace fairway {
+namespace {
+
+constexpr GeoReference somewhere{47.4, 8.55, 0.001};
+
+/// 60 by 44 cells with a wall and walled-off corner, so that every kind of cell is there.
+ObstacleMap walled(const std::optional<GeoReference>& geo) {
+  ObstacleMap map;
+  map.grid = {60, 44, -120.0, -80.0, 4.0};
+  map.obstacle.assign(map.grid.size(), 0);
+  for (int ix = 20; ix < 34; ++ix) map.obstacle[map.grid.index({ix, 20})] = 1;
+  for (int i = 0; i <= 12; ++i) {
+    map.obstacle[map.grid.index({i, 12})] = 1;
+    map.obstacle[map.grid.index({12, i})] = 1;
+  }
+  map.geo = geo;
+  return map;
+}
+
+Plan plan_on(const ObstacleMap& map) {
+  auto answer = plan_map(map, {10.0, 8.0}, GoalMission{{60.0, 50.0}, {}}, {});
+  return std::get<Plan>(std::move(answer));
+}
+
+std::vector<float> band_of(GdalRaster& raster, int band, const Grid& grid) {
+  std::vector<float> rows(grid.size());
+  EXPECT_EQ(
+      raster.dataset().GetRasterBand(band)->RasterIO(GF_Read, 0, 0, grid.nx, grid.ny, rows.data(),
+                                                     grid.nx, grid.ny, GDT_Float32, 0, 0, nullptr),
+      CE_None);
+  std::vector<float> cells(grid.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Cell cell = grid.cell_at(i);
+    cells[i] = rows[grid.index({cell.ix, grid.ny - 1 - cell.iy})];
+  }
+  return cells;
+}
+
+bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+class Exchange : public ::testing::Test {
+ protected:
+  ScratchFolder folder_;
+};
+
+TEST_F(Exchange, a_plan_reads_back_from_its_raster_bit_for_bit) {
+  const Plan plan = plan_on(walled(somewhere));
+  export_plan(plan, "plan", folder_.file("p.tif"), Existing::keep);
+  GdalRaster raster(folder_.file("p.tif"));
+  ASSERT_EQ(raster.dataset().GetRasterCount(), 3);
+  EXPECT_TRUE(same_bits(band_of(raster, 1, plan.grid), plan.heading_rad));
+  const std::vector<float> cost = band_of(raster, 2, plan.grid);
+  const std::vector<float> region = band_of(raster, 3, plan.grid);
+  std::size_t unreachable = 0;
+  for (std::size_t i = 0; i < cost.size(); ++i) {
+    EXPECT_EQ(region[i], static_cast<float>(plan.region[i]));
+    if (std::isfinite(plan.cost_m[i])) {
+      EXPECT_EQ(cost[i], plan.cost_m[i]);
+    } else {
+      EXPECT_TRUE(std::isnan(cost[i]));
+      ++unreachable;
+    }
+  }
+  EXPECT_GT(unreachable, 0U);
+}
+
+TEST_F(Exchange, a_certificate_knows_where_its_plan_lies_and_reads_back) {
+  const Plan plan = plan_on(walled(somewhere));
+  const Progress quiet;
+  StageClock clock(quiet);
+  CertifyOptions options;
+  options.undecided_max = 0.5;
+  options.samples = 1000;
+  const Verification made = verify_plan(plan, "plan", {}, options, {}, clock);
+  const WorldPlace place = world_place_of(made.certificate.record_json, "certificate");
+  ASSERT_TRUE(place.geo);
+  EXPECT_EQ(place.geo->latitude_deg, somewhere.latitude_deg);
+  EXPECT_EQ(place.geo->longitude_deg, somewhere.longitude_deg);
+
+  const std::vector<Heading> headings = even_headings(3);
+  export_verdicts(made.certificate, "certificate", headings, folder_.file("v.tif"), Existing::keep);
+  GdalRaster raster(folder_.file("v.tif"));
+  ASSERT_EQ(raster.dataset().GetRasterCount(), 3);
+  std::array<std::size_t, verdict_count> seen{};
+  for (int k = 0; k < 3; ++k) {
+    const std::vector<float> found = band_of(raster, k + 1, plan.grid);
+    const auto expected = verdicts_at(made.certificate, headings[static_cast<std::size_t>(k)]);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      ASSERT_EQ(found[i], static_cast<float>(expected[i]));
+      ++seen[static_cast<std::size_t>(expected[i])];
+    }
+  }
+  EXPECT_GT(seen[static_cast<std::size_t>(Verdict::reach)], 0U);
+  EXPECT_GT(seen[static_cast<std::size_t>(Verdict::collide)], 0U);
+  EXPECT_EQ(raster.dataset().GetRasterBand(2)->GetDescription(),
+            std::string("verdict at heading 2.0944 rad"));
+}
+
+TEST_F(Exchange, verdicts_at_a_heading_are_queries_of_its_states) {
+  const Plan plan = plan_on(walled({}));
+  const Progress quiet;
+  StageClock clock(quiet);
+  CertifyOptions options;
+  options.undecided_max = 0.5;
+  options.samples = 1000;
+  const Certificate certificate = verify_plan(plan, "plan", {}, options, {}, clock).certificate;
+  const auto verdicts = verdicts_at(certificate, Heading::from_rad(1.0));
+  const auto answers = ask(certificate, states_asked_at(plan.grid, Heading::from_rad(1.0)));
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    EXPECT_EQ(verdicts[i], answers[i].verdict);
+    if (plan.region[i] == Region::obstacle) {
+      EXPECT_EQ(verdicts[i], Verdict::collide);
+    }
+    if (plan.region[i] == Region::goal) {
+      EXPECT_EQ(verdicts[i], Verdict::reach);
+    }
+    const Vec2 asked = states_asked_at(plan.grid, Heading::from_rad(1.0))[i].position_m;
+    EXPECT_EQ(plan.grid.index(plan.grid.cell_of(asked)), i);
+    if (i == 100) break;  // the places are alike
+  }
+}
+
+TEST_F(Exchange, missions_read_back_as_lines_within_the_tolerance_of_the_flight) {
+  const ObstacleMap map = walled(somewhere);
+  const Plan plan = plan_on(map);
+  const LonLatOf lon_lat = lon_lat_of(plan, "plan");
+  const ExactFlights flights(plan);
+  const double speed_mps = plan.vehicle.speed_mps;
+  int read_back = 0;
+  for (const State& start : random_states(plan, StartRegion::safe_start, 20, 4)) {
+    const Flight flight = flights.record(start);
+    const QgcMissionOptions options{80.0, 0.5};
+    const auto expected = thinned_track(flight, speed_mps, options.tolerance_m);
+    if (expected.size() < 2 ||
+        norm(expected.back().state.position_m - start.position_m) < map.grid.cell_m) {
+      continue;  // too short to be read as a path
+    }
+    for (const bool as_plan : {true, false}) {
+      const std::string text = as_plan ? qgc_plan_text(flight, speed_mps, lon_lat, options)
+                                       : qgc_waypoints_text(flight, speed_mps, lon_lat, options);
+      const auto file = folder_.write(as_plan ? "m.plan" : "m.waypoints", text);
+      const std::vector<Vec2> back = read_path(file, map, false);
+      ASSERT_EQ(back.size(), expected.size());
+      ++read_back;
+      for (std::size_t i = 0; i < back.size(); ++i) {
+        EXPECT_LT(norm(back[i] - expected[i].state.position_m), 2e-4);
+      }
+    }
+  }
+  EXPECT_GE(read_back, 30);
+}
+
+TEST_F(Exchange, a_mission_has_the_parts_that_ground_stations_ask_for) {
+  const Plan plan = plan_on(walled(somewhere));
+  const Flight flight = ExactFlights(plan).record({{-100.0, 60.0}, Heading::from_rad(0.0)});
+  const LonLatOf lon_lat = lon_lat_of(plan, "plan");
+  const auto mission = nlohmann::json::parse(qgc_plan_text(flight, 10.0, lon_lat, {35.0, 1.0}));
+  EXPECT_EQ(mission["fileType"], "Plan");
+  EXPECT_EQ(mission["version"], 1);
+  EXPECT_EQ(mission["geoFence"]["version"], 2);
+  EXPECT_EQ(mission["rallyPoints"]["version"], 2);
+  EXPECT_EQ(mission["mission"]["version"], 2);
+  EXPECT_EQ(mission["mission"]["cruiseSpeed"], 10.0);
+  const auto& items = mission["mission"]["items"];
+  ASSERT_GE(items.size(), 3U);
+  EXPECT_EQ(items[0]["command"], 178);
+  EXPECT_EQ(items[0]["params"][1], 10.0);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    EXPECT_EQ(items[i]["doJumpId"], i + 1);
+    EXPECT_EQ(items[i]["params"].size(), 7U);
+    if (i == 0) continue;
+    EXPECT_EQ(items[i]["command"], 16);
+    EXPECT_EQ(items[i]["frame"], 3);
+    EXPECT_EQ(items[i]["params"][6], 35.0);
+  }
+  EXPECT_EQ(mission["mission"]["plannedHomePosition"][0], items[1]["params"][4]);
+  // An altitude of its own and a wider tolerance: fewer points.
+  const auto coarse = nlohmann::json::parse(qgc_plan_text(flight, 10.0, lon_lat, {0.0, 20.0}));
+  EXPECT_LT(coarse["mission"]["items"].size(), items.size());
+  EXPECT_THROW((void)qgc_plan_text(flight, 10.0, {}, {}), ContractViolation);
+  EXPECT_THROW((void)qgc_plan_text(flight, 10.0, lon_lat, {-1.0, 1.0}), ContractViolation);
+  EXPECT_THROW((void)qgc_waypoints_text(flight, 10.0, lon_lat, {1.0, 0.0}), ContractViolation);
+}
+
+TEST_F(Exchange, a_projected_plan_has_degrees_and_a_plan_of_nowhere_has_none) {
+  ObstacleMap map = walled({});
+  EXPECT_FALSE(lon_lat_of(plan_on(map), "plan"));
+  OGRSpatialReference utm;
+  utm.importFromEPSG(32632);
+  char* wkt = nullptr;
+  utm.exportToWkt(&wkt);
+  map.projected_crs = wkt;
+  CPLFree(wkt);
+  map.grid.x0_m += 600000.0;
+  map.grid.y0_m += 5200000.0;
+  auto answer = plan_map(map, {10.0, 8.0}, GoalMission{{600060.0, 5200050.0}, {}}, {});
+  const LonLat place = lon_lat_of(std::get<Plan>(answer), "plan")({600000.0, 5200000.0});
+  EXPECT_NEAR(place.longitude_deg, 10.3, 0.1);  // 100 km east of the zone's meridian, 9 degrees
+  const Vec2 back =
+      FrameFromDegrees(map, "path").point_m("path", {place.latitude_deg, place.longitude_deg});
+  EXPECT_LT(norm(back - Vec2{600000.0, 5200000.0}), 1e-4);
+}
+
+TEST_F(Exchange, a_damaged_frame_is_named) {
+  const auto complaint = [](const char* record) {
+    try {
+      (void)world_place_of(record, "p");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(complaint("{}"), "no error");
+  EXPECT_EQ(complaint(R"({"frame": null})"), "no error");
+  EXPECT_NE(complaint(R"({"frame": 3})").find("p: fairway.frame"), std::string::npos);
+  EXPECT_NE(complaint(R"({"frame": {"georeference": {"latitude_deg": 1}}})").find("longitude_deg"),
+            std::string::npos);
+  EXPECT_NE(complaint(R"({"frame": {"projected_crs": 7}})").find("projected_crs"),
+            std::string::npos);
+}
+
+TEST_F(Exchange, the_mission_in_a_record_is_the_one_planned) {
+  const Plan plan = plan_on(walled({}));
+  const auto goal = mission_of(plan, "plan");
+  ASSERT_TRUE(goal);
+  EXPECT_EQ(std::get<GoalMission>(*goal).goal_m, (Vec2{60.0, 50.0}));
+  EXPECT_FALSE(std::get<GoalMission>(*goal).goal_heading_rad);
+  PathMission path{{{-80.0, 40.0}, {80.0, 40.0}, {80.0, 60.0}}, true, 5.0, 0.25};
+  auto answer = plan_map(walled({}), {10.0, 8.0}, path, {});
+  const auto back = mission_of(std::get<Plan>(answer), "plan");
+  ASSERT_TRUE(back);
+  const auto& found = std::get<PathMission>(*back);
+  EXPECT_EQ(found.vertices_m, path.vertices_m);
+  EXPECT_EQ(found.closed, path.closed);
+  EXPECT_EQ(found.delta_position_m, path.delta_position_m);
+  EXPECT_EQ(found.delta_heading_rad, path.delta_heading_rad);
+  Plan other = plan;
+  other.record_json = "{}";
+  EXPECT_FALSE(mission_of(other, "plan"));
+  other.record_json = R"({"mission": {"kind": "race"}})";
+  EXPECT_THROW((void)mission_of(other, "plan"), InputError);
+}
+
+}  // namespace
+}  // namespace fairway

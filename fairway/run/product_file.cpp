@@ -1,0 +1,26 @@
+#include "fairway/run/product_file.hpp"
+
+#include <string>
+
+#include "fairway/base/error.hpp"
+#include "fairway/base/mapped_file.hpp"
+#include "fairway/base/safetensors.hpp"
+#include "fairway/base/strict_json.hpp"
+
+namespace fairway {
+
+ProductKind product_kind(const std::filesystem::path& file) {
+  const MappedFile mapped(file);
+  const std::string where = file.string();
+  const Safetensors content = parse_safetensors(mapped.bytes(), where);
+  const auto text = content.metadata.find("fairway");
+  if (text == content.metadata.end()) {
+    throw InputError(where, "is neither a plan nor a certificate of fairway");
+  }
+  const nlohmann::json record = parse_strict_json(text->second, where + ": fairway");
+  if (!record.is_object() || !record.contains("format")) return ProductKind::plan;
+  if (record["format"] == "fairway-certificate") return ProductKind::certificate;
+  throw InputError(where, "is " + shown(record["format"]) + ", expected a plan or a certificate");
+}
+
+}  // namespace fairway

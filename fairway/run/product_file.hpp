@@ -1,0 +1,15 @@
+// Which of its products a safetensors file is.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace fairway {
+
+enum class ProductKind : std::uint8_t { plan, certificate };
+
+/// By its metadata alone; whoever reads it then checks the rest. Throws InputError for a file that
+/// is neither.
+[[nodiscard]] ProductKind product_kind(const std::filesystem::path& file);
+
+}  // namespace fairway
