@@ -1,13 +1,17 @@
 // certificate: what was proved, and asking it.
 #include "bind_certificate.hpp"
 
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +20,7 @@
 #include "fairway/report/draw_verdicts.hpp"
 #include "fairway/run/ask_certificate.hpp"
 #include "fairway/run/checker.hpp"
+#include "fairway/run/export_raster.hpp"
 #include "fairway/verify/sample_verdicts.hpp"
 #include "fairway/verify/verdict.hpp"
 
@@ -62,6 +67,21 @@ nlohmann::json record_of(const HeldCertificate& held) {
 py::object member_of(const HeldCertificate& held, const char* name) {
   const nlohmann::json record = record_of(held);
   return record.contains(name) ? python_of(record[name]) : py::none();
+}
+
+void save_geotiff(const HeldCertificate& held, const std::filesystem::path& path,
+                  const std::optional<std::vector<double>>& headings_rad, bool force) {
+  std::vector<Heading> headings = even_headings(VerdictMapOptions{}.headings);
+  if (headings_rad) {
+    headings.clear();
+    for (const double rad : *headings_rad) {
+      if (!std::isfinite(rad)) throw py::value_error("headings_rad: not all are finite");
+      headings.push_back(Heading::from_rad(rad));
+    }
+  }
+  const py::gil_scoped_release unlocked;
+  export_verdicts(held.certificate, "the certificate's record", headings, path,
+                  force ? Existing::replace : Existing::keep);
 }
 
 VerdictMap sampled(const HeldCertificate& held, int headings, int states) {
@@ -173,6 +193,11 @@ heading: exactly in the middle, flights meet ties that have no volume.)")
           "path"_a, py::kw_only(), "force"_a = false,
           "Writes a certificate file (safetensors), whole or not at all. One that is there is kept "
           "unless `force`: then ValueError.")
+      .def("save_geotiff", &save_geotiff, "path"_a, "headings_rad"_a = py::none(), py::kw_only(),
+           "force"_a = false,
+           "verdict_map() of each heading (default: eight, evenly spaced) as the bands of a "
+           "GeoTIFF, "
+           "laid on Earth where the map was (docs/exchange.md).")
       .def("_repr_png_",
            [](const HeldCertificate& held) {
              return py::bytes(picture(held, VerdictMapOptions{}.headings, "").png);

@@ -9,6 +9,7 @@
 #include "binding.hpp"
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/run/export_raster.hpp"
 
 namespace fairway::python {
 namespace {
@@ -75,6 +76,16 @@ void bind_plan(py::module_& m) {
           "path"_a, py::kw_only(), "force"_a = false,
           "Writes a plan file (safetensors), whole or not at all. One that is there is kept unless "
           "`force`: then ValueError.")
+      .def(
+          "save_geotiff",
+          [](const HeldPlan& p, const std::filesystem::path& path, bool force) {
+            const py::gil_scoped_release unlocked;
+            export_plan(p.plan, "the plan's record", path,
+                        force ? Existing::replace : Existing::keep);
+          },
+          "path"_a, py::kw_only(), "force"_a = false,
+          "Heading, cost and region as the bands of a GeoTIFF, laid on Earth where the map was "
+          "(docs/exchange.md).")
       .def("__repr__", [](const HeldPlan& p) {
         return fmt::format("<fairway.Plan: {}, {:g} m/s, turning radius {:g} m>",
                            words_of(p.plan.grid), p.plan.vehicle.speed_mps,

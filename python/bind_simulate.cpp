@@ -17,12 +17,16 @@
 
 #include "binding.hpp"
 #include "fairway/base/atomic_file.hpp"
+#include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/report/draw_flights.hpp"
+#include "fairway/run/export_raster.hpp"
+#include "fairway/run/final_legs.hpp"
 #include "fairway/run/plan_map.hpp"
 #include "fairway/run/plan_record.hpp"
 #include "fairway/simulate/flight_files.hpp"
 #include "fairway/simulate/flight_statistics.hpp"
+#include "fairway/simulate/qgc_mission.hpp"
 #include "fairway/simulate/sampled_flight.hpp"
 #include "fairway/simulate/start_states.hpp"
 #include "fairway/simulate/track.hpp"
@@ -31,6 +35,8 @@ namespace fairway::python {
 namespace {
 
 using namespace pybind11::literals;
+
+constexpr const char* record_name = "the plan's record";
 
 /// Between two looks for signals.
 constexpr std::size_t batch = 4096;
@@ -43,18 +49,24 @@ struct Flights {
   std::vector<State> starts;
   std::vector<FlightResult> results;
 
-  Flight recorded(std::size_t i) const {
-    if (!sampled) return plan->flights().record(starts[i]);
-    return SampledFlights(plan->plan, *sampled).record(starts[i], i).flight;
-  }
-  std::vector<Flight> recorded_up_to(std::size_t count) const {
-    std::vector<Flight> flights(std::min(count, starts.size()));
+  /// Exact flights go on to the goal's heading, where it has one; what a disturbed vehicle does in
+  /// the goal is not known from its entry.
+  std::vector<Flight> recorded(std::size_t first, std::size_t count) const {
+    const std::size_t begin = std::min(first, starts.size());
+    std::vector<Flight> flights(std::min(count, starts.size() - begin));
     std::optional<SampledFlights> by_law;
-    if (sampled) by_law.emplace(plan->plan, *sampled);
-    for_ranges(flights.size(), 8, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        flights[i] =
-            by_law ? by_law->record(starts[i], i).flight : plan->flights().record(starts[i]);
+    std::optional<FinalLegs> legs;
+    if (sampled) {
+      by_law.emplace(plan->plan, *sampled);
+    } else if (const auto goal = goal_pose_of(plan->plan, record_name)) {
+      legs.emplace(plan->plan, *goal);
+    }
+    for_ranges(flights.size(), 8, [&](std::size_t low, std::size_t high) {
+      for (std::size_t k = low; k < high; ++k) {
+        const State& start = starts[begin + k];
+        flights[k] =
+            by_law ? by_law->record(start, begin + k).flight : plan->flights().record(start);
+        if (legs) flights[k].final_leg = legs->leg_of(flights[k]);
       }
     });
     return flights;
@@ -182,7 +194,7 @@ std::shared_ptr<Trajectory> trajectory(const Flights& flights, py::ssize_t i,
   const std::size_t place = place_in(flights, i);
   const Plan& plan = flights.plan->plan;
   const py::gil_scoped_release unlocked;
-  const Flight flight = flights.recorded(place);
+  const Flight flight = flights.recorded(place, 1).front();
   return std::make_shared<Trajectory>(Trajectory{
       flight.result, track_of(flight, plan.vehicle.speed_mps, step_m.value_or(plan.grid.cell_m))});
 }
@@ -198,10 +210,10 @@ py::dict counts(const Flights& flights) {
 
 Picture picture(const Flights& flights, const std::string& title, int most) {
   const py::gil_scoped_release unlocked;
-  const auto drawn = flights.recorded_up_to(static_cast<std::size_t>(std::max(most, 0)));
+  const auto drawn = flights.recorded(0, static_cast<std::size_t>(std::max(most, 0)));
   FlightPictureOptions options;
   options.title = title;
-  options.mission = mission_of(flights.plan->plan, "the plan's record");
+  options.mission = mission_of(flights.plan->plan, record_name);
   return draw_flights(flights.plan->plan, drawn, options);
 }
 
@@ -218,12 +230,29 @@ void save(const Flights& flights, const std::filesystem::path& path, Text kind,
   if (kind == Text::outcomes) {
     text = outcomes_csv(flights.starts, flights.results);
   } else {
-    const std::vector<Flight> all = flights.recorded_up_to(flights.starts.size());
-    text = kind == Text::tracks
-               ? trajectories_csv(all, plan.vehicle.speed_mps, step)
-               : flights_geojson(all, step, lon_lat_of(georeference_of(plan, "the plan's record")));
+    const std::vector<Flight> all = flights.recorded(0, flights.starts.size());
+    text = kind == Text::tracks ? trajectories_csv(all, plan.vehicle.speed_mps, step)
+                                : flights_geojson(all, step, lon_lat_of(plan, record_name));
   }
   write_whole(path, existing, text);
+}
+
+void save_mission(const Flights& flights, py::ssize_t i, const std::filesystem::path& path,
+                  double altitude_m, double tolerance_m, bool force) {
+  const std::string kind = path.extension().string();
+  if (kind != ".plan" && kind != ".waypoints" && kind != ".txt") {
+    throw py::value_error("path: expected a name that ends in .plan, .waypoints or .txt");
+  }
+  const std::size_t place = place_in(flights, i);
+  const py::gil_scoped_release unlocked;
+  const Plan& plan = flights.plan->plan;
+  const LonLatOf lon_lat = lon_lat_of(plan, record_name);
+  require(static_cast<bool>(lon_lat),
+          "the plan's map has no place on Earth: there is no latitude and longitude to fly to");
+  const auto text = kind == ".plan" ? &qgc_plan_text : &qgc_waypoints_text;
+  write_whole(path, force ? Existing::replace : Existing::keep,
+              text(flights.recorded(place, 1).front(), plan.vehicle.speed_mps, lon_lat,
+                   {altitude_m, tolerance_m}));
 }
 
 void bind_trajectory(py::module_& m) {
@@ -298,7 +327,9 @@ void bind_flights(py::module_& m) {
           "float64 [n, 3]: x_m, y_m, heading_rad, the heading in (-pi, pi].")
       .def_property_readonly("counts", &counts, "How many flights ended how, a dict by name.")
       .def("trajectory", &trajectory, "i"_a, py::kw_only(), "step_m"_a = py::none(),
-           "The track of flight `i`, with points at most `step_m` metres apart (default: a cell).")
+           "The track of flight `i`, with points at most `step_m` metres apart (default: a cell); "
+           "where "
+           "the goal has a heading, the last leg to it is in it.")
       .def("picture", &picture, py::kw_only(), "title"_a = "", "most"_a = 200,
            "The first `most` flights over the plan, a Picture.")
       .def(
@@ -319,8 +350,14 @@ void bind_flights(py::module_& m) {
           [](const Flights& f, const std::filesystem::path& path, std::optional<double> step_m,
              bool force) { save(f, path, Text::geojson, step_m, force); },
           "path"_a, py::kw_only(), "step_m"_a = py::none(), "force"_a = false,
-          "The tracks as GeoJSON: longitude and latitude when the map was in degrees, else metres "
-          "and a note that says so.")
+          "The tracks as GeoJSON: longitude and latitude when the map had a place on Earth, else "
+          "metres and a note that says so.")
+      .def("save_mission", &save_mission, "i"_a, "path"_a, py::kw_only(),
+           "altitude_m"_a = QgcMissionOptions{}.altitude_m,
+           "tolerance_m"_a = QgcMissionOptions{}.tolerance_m, "force"_a = false,
+           "Flight `i` as a mission: .plan for QGroundControl, .waypoints or .txt for QGC WPL 110; "
+           "`altitude_m` above its start, its line within `tolerance_m` of the flight, metres. "
+           "ValueError when the plan's map has no place on Earth.")
       .def("_repr_png_", [](const Flights& f) { return py::bytes(picture(f, "", 200).png); })
       .def("__len__", [](const Flights& f) { return f.starts.size(); })
       .def("__repr__", [](const Flights& f) {
