@@ -112,6 +112,13 @@ json flights_json(const std::vector<PageFlights>& groups) {
            {"start", {f.start.position_m.x, f.start.position_m.y, f.start.heading.rad()}},
            {"pieces", {begin, begin + f.segments.size()}}});
       begin += f.segments.size();
+      const FinalLeg& leg = f.final_leg;
+      if (leg.state == FinalLegState::not_asked) continue;
+      shown.back()["leg"] = {{"state", name_of(leg.state)},
+                             {"length_m", leg.length_m},
+                             {"word", leg.word},
+                             {"pieces", {begin, begin + leg.segments.size()}}};
+      begin += leg.segments.size();
     }
   }
   return shown;

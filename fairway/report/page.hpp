@@ -35,7 +35,7 @@ struct PageContent {
   const Mission& mission;
   std::vector<PageFlights> flights;
   const VerdictMap* verdicts = nullptr;  ///< none: nothing was proved
-  std::vector<std::string> words;        ///< the honest paragraph, by sentence groups
+  std::vector<std::string> words = {};   ///< the honest paragraph, by sentence groups
   std::string summary_json = "{}";       ///< an object, shown as numbers and digests
 };
 
