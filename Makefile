@@ -42,7 +42,7 @@ reproduce: PROGRAMS += fairway_reproduce
 reproduce: build
 	build/release/bin/fairway-reproduce demo out/reproduce
 
-install: PROGRAMS += fairway_python
+install: PROGRAMS += fairway_python fairway_help_pages
 install: build
 	cmake --install build/release --prefix $(or $(PREFIX),/usr/local)
 

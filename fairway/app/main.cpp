@@ -94,6 +94,9 @@ int main_with(int argc, char** argv) {
   app.add_flag("--force", session.force, "replace products that exist");
   bool show_keys = false;
   app.add_flag("--scenario-keys", show_keys, "print every scenario key with its range and default");
+  app.footer(
+      "Exit codes: 0 done, 1 the answer is no, 64 wrong usage, 65 bad input (told with file and "
+      "line), 70 our fault.");
   app.require_subcommand(0, 1);
   app.fallthrough();
 
