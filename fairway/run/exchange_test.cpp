@@ -10,16 +10,14 @@
 #include <string>
 #include <vector>
 
-#include <gdal_priv.h>
-#include <ogr_spatialref.h>
 #include <nlohmann/json.hpp>
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/random.hpp"
 #include "fairway/map/frame_from_degrees.hpp"
-#include "fairway/map/gdal_raster.hpp"
 #include "fairway/map/read_map.hpp"
 #include "fairway/map/read_path.hpp"
+#include "fairway/map/reading_back.hpp"
 #include "fairway/map/scratch_folder.hpp"
 #include "fairway/run/ask_certificate.hpp"
 #include "fairway/run/export_raster.hpp"
@@ -54,20 +52,6 @@ Plan plan_on(const ObstacleMap& map) {
   return std::get<Plan>(std::move(answer));
 }
 
-std::vector<float> band_of(GdalRaster& raster, int band, const Grid& grid) {
-  std::vector<float> rows(grid.size());
-  EXPECT_EQ(
-      raster.dataset().GetRasterBand(band)->RasterIO(GF_Read, 0, 0, grid.nx, grid.ny, rows.data(),
-                                                     grid.nx, grid.ny, GDT_Float32, 0, 0, nullptr),
-      CE_None);
-  std::vector<float> cells(grid.size());
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Cell cell = grid.cell_at(i);
-    cells[i] = rows[grid.index({cell.ix, grid.ny - 1 - cell.iy})];
-  }
-  return cells;
-}
-
 bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
@@ -80,11 +64,11 @@ class Exchange : public ::testing::Test {
 TEST_F(Exchange, a_plan_reads_back_from_its_raster_bit_for_bit) {
   const Plan plan = plan_on(walled(somewhere));
   export_plan(plan, "plan", folder_.file("p.tif"), Existing::keep);
-  GdalRaster raster(folder_.file("p.tif"));
-  ASSERT_EQ(raster.dataset().GetRasterCount(), 3);
-  EXPECT_TRUE(same_bits(band_of(raster, 1, plan.grid), plan.heading_rad));
-  const std::vector<float> cost = band_of(raster, 2, plan.grid);
-  const std::vector<float> region = band_of(raster, 3, plan.grid);
+  const std::vector<ReadBand> bands = bands_of(folder_.file("p.tif"), plan.grid);
+  ASSERT_EQ(bands.size(), 3U);
+  EXPECT_TRUE(same_bits(bands[0].values, plan.heading_rad));
+  const std::vector<float>& cost = bands[1].values;
+  const std::vector<float>& region = bands[2].values;
   std::size_t unreachable = 0;
   for (std::size_t i = 0; i < cost.size(); ++i) {
     EXPECT_EQ(region[i], static_cast<float>(plan.region[i]));
@@ -113,12 +97,12 @@ TEST_F(Exchange, a_certificate_knows_where_its_plan_lies_and_reads_back) {
 
   const std::vector<Heading> headings = even_headings(3);
   export_verdicts(made.certificate, "certificate", headings, folder_.file("v.tif"), Existing::keep);
-  GdalRaster raster(folder_.file("v.tif"));
-  ASSERT_EQ(raster.dataset().GetRasterCount(), 3);
+  const std::vector<ReadBand> bands = bands_of(folder_.file("v.tif"), plan.grid);
+  ASSERT_EQ(bands.size(), 3U);
   std::array<std::size_t, verdict_count> seen{};
-  for (int k = 0; k < 3; ++k) {
-    const std::vector<float> found = band_of(raster, k + 1, plan.grid);
-    const auto expected = verdicts_at(made.certificate, headings[static_cast<std::size_t>(k)]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::vector<float>& found = bands[k].values;
+    const auto expected = verdicts_at(made.certificate, headings[k]);
     for (std::size_t i = 0; i < found.size(); ++i) {
       ASSERT_EQ(found[i], static_cast<float>(expected[i]));
       ++seen[static_cast<std::size_t>(expected[i])];
@@ -126,8 +110,7 @@ TEST_F(Exchange, a_certificate_knows_where_its_plan_lies_and_reads_back) {
   }
   EXPECT_GT(seen[static_cast<std::size_t>(Verdict::reach)], 0U);
   EXPECT_GT(seen[static_cast<std::size_t>(Verdict::collide)], 0U);
-  EXPECT_EQ(raster.dataset().GetRasterBand(2)->GetDescription(),
-            std::string("verdict at heading 2.0944 rad"));
+  EXPECT_EQ(bands[1].name, "verdict at heading 2.0944 rad");
 }
 
 TEST_F(Exchange, verdicts_at_a_heading_are_queries_of_its_states) {
@@ -219,12 +202,7 @@ TEST_F(Exchange, a_mission_has_the_parts_that_ground_stations_ask_for) {
 TEST_F(Exchange, a_projected_plan_has_degrees_and_a_plan_of_nowhere_has_none) {
   ObstacleMap map = walled({});
   EXPECT_FALSE(lon_lat_of(plan_on(map), "plan"));
-  OGRSpatialReference utm;
-  utm.importFromEPSG(32632);
-  char* wkt = nullptr;
-  utm.exportToWkt(&wkt);
-  map.projected_crs = wkt;
-  CPLFree(wkt);
+  map.projected_crs = wkt_of_epsg(32632);
   map.grid.x0_m += 600000.0;
   map.grid.y0_m += 5200000.0;
   auto answer = plan_map(map, {10.0, 8.0}, GoalMission{{600060.0, 5200050.0}, {}}, {});

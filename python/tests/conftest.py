@@ -9,6 +9,7 @@ import pytest
 import fairway
 
 CELL_M = 4.0
+FAIRWAY = pathlib.Path(os.environ["FAIRWAY"]).resolve()
 
 
 @pytest.fixture(scope="session")
@@ -45,7 +46,7 @@ def source():
 def command():
     """Runs the fairway command; its output."""
     def run(*arguments):
-        done = subprocess.run([os.environ["FAIRWAY"], *map(str, arguments)], text=True,
+        done = subprocess.run([FAIRWAY, *map(str, arguments)], text=True,
                               capture_output=True, stdin=subprocess.DEVNULL)
         assert done.returncode == 0, done.stderr
         return done.stdout
@@ -54,5 +55,4 @@ def command():
 
 @pytest.fixture(autouse=True)
 def checker_on_the_path(monkeypatch):
-    folder = str(pathlib.Path(os.environ["FAIRWAY"]).parent)
-    monkeypatch.setenv("PATH", folder + os.pathsep + os.environ["PATH"])
+    monkeypatch.setenv("PATH", str(FAIRWAY.parent) + os.pathsep + os.environ["PATH"])
