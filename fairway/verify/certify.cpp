@@ -138,7 +138,7 @@ const char* name_of(StoppedBy reason) {
 
 SectionVerdicts undecided_sections(const Flow& flow, int level) {
   SectionVerdicts sections;
-  const std::uint32_t step = std::uint32_t{1} << (32 - level);
+  const std::uint64_t step = std::uint64_t{1} << (32 - level);
   sections.first.reserve(4 * flow.cells() + 1);
   sections.first.push_back(0);
   for (int iy = 0; iy < flow.ny; ++iy) {
@@ -151,7 +151,7 @@ SectionVerdicts undecided_sections(const Flow& flow, int level) {
             flow.kind_at(ix + section_flight::step_x(side), iy + section_flight::step_y(side)) ==
                 CellKind::ordinary) {
           for (std::uint32_t k = 0; k < std::uint32_t{1} << level; ++k) {
-            sections.begin.push_back(k * step);
+            sections.begin.push_back(static_cast<std::uint32_t>(k * step));
           }
         }
         sections.first.push_back(static_cast<std::uint32_t>(sections.begin.size()));
