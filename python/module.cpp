@@ -28,6 +28,7 @@ void raise(PyObject* type, const std::string& message,
   PyErr_SetObject(type, error.ptr());
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11's own signature
 void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);
