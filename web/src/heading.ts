@@ -10,6 +10,7 @@ export class HeadingSlider {
   index = 0;
   private playing = 0;
   private last = 0;
+  private shares: ImageData | null = null;
 
   constructor(private readonly record: PageRecord, private readonly tiles: () => Tiles, private readonly changed: () => void) {
     const range = byId<HTMLInputElement>("heading-range");
@@ -99,15 +100,27 @@ export class HeadingSlider {
     const canvas = byId<HTMLCanvasElement>("heading-strip");
     const info = this.record.verdicts;
     if (!info) return;
-    fitted(canvas);
+    if (fitted(canvas) || !this.shares) this.shares = this.paintShares(canvas);
     const context = canvas.getContext("2d")!;
+    const { width, height } = canvas;
+    context.putImageData(this.shares, 0, 0);
+    const inset = this.inset(canvas);
+    const x = inset + this.index / Math.max(1, info.heading_rad.length - 1) * (width - 2 * inset);
+    context.fillStyle = cssVariable("--accent");
+    context.fillRect(x - 1, 0, 2.5, height);
+  }
+
+  /** The thumb of a slider stays within it: its middle goes from half a thumb to the end less that. */
+  private inset(canvas: HTMLCanvasElement): number { return 8 * canvas.width / Math.max(1, canvas.clientWidth); }
+
+  private paintShares(canvas: HTMLCanvasElement): ImageData {
+    const info = this.record.verdicts!;
     const { width, height } = canvas;
     const image = new ImageData(width, height);
     const out = new Uint32Array(image.data.buffer);
     const { size, pixels } = this.tiles();
     const n = info.heading_rad.length;
-    // The thumb of a slider stays within it: its middle goes from half a thumb to the end less that.
-    const inset = 8 * width / Math.max(1, canvas.clientWidth);
+    const inset = this.inset(canvas);
     for (let x = 0; x < width; ++x) {
       const k = Math.min(n - 1, Math.max(0, Math.round((x - inset) / Math.max(1, width - 2 * inset) * (n - 1))));
       const count = info.count[k];
@@ -122,9 +135,6 @@ export class HeadingSlider {
         }
       }
     }
-    context.putImageData(image, 0, 0);
-    const x = inset + this.index / Math.max(1, n - 1) * (width - 2 * inset);
-    context.fillStyle = cssVariable("--accent");
-    context.fillRect(x - 1, 0, 2.5, height);
+    return image;
   }
 }

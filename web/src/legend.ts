@@ -4,6 +4,8 @@ import { paintSample } from "./base_map";
 import { share_classes, share_kinds, type Tiles } from "./layers";
 import { Code, no_value, type PageRecord } from "./record";
 
+const verdict_order = [Code.reach, Code.collide, Code.leave, Code.trapped, Code.undecided];
+
 function entries(items: { code: number; name: string; number?: string }[], tiles: Tiles): { list: HTMLElement; paint: () => void } {
   const samples: [HTMLCanvasElement, number][] = [];
   const list = el("ul", {}, ...items.map(({ code, name, number }) => {
@@ -18,17 +20,23 @@ export function showVerdictLegend(record: PageRecord, tiles: Tiles, heading: num
   const info = record.verdicts!;
   const count = info.count[heading];
   const all = Math.max(1, count.reduce((a, b) => a + b, 0));
-  const order = [Code.reach, Code.collide, Code.leave, Code.trapped, Code.undecided];
   const words: Record<number, string> = { [Code.trapped]: "proved: circles forever", [Code.undecided]: "undecided" };
   const { list, paint } = entries([
-    ...order.map((code) => ({ code: code as number, name: words[code] ?? `proved: ${record.styles.verdict[code].name}`, number: percent(count[code] / all) })),
+    ...verdict_order.map((code) => ({ code: code as number, name: words[code] ?? `proved: ${record.styles.verdict[code].name}`, number: percent(count[code] / all) })),
     { code: Code.obstacle, name: "obstacle" }, { code: Code.target, name: "target" }], tiles);
   const per = info.cells_per_sample;
   const each = per === 1 ? "each cell" : `one cell in each block of ${per} × ${per}`;
   byId("legend").replaceChildren(list, el("p", {},
-    `One state of ${each}, sampled beside the cell's middle, at the slider's heading: ${grouped(all)} states, each proved by itself. ` +
-    "Other states of the same cell may differ; the volumes below count all of them."));
+    `One state of ${each}, sampled beside the cell's middle, at the slider's heading: ${grouped(all)} states, each asked of the certificate by itself. ` +
+    "Other states of the same cell may differ: the volumes below are of states sampled everywhere."));
   paint();
+}
+
+/** The shares at another heading, in the legend that showVerdictLegend made. */
+export function updateVerdictLegend(record: PageRecord, heading: number): void {
+  const count = record.verdicts!.count[heading];
+  const all = Math.max(1, count.reduce((a, b) => a + b, 0));
+  document.querySelectorAll("#legend .num").forEach((number, k) => { number.textContent = percent(count[verdict_order[k]] / all); });
 }
 
 export function showShareLegend(record: PageRecord, tiles: Tiles, kind: number): void {

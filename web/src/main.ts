@@ -7,7 +7,7 @@ import { flightsOf } from "./flights";
 import { HeadingSlider } from "./heading";
 import { costLayer, costLooks, headingsOfKind, regionLayer, regionLooks, share_kinds, shareLayer, shareLooks, Tiles, VerdictLayers,
   verdictLooks, type CodeLayer } from "./layers";
-import { showCostLegend, showRegionLegend, showShareLegend, showVerdictLegend } from "./legend";
+import { showCostLegend, showRegionLegend, showShareLegend, showVerdictLegend, updateVerdictLegend } from "./legend";
 import { connect, type Live } from "./live";
 import { showFacts, showNumbers, showTitle, showTrust, showVolumes, showWords } from "./numbers";
 import { headingOfCode, Overlay, type GridLines, type LayerChoice } from "./overlay";
@@ -59,7 +59,7 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
   let cut: ((heading: number) => void) | null = null;
 
   // What changed is drawn in the next frame, once.
-  const stale = { base: false, lines: false, marks: false };
+  const stale = { base: false, lines: false, marks: false, readout: false };
   let asked = false;
   const redraw = (...parts: (keyof typeof stale)[]) => {
     for (const part of parts) stale[part] = true;
@@ -70,16 +70,17 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
       if (stale.base) drawBase();
       if (stale.lines) drawLines();
       if (stale.marks) drawMarks();
-      stale.base = stale.lines = stale.marks = false;
+      if (stale.readout) showReadout();
+      stale.base = stale.lines = stale.marks = stale.readout = false;
     });
   };
-  const redrawAll = () => redraw("base", "lines", "marks");
+  const redrawAll = () => redraw("base", "lines", "marks", "readout");
 
   function drawBase(): void {
     if (shown === "verdict" && verdicts) {
       const codes = verdicts.at(slider.index);
       if (codes) base.paint(verdicts.layer(codes), tiles.verdict!, view);
-      else void verdicts.ask(slider.index).then(() => redraw("base", "marks"));
+      else void verdicts.ask(slider.index).then(() => redraw("base", "readout"));
     } else if (shown === "share" && layers.share[share_kind]) {
       base.paint(layers.share[share_kind], tiles.share[share_kind], view);
     } else if (shown === "cost") {
@@ -113,7 +114,6 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
     }
     replay.draw(context, view);
     live?.draw(context, view);
-    showReadout();
   }
 
   function showReadout(): void {
@@ -160,8 +160,8 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
   }
 
   const slider: HeadingSlider = new HeadingSlider(record, () => tiles.verdict!, () => {
-    redraw("base", "marks");
-    if (shown === "verdict") showLegend();
+    redraw("base", "readout");
+    if (shown === "verdict") updateVerdictLegend(record, slider.index);
     cut?.(slider.index);
   });
   const replay: Replay = new Replay(record, flights, (what) => {
@@ -243,13 +243,13 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
       map.setPointerCapture(event.pointerId);
       map.classList.add("pans");
     }
-    redraw("marks");
+    redraw("marks", "readout");
   });
   map.addEventListener("pointermove", (event) => {
     const [px, py] = place(event);
     const before = pointers.get(event.pointerId);
     if (!before) {
-      if (event.pointerType === "mouse") { cross = view.toWorld(px, py); redraw("marks"); }
+      if (event.pointerType === "mouse") { cross = view.toWorld(px, py); redraw("marks", "readout"); }
       return;
     }
     if (live?.drags(view.toWorld(px, py), view)) {

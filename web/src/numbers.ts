@@ -84,7 +84,7 @@ const assumed = [
 ];
 const shown = [
   "A verdict on the map is that of one sampled state of a cell at one heading: proved for that very state by the certificate, the same answer that a query of it gives.",
-  "Shares of volume are measured with a million sampled states, each proved; the certificate itself covers every state.",
+  "Shares of volume are measured on sampled states, each asked of the certificate; the certificate itself speaks of every state.",
   "A flight is computed exactly for the model, but in rounded arithmetic: it is evidence, not a proof.",
   "Headings count counter-clockwise from east; x is east, y is north, in metres.",
 ];
