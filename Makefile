@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 # What a user runs; tests and benchmarks are built when asked for.
 PROGRAMS = fairway_command fairway_check
 
-.PHONY: help setup build demo test bench reproduce install clean
+.PHONY: help setup build demo test bench reproduce install package try-package clean
 
 help:
 	@echo "make demo       build, run the demonstration, say where to look"
@@ -14,6 +14,8 @@ help:
 	@echo "make bench      build and print the benchmark table"
 	@echo "make reproduce  redraw the papers' figures on the project's own maps"
 	@echo "make install    install to PREFIX (default /usr/local)"
+	@echo "make package    Debian packages, in build/package/packages"
+	@echo "make try-package  install them into a fresh Debian and use them there (as root)"
 	@echo "make clean      remove build/ and out/"
 
 setup:
@@ -45,6 +47,14 @@ reproduce: build
 install: PROGRAMS += fairway_python fairway_help_pages
 install: build
 	cmake --install build/release --prefix $(or $(PREFIX),/usr/local)
+
+package: setup
+	@tools/setup.sh tools/packages-package.apt
+	cmake --preset package
+	cmake --build --preset package --parallel $(JOBS) --target package
+
+try-package: package
+	tools/try_package.sh build/package/packages
 
 clean:
 	rm -rf build out
