@@ -75,7 +75,8 @@ export class Charts {
   private plot(box: HTMLElement, title: string, data: uPlot.AlignedData, from_zero: boolean): uPlot {
     const stroke = cssVariable("--soft");
     const grid = { stroke: cssVariable("--line"), width: 1 };
-    const axis = { stroke, grid, ticks: grid, font: "11px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif" };
+    const family = getComputedStyle(document.body).fontFamily;
+    const axis = { stroke, grid, ticks: grid, font: `11px ${family}`, labelFont: `12px ${family}` };
     const dark = window.matchMedia("(prefers-color-scheme: dark)").matches;
     box.setAttribute("role", "img");
     box.setAttribute("aria-label", `${title} over time, of ${this.curves.length} flight${this.curves.length === 1 ? "" : "s"}`);

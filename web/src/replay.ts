@@ -5,7 +5,7 @@ import { drawVehicle, lineOf, strokeTrack, type ShownFlight } from "./flights";
 import type { PageRecord } from "./record";
 import type { Viewport } from "./viewport";
 
-const groups: Record<string, string> = { given: "given", random: "random", failing: "to fail" };
+const groups: Record<string, string> = { given: "given", random: "random", failing: "fails" };
 const place = (m: number): string => Math.abs(m) < 100 ? short(m) : String(Math.round(m));
 const lines_in_charts = 5;
 
