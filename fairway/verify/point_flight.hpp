@@ -44,6 +44,7 @@ inline constexpr double flattest = 0x1p-5;
 inline constexpr double far_ahead = 0.05;
 inline constexpr double largest_cell = 0.95;  // of R
 inline constexpr int most_cells = 64;
+inline constexpr int most_straight_cells = 1 << 14;
 
 /// The meeting of an arc with a side, or with the command.
 struct Event {
@@ -131,7 +132,7 @@ class Follower {
 
   Step cross(Point& p) {
     const double command = static_cast<double>(flow_.heading_rad[flow_.index(p.ix, p.iy)]);
-    if (std::isnan(command)) return go_straight_over(p);
+    if (std::isnan(command)) return go_straight(p);
     const double cx = std::cos(command);
     const double cy = std::sin(command);
     const double left = p.ux * cy - p.uy * cx;
@@ -215,35 +216,6 @@ class Follower {
     return met_end(p) ? Step::told : Step::onwards;
   }
 
-  /// Straight on from (x, y) to the side it leaves by, with the place there in `place` and its
-  /// error. False: unsure.
-  struct Straight {
-    int side = 0;
-    double place = 0.0;
-    double error = 0.0;
-    double length_m = 0.0;
-  };
-  bool go_straight(double x, double y, double error, double ux, double uy, double u_error,
-                   Straight& way) const {
-    // An axis that is almost not moved along: no farther than half the margin while the other side
-    // is reached.
-    const auto length_to_side = [this](double from, double speed) {
-      if (std::abs(speed) < 0.25 * margin) return 4.0 * d_;
-      return (speed > 0.0 ? d_ - from : -from) / speed;
-    };
-    const double to_x = length_to_side(x, ux);
-    const double to_y = length_to_side(y, uy);
-    const bool vertical = to_x < to_y;
-    const double length = std::min(to_x, to_y);
-    const double speed = std::abs(vertical ? ux : uy);
-    way.side = vertical ? (ux > 0.0 ? 0 : 2) : (uy > 0.0 ? 1 : 3);
-    way.place = vertical ? y + length * uy : x + length * ux;
-    const double moved = error + 2.0 * d_ * u_error;
-    way.error = 1.05 * (moved + moved / speed) + rounding * r_ / speed;
-    way.length_m = length + 2.0 * way.error;
-    return is_between(way.place) && way.error <= most_error * d_;
-  }
-
   void enter(Point& p, int side, double place) const {
     const bool vertical = side % 2 == 0;
     const double line = side < 2 ? 0.0 : d_;
@@ -252,34 +224,60 @@ class Follower {
     (vertical ? p.ix : p.iy) += side < 2 ? 1 : -1;
   }
 
-  /// From (x, y), inside the cell, along the command: the section.
+  /// From (x, y), inside the cell, along the command to the side it leaves by: the section there.
   Step go_aligned(Point& p, double x, double y, double cx, double cy) {
-    Straight way;
     if (!is_between(x) || !is_between(y)) return Step::unsure;
-    const double error = 1.05 * p.c_error + rounding * r_;
-    if (!go_straight(x, y, error, cx, cy, rounding, way)) return Step::unsure;
-    const std::size_t section = 4 * flow_.index(p.ix, p.iy) + static_cast<std::size_t>(way.side);
-    p.length_m += way.length_m;
-    enter(p, way.side, way.place);
+    // An axis that is almost not moved along: no farther than half the margin while the other side
+    // is reached.
+    const auto length_to_side = [this](double from, double speed) {
+      if (std::abs(speed) < 0.25 * margin) return 4.0 * d_;
+      return (speed > 0.0 ? d_ - from : -from) / speed;
+    };
+    const double to_x = length_to_side(x, cx);
+    const double to_y = length_to_side(y, cy);
+    const bool vertical = to_x < to_y;
+    const double length = std::min(to_x, to_y);
+    const double speed = std::abs(vertical ? cx : cy);
+    const double place = vertical ? y + length * cy : x + length * cx;
+    const double moved = 1.05 * p.c_error + rounding * r_ + 2.0 * d_ * rounding;
+    const double error = 1.05 * (moved + moved / speed) + rounding * r_ / speed;
+    if (!is_between(place) || !(error <= most_error * d_)) return Step::unsure;
+    const int side = vertical ? (cx > 0.0 ? 0 : 2) : (cy > 0.0 ? 1 : 3);
+    const std::size_t section = 4 * flow_.index(p.ix, p.iy) + static_cast<std::size_t>(side);
+    p.length_m += length + 2.0 * error;
+    enter(p, side, place);
     if (met_end(p)) return Step::told;
-    visitor_.arrive(section, Interval(way.place - way.error, way.place + way.error), p.length_m,
-                    false);
+    visitor_.arrive(section, Interval(place - error, place + error), p.length_m, false);
     return Step::told;
   }
 
-  /// Through a cell without a command, from inside it or from the side entered, into which it heads
-  /// by far.
-  Step go_straight_over(Point& p) {
-    Straight way;
-    if (std::min(std::abs(p.ux), std::abs(p.uy)) < flattest ||
-        !go_straight(p.x, p.y, p.error, p.ux, p.uy, p.u_error, way)) {
-      return Step::unsure;
+  /// Through cells without a command, to one that has one or ends the flight. Every crossing is
+  /// reckoned from the start of the straight line, so that errors do not add up on the way.
+  Step go_straight(Point& p) {
+    if (std::min(std::abs(p.ux), std::abs(p.uy)) < most_error) return Step::unsure;
+    const Point start = p;
+    for (int cells = 0; cells < most_straight_cells; ++cells) {
+      const double west = d_ * (p.ix - start.ix);  // of this cell, in the first cell's coordinates
+      const double south = d_ * (p.iy - start.iy);
+      const double to_x = (west + (p.ux > 0.0 ? d_ : 0.0) - start.x) / p.ux;
+      const double to_y = (south + (p.uy > 0.0 ? d_ : 0.0) - start.y) / p.uy;
+      const bool vertical = to_x < to_y;
+      const double length = std::min(to_x, to_y);
+      const double speed = std::abs(vertical ? p.ux : p.uy);
+      const double place =
+          vertical ? start.y + length * p.uy - south : start.x + length * p.ux - west;
+      const double moved = start.error + 2.0 * length * p.u_error;
+      p.error = 1.05 * (moved + moved / speed) + rounding * (r_ + 4.0 * length) / speed;
+      if (!is_between(place) || !(p.error <= most_error * d_)) return Step::unsure;
+      enter(p, vertical ? (p.ux > 0.0 ? 0 : 2) : (p.uy > 0.0 ? 1 : 3), place);
+      const bool ended = flow_.kind_at(p.ix, p.iy) != CellKind::ordinary;
+      if (!ended && std::isnan(flow_.heading_rad[flow_.index(p.ix, p.iy)])) continue;
+      p.turn = 0;
+      p.length_m += length + 2.0 * p.error;
+      if (met_end(p)) return Step::told;
+      return speed < flattest ? Step::unsure : Step::onwards;
     }
-    p.turn = 0;
-    p.error = way.error;
-    p.length_m += way.length_m;
-    enter(p, way.side, way.place);
-    return met_end(p) ? Step::told : Step::onwards;
+    return Step::unsure;
   }
 
   const Flow& flow_;

@@ -105,6 +105,29 @@ TEST(PointFlight, is_not_sure_where_a_hair_decides_and_right_where_it_is) {
   EXPECT_GT(far.sure, far.all / 3);
 }
 
+TEST(PointFlight, crosses_many_cells_without_a_command_as_straight_as_the_exact_flight) {
+  Random random(3);
+  Counts counts;
+  for (int i = 0; i < 60; ++i) {
+    Plan plan = empty_plan(60, 50, random.uniform(0.1, 9.0), 20.0);
+    for (std::size_t c = 0; c < plan.grid.size(); ++c) {
+      const bool silent = random.below(40) != 0;
+      plan.heading_rad[c] = silent ? NAN : Heading::stored(random.uniform(-pi, pi));
+      if (random.below(100) == 0) plan.region[c] = Region::obstacle;
+    }
+    const PlanFlow plan_flow(plan);
+    const Flow flow = plan_flow.flow();
+    const WideCommands<Wide> commands(flow);
+    for (int k = 0; k < 100; ++k) {
+      const double x = flow.x0_m + random.uniform(0.0, flow.nx) * flow.size.cell_m;
+      const double y = flow.y0_m + random.uniform(0.0, flow.ny) * flow.size.cell_m;
+      expect_right(flow, commands, random, x, y, random.uniform(-pi, pi), "silent", counts);
+      if (::testing::Test::HasFailure()) return;
+    }
+  }
+  EXPECT_GT(counts.sure, counts.all * 9 / 10);
+}
+
 TEST(PointFlight, leaves_borders_ties_and_cells_as_large_as_the_radius_to_others) {
   const Plan plan = empty_plan(4, 4, 1.0, 2.0);
   const PlanFlow plan_flow(plan);
