@@ -15,6 +15,10 @@ void* operator new(std::size_t size) {
   if (void* place = std::malloc(size > 0 ? size : 1)) return place;
   throw std::bad_alloc();
 }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++uses;
+  return std::malloc(size > 0 ? size : 1);
+}
 void operator delete(void* place) noexcept { std::free(place); }
 void operator delete(void* place, std::size_t) noexcept { std::free(place); }
 

@@ -40,7 +40,7 @@ TEST(ShortestLaw, ReachesTheGoalByNoMoreThanTheShortestLength) {
       ShortestLaw law = law_for(r, options);
       const SteeringFlight flight = fly(law, from, goal, r, options);
       ASSERT_TRUE(flight.converged) << i << " size " << size;
-      ASSERT_LE(flight.length_m, shortest_length_m(from, goal, r) + 0.1 * r)
+      ASSERT_LE(flight.length_m, shortest_length_m(from, goal, r) + 0.05 * r)
           << i << " size " << size << ' ' << flight.word;
     }
   }

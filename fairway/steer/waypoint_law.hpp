@@ -12,7 +12,7 @@
 // With `passed`, ShortestLaw has to know it, so as not to begin the loop before the way-point is
 // passed: shortest_waypoint_law().
 // Undisturbed, under ShortestLaw, each leg is longer than the shortest path from where it begins by
-// less than a tenth of the radius (observed, with the steps of steering_options()).
+// less than a twentieth of the radius (observed, with the steps of steering_options()).
 #pragma once
 
 #include <cstddef>

@@ -47,7 +47,7 @@ TEST(WaypointLaw, ReachesEveryWaypointInItsOrderByTheShortestPaths) {
       const WaypointLeg& leg = flight.legs[k];
       EXPECT_TRUE(tolerance.holds(leg.end, course[k])) << i << ' ' << k;
       EXPECT_EQ(leg.begin, k == 0 ? from : flight.legs[k - 1].end);
-      EXPECT_LE(leg.length_m, leg.shortest_m + 0.1 * r) << i << ' ' << k;
+      EXPECT_LE(leg.length_m, leg.shortest_m + 0.05 * r) << i << ' ' << k;
       EXPECT_EQ(leg.extra_turns, 0);
     }
   }
