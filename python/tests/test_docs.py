@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-BLOCK = re.compile(r"^```(python|text)( no-run)?\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r'^```(python|text)( title="Not run by the tests: [^"]*")?\n(.*?)^```$', re.MULTILINE | re.DOTALL)
 
 
 def test_the_tutorial_prints_what_it_shows(source, tmp_path, monkeypatch):
