@@ -1,0 +1,197 @@
+#!/usr/bin/env python3
+"""What the docs say to type is typed, and what they say to see is seen. CONTRIBUTING.md has the rules.
+
+Usage: docs_commands_test.py SOURCE PROGRAM [unittest arguments]
+
+- A fenced block ```console is run, line by line, those that begin with "$ "; "> " continues one. What
+  follows is its output: `...` stands for anything in a line, a line of `...` for any lines. Without
+  output in the page, anything may be printed. A command must end with 0, unless the next asks with
+  `echo $?`. A page is run from top to bottom in a folder of its own, which has `demo/`.
+- A block with title="NAME" is a file NAME in that folder.
+- A block with title="Not run by the tests: REASON" is not run; nor is any other block, but its
+  commands, and those in `code` within sentences, must exist, with every option they are given.
+- Every link of README, CHANGELOG and the like and of docs/ to a file leads to one, and to a heading that is there.
+"""
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE = PROGRAM = None
+FENCE = re.compile(r"^```(\S*)[ ]?(.*)$")
+TITLE = re.compile(r'title="([^"]*)"')
+NOT_RUN = "Not run by the tests: "
+
+
+def pages():
+    files = [*SOURCE.glob("*.md"), *(SOURCE / "docs").rglob("*.md")]
+    return sorted(str(file.relative_to(SOURCE)) for file in files)
+
+
+def blocks(text):
+    """(language, title, lines, number of the first line) of every fenced block."""
+    found, begin = [], None
+    for number, line in enumerate(text.split("\n"), 1):
+        fence = FENCE.match(line)
+        if fence and begin is None:
+            title = TITLE.search(fence[2])
+            begin = (fence[1], title[1] if title else "", [], number + 1)
+        elif line == "```":
+            found.append(begin)
+            begin = None
+        elif begin is not None:
+            begin[2].append(line)
+    return found
+
+
+def steps(lines, first):
+    """(command, the output in the page or None, line number) of a console block."""
+    told = []
+    for number, line in enumerate(lines, first):
+        if line.startswith("$ "):
+            told.append([line[2:], None, number])
+        elif line.startswith("> ") and told[-1][1] is None and told[-1][0].endswith("\\"):
+            told[-1][0] += "\n" + line[2:]
+        else:
+            told[-1][1] = [*(told[-1][1] or []), line]
+    return told
+
+
+def pattern_of(lines):
+    parts = [r"(?:.*\n)*" if line.strip() == "..." else
+             "".join("[^\n]*" if part == "..." else re.escape(part)
+                     for part in re.split(r"(\.\.\.)", line.rstrip())) + "\n" for line in lines]
+    return re.compile("".join(parts))
+
+
+def prose_and_blocks(text):
+    """Everything that might be a command beside those that are run: (words, where)."""
+    for language, title, lines, first in blocks(text):
+        if language in ("console", "sh", "bash", "", "text"):
+            for number, line in enumerate(lines, first):
+                yield line.removeprefix("$ "), number
+    fenced = False
+    for number, line in enumerate(text.split("\n"), 1):
+        fenced ^= line.startswith("```")
+        if not fenced and line.startswith("    "):
+            yield line.strip(), number
+        elif not fenced:
+            for code in re.findall(r"`([^`]+)`", line):
+                yield code, number
+
+
+def anchor(heading):
+    kept = re.sub(r"[^\w\s-]", "", heading.lower().replace("`", ""))
+    return re.sub(r"\s+", "-", kept.strip())
+
+
+class Docs(unittest.TestCase):
+    maxDiff = None
+
+    def run_page(self, page, text):
+        """Types a page into a shell, in a folder of its own."""
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="fairway-docs-"))
+        self.addCleanup(shutil.rmtree, folder)
+        shutil.copytree(SOURCE / "demo", folder / "demo")
+        environment = {**os.environ, "PATH": f"{PROGRAM.parent}:/usr/bin:/bin", "LC_ALL": "C.UTF-8",
+                       "CPLUS_INCLUDE_PATH": str(SOURCE)}
+        ended = 0
+        for language, title, lines, first in blocks(text):
+            if title.startswith(NOT_RUN):
+                continue
+            if language == "console":
+                told = steps(lines, first)
+                for i, (command, output, number) in enumerate(told):
+                    done = subprocess.run(["bash", "-c", f"(exit {ended})\n{command}"], cwd=folder,
+                                          env=environment, stdin=subprocess.DEVNULL, text=True,
+                                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                    ended = done.returncode
+                    where = f"{page}:{number}: $ {command}\n{done.stdout}"
+                    asked = i + 1 < len(told) and told[i + 1][0] == "echo $?"
+                    self.assertTrue(ended == 0 or asked, f"{where}ended with {ended}")
+                    if output is not None and not pattern_of(output).fullmatch(
+                            "".join(line.rstrip() + "\n" for line in done.stdout.splitlines())):
+                        self.fail(f"{where}-- but the page says --\n" + "\n".join(output))
+            elif title and language:
+                (folder / title).parent.mkdir(parents=True, exist_ok=True)
+                (folder / title).write_text("\n".join(lines) + "\n")
+
+    def test_commands_that_are_not_run_exist_with_their_options(self):
+        known = {}
+        checked = 0
+        for page in pages():
+            if page == "CHANGELOG.md":  # of other times, too
+                continue
+            for words, number in prose_and_blocks((SOURCE / page).read_text()):
+                found = re.match(r"(?:sudo )?(fairway-check|fairway)((?: .*)?)$", words)
+                if not found or found[1] == "fairway" and not found[2].strip():
+                    continue
+                try:
+                    arguments = shlex.split(found[2], comments=True)
+                except ValueError:
+                    continue  # half a command, of two lines
+                command = arguments[0] if arguments and re.fullmatch("[a-z]+", arguments[0]) else ""
+                if found[1] == "fairway" and not command and not arguments[0].startswith("-"):
+                    continue  # "fairway 0.1.0", "fairway COMMAND"
+                key = (found[1], command)
+                if key not in known:
+                    program = PROGRAM.parent / found[1]
+                    done = subprocess.run([program, *([command] if command else []), "--help"],
+                                          capture_output=True, text=True)
+                    top = subprocess.run([program, "--help"], capture_output=True, text=True)
+                    known[key] = (done.returncode, done.stdout + top.stdout)
+                status, told = known[key]
+                with self.subTest(page=f"{page}:{number}", command=words):
+                    self.assertEqual(status, 0, "no such command")
+                    for option in (a for a in arguments if re.fullmatch(r"--?[a-z][a-z-]*", a)):
+                        self.assertRegex(told, rf"(^|[ ,]){option}[ ,\n]")
+                        checked += 1
+        self.assertGreater(checked, 10)
+
+    def test_every_link_leads_somewhere(self):
+        checked = 0
+        for page in pages():
+            text = (SOURCE / page).read_text()
+            prose = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
+            for target in re.findall(r"\]\(([^)\s]+)\)", prose):
+                if re.match(r"[a-z]+:", target):
+                    continue
+                name, _, heading = target.partition("#")
+                file = (SOURCE / page).parent / name if name else SOURCE / page
+                with self.subTest(page=page, link=target):
+                    self.assertTrue(file.exists(), "leads nowhere")
+                    if heading:
+                        there = re.findall(r"^#+ (.*)$", file.read_text(), re.M)
+                        self.assertIn(heading, [anchor(h) for h in there])
+                    checked += 1
+        self.assertGreater(checked, 20)
+
+    def test_a_page_that_errs_is_found_out(self):
+        for wrong in ("```console\n$ fairway --version\n9.9.9\n```", "```console\n$ false\n```",
+                      "```console\n$ false\n$ echo $?\n0\n```",
+                      "```console\n$ printf 'a\\nb\\n'\na\n```"):
+            with self.assertRaises(AssertionError, msg=wrong):
+                self.run_page("a page", wrong)
+        self.run_page("a page", '```csv title="a/b.csv"\n1,2\n```\n```console\n$ cat a/b.csv\n1,...\n'
+                      "$ false\n$ echo $?\n1\n$ printf 'a\\nb\\nc\\n'\na\n...\n```")
+
+
+def add_pages():
+    for page in pages():
+        text = (SOURCE / page).read_text()
+        if any(language == "console" and not title.startswith(NOT_RUN)
+               for language, title, _, _ in blocks(text)):
+            name = re.sub(r"\W+", "_", page.removesuffix(".md"))
+            setattr(Docs, f"test_page_{name}",
+                    lambda self, page=page, text=text: self.run_page(page, text))
+
+
+if __name__ == "__main__":
+    SOURCE, PROGRAM = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
+    add_pages()
+    unittest.main()
