@@ -75,7 +75,7 @@ struct Flights {
 
 struct Trajectory {
   FlightResult result;
-  std::vector<TrackPoint> points;
+  std::vector<FlightPoint> points;
 };
 
 /// One member of every item, as codes of the same size.
@@ -262,21 +262,21 @@ void bind_trajectory(py::module_& m) {
           "time_s",
           [](const py::object& self) {
             const auto& t = self.cast<const Trajectory&>();
-            return column<double>(self, t.points, &TrackPoint::time_s);
+            return column<double>(self, t.points, &FlightPoint::time_s);
           },
           "float64 [n]: seconds since the start.")
       .def_property_readonly(
           "state",
           [](const py::object& self) {
             const auto& t = self.cast<const Trajectory&>();
-            return state_view(&t.points.data()->state, t.points.size(), sizeof(TrackPoint), self);
+            return state_view(&t.points.data()->state, t.points.size(), sizeof(FlightPoint), self);
           },
           "float64 [n, 3]: x_m, y_m, heading_rad.")
       .def_property_readonly(
           "curvature_per_m",
           [](const py::object& self) {
             const auto& t = self.cast<const Trajectory&>();
-            return column<double>(self, t.points, &TrackPoint::curvature_per_m);
+            return column<double>(self, t.points, &FlightPoint::curvature_per_m);
           },
           "float64 [n]: 1/m, positive to the left, of the piece that begins at the point.")
       .def_property_readonly(

@@ -25,7 +25,7 @@ std::vector<LonLat> waypoints_of(const Flight& flight, double speed_mps, const L
   require(std::isfinite(options.altitude_m) && options.altitude_m >= 0.0, "the altitude is >= 0");
   require(std::isfinite(options.tolerance_m), "the tolerance is finite");
   std::vector<LonLat> waypoints;
-  for (const TrackPoint& point : thinned_track(flight, speed_mps, options.tolerance_m)) {
+  for (const FlightPoint& point : thinned_track(flight, speed_mps, options.tolerance_m)) {
     waypoints.push_back(lon_lat_of(point.state.position_m));
   }
   return waypoints;

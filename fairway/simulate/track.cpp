@@ -19,7 +19,7 @@ double distance_to_chord_m(Vec2 p, Vec2 a, Vec2 b) {
 
 /// A piece's points, its start and all but its end, at most `step_m` apart.
 void add_points(const FlightSegment& piece, double speed_mps, double step_m,
-                std::vector<TrackPoint>& track) {
+                std::vector<FlightPoint>& track) {
   const double steps = std::max(1.0, std::ceil(piece.length_m / step_m));
   for (double i = 0.0; i < steps; i += 1.0) {
     const double along_m = piece.length_m * i / steps;
@@ -37,7 +37,7 @@ std::vector<FlightSegment> pieces_of(const Flight& flight) {
 }
 
 void add_end(const std::vector<FlightSegment>& pieces, const State& start, double speed_mps,
-             std::vector<TrackPoint>& track) {
+             std::vector<FlightPoint>& track) {
   if (pieces.empty()) {
     track.push_back({0.0, start, 0.0});
     return;
@@ -49,19 +49,19 @@ void add_end(const std::vector<FlightSegment>& pieces, const State& start, doubl
 
 }  // namespace
 
-std::vector<TrackPoint> track_of(const Flight& flight, double speed_mps, double step_m) {
+std::vector<FlightPoint> track_of(const Flight& flight, double speed_mps, double step_m) {
   require(speed_mps > 0.0 && step_m > 0.0, "speed and step are positive");
-  std::vector<TrackPoint> track;
+  std::vector<FlightPoint> track;
   const std::vector<FlightSegment> pieces = pieces_of(flight);
   for (const FlightSegment& piece : pieces) add_points(piece, speed_mps, step_m, track);
   add_end(pieces, flight.start, speed_mps, track);
   return track;
 }
 
-std::vector<TrackPoint> thinned_track(const Flight& flight, double speed_mps, double tolerance_m) {
+std::vector<FlightPoint> thinned_track(const Flight& flight, double speed_mps, double tolerance_m) {
   require(speed_mps > 0.0 && tolerance_m > 0.0, "speed and tolerance are positive");
   // Chords of an arc of radius R keep within step^2 / (8 R) of it: a quarter of the tolerance.
-  std::vector<TrackPoint> track;
+  std::vector<FlightPoint> track;
   const std::vector<FlightSegment> pieces = pieces_of(flight);
   for (const FlightSegment& piece : pieces) {
     const double bend_per_m = std::abs(piece.curvature_per_m);
@@ -94,7 +94,7 @@ std::vector<TrackPoint> thinned_track(const Flight& flight, double speed_mps, do
     open.emplace_back(first, farthest);
     open.emplace_back(farthest, last);
   }
-  std::vector<TrackPoint> thinned;
+  std::vector<FlightPoint> thinned;
   for (std::size_t i = 0; i < track.size(); ++i) {
     if (kept[i]) thinned.push_back(track[i]);
   }

@@ -15,19 +15,19 @@
 
 namespace fairway {
 
-struct TrackPoint {
+struct FlightPoint {
   double time_s = 0.0;
   State state;
   double curvature_per_m = 0.0;  ///< positive to the left
 };
 
 /// `step_m` and `speed_mps` > 0, else ContractViolation. A flight without pieces is its start.
-[[nodiscard]] std::vector<TrackPoint> track_of(const Flight& flight, double speed_mps,
-                                               double step_m);
+[[nodiscard]] std::vector<FlightPoint> track_of(const Flight& flight, double speed_mps,
+                                                double step_m);
 
 /// Few points to fly through one after the other in straight lines (Douglas and Peucker 1973 on the
 /// track, finer than the tolerance). Throws ContractViolation unless `tolerance_m` > 0.
-[[nodiscard]] std::vector<TrackPoint> thinned_track(const Flight& flight, double speed_mps,
-                                                    double tolerance_m);
+[[nodiscard]] std::vector<FlightPoint> thinned_track(const Flight& flight, double speed_mps,
+                                                     double tolerance_m);
 
 }  // namespace fairway

@@ -31,7 +31,7 @@ Flight wandering(Random& random, int pieces) {
   return flight;
 }
 
-double distance_m(Vec2 p, const std::vector<TrackPoint>& line) {
+double distance_m(Vec2 p, const std::vector<FlightPoint>& line) {
   double least_m = norm(p - line.front().state.position_m);
   for (std::size_t i = 1; i < line.size(); ++i) {
     const Vec2 a = line[i - 1].state.position_m;
@@ -69,7 +69,7 @@ TEST(Track, thinned_stays_within_the_tolerance_of_every_point_of_the_flight) {
     EXPECT_EQ(thin.front().state, flight.start);
     const auto fine = track_of(flight, speed_mps, 0.05);
     EXPECT_EQ(thin.back().state, fine.back().state);
-    for (const TrackPoint& point : fine) {
+    for (const FlightPoint& point : fine) {
       ASSERT_LE(distance_m(point.state.position_m, thin), tolerance_m) << "draw " << draw;
     }
     EXPECT_LE(thin.size(), thinned_track(flight, speed_mps, tolerance_m / 8.0).size());
