@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 # What a user runs; tests and benchmarks are built when asked for.
 PROGRAMS = fairway_command fairway_check
 
-.PHONY: help setup build demo test bench reproduce install package try-package clean
+.PHONY: help setup build demo test bench reproduce install package try-package site clean
 
 help:
 	@echo "make demo       build, run the demonstration, say where to look"
@@ -16,6 +16,7 @@ help:
 	@echo "make install    install to PREFIX (default /usr/local)"
 	@echo "make package    Debian packages, in build/package/packages"
 	@echo "make try-package  install them into a fresh Debian and use them there (as root)"
+	@echo "make site       the documentation as a site, build/site/index.html"
 	@echo "make clean      remove build/ and out/"
 
 setup:
@@ -55,6 +56,11 @@ package: setup
 
 try-package: package
 	tools/try_package.sh build/package/packages
+
+site: PROGRAMS = fairway_python
+site: build
+	@tools/setup.sh tools/packages-site.apt
+	tools/site.sh build/release/python/fairway
 
 clean:
 	rm -rf build out
