@@ -21,7 +21,7 @@ std::string deflated(std::span<const std::uint8_t> raw) {
   uLongf size = compressBound(static_cast<uLong>(raw.size()));
   std::string stream(size, '\0');
   const int status = compress2(reinterpret_cast<Bytef*>(stream.data()), &size, raw.data(),
-                               static_cast<uLong>(raw.size()), Z_BEST_COMPRESSION);
+                               static_cast<uLong>(raw.size()), Z_DEFAULT_COMPRESSION);
   require(status == Z_OK, "zlib compresses any bytes");
   stream.resize(size);
   return stream;

@@ -38,17 +38,18 @@ constexpr const char* evidence_words = "Flights are evidence, not a proof.";
 /// Seconds that the stages after the map will take, from rates seen on one machine with two cores:
 /// no more than what a progress line needs.
 struct Estimate {
-  double field_s, plan_s, flights_s, pictures_s;
+  double field_s, plan_s, flights_s, pictures_s, page_s;
   double from_field() const { return field_s + from_plan(); }
   double from_plan() const { return plan_s + from_flights(); }
-  double from_flights() const { return flights_s + pictures_s; }
+  double from_flights() const { return flights_s + from_pictures(); }
+  double from_pictures() const { return pictures_s + page_s; }
 };
 Estimate estimate(const Scenario& scenario, const Grid& grid) {
   const auto cells = static_cast<double>(grid.size());
   const auto flights =
       static_cast<double>(std::max(scenario.simulate.random, scenario.simulate.sample));
   return {120e-9 * cells, 30e-9 * cells, flights * (grid.nx + grid.ny) * 100e-9,
-          0.5 + 500e-9 * cells};
+          0.5 + 500e-9 * cells, 0.2 + 20e-6 * cells};
 }
 
 std::string plural(std::size_t n, const char* noun) {
@@ -222,18 +223,20 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   write_plan(plan, place / "plan.safetensors", Existing::keep);
 
   clock.begin("flying", left.from_flights());
-  const ScenarioFlights flown = fly_scenario(scenario, plan, mission, clock, left.pictures_s);
+  const ScenarioFlights flown = fly_scenario(scenario, plan, mission, clock, left.from_pictures());
   write_flights(flown, plan, scenario.file.string(), place);
 
   const Verified verified = verify_and_check(plan, scenario, place, clock);
 
-  clock.begin("drawing", left.pictures_s);
+  clock.begin("drawing", left.from_pictures());
   const std::string title = scenario.file.stem().string();
   write_run_pictures(plan, mission, flown, title, place);
   if (verified.certificate) {
     write_verdict_pictures(plan, *verified.certificate, verified.failing, scenario.simulate.seed,
                            title, place);
   }
+
+  clock.begin("making the page", left.page_s);
   RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
   add_flights(result.summary, scenario, flown);
   result.summary["verify"] = verified.summary;
