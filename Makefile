@@ -55,7 +55,7 @@ package: setup
 	cmake --build --preset package --parallel $(JOBS) --target package
 
 try-package: package
-	tools/try_package.sh build/package/packages
+	$(if $(filter-out 0,$(shell id -u)),sudo) tools/try_package.sh build/package/packages
 
 site: PROGRAMS = fairway_python
 site: build
