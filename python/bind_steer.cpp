@@ -15,6 +15,7 @@
 #include "fairway/steer/dubins_words.hpp"
 #include "fairway/steer/shortest_law.hpp"
 #include "fairway/steer/steering_flight.hpp"
+#include "fairway/steer/waypoint_law.hpp"
 
 namespace fairway::python {
 namespace {
@@ -179,11 +180,84 @@ void bind_laws(py::module_& m) {
   define_law(clf);
 }
 
+WaypointFlight follow(const py::object& start, const py::object& waypoints, double turn_radius_m,
+                      const std::string& law, std::optional<double> place_m, double heading_rad,
+                      double passed_place_m, double passed_heading_rad, double tie_m,
+                      std::optional<double> step_m) {
+  const State from = state_of(start, "start");
+  const std::vector<State> way = states_of(waypoints, "waypoints");
+  if (way.empty()) throw py::value_error("waypoints: there are none");
+  const bool shortest = choice_of<bool>("law", law, {{"shortest", true}, {"clf", false}});
+  const SteeringOptions usual = steering_options(from, way.front(), turn_radius_m);
+  const WaypointOptions options{{place_m.value_or(usual.tolerance.place_m), heading_rad},
+                                {passed_place_m, passed_heading_rad}};
+  const double step = step_m.value_or(usual.step_m);
+  const py::gil_scoped_release unlocked;
+  if (shortest) {
+    return follow_waypoints(shortest_waypoint_law(options, tie_m), from, way, turn_radius_m, step,
+                            Track::all);
+  }
+  return follow_waypoints(WaypointLaw<ClfLaw>(ClfLaw(), options), from, way, turn_radius_m, step,
+                          Track::all);
+}
+
+void bind_waypoints(py::module_& m) {
+  py::class_<WaypointLeg>(m, "WaypointLeg", "The way to one way-point.")
+      .def_readonly("length_m", &WaypointLeg::length_m, "Metres driven.")
+      .def_readonly("shortest_m", &WaypointLeg::shortest_m,
+                    "Metres of the shortest path from where the leg began.")
+      .def_readonly("reached", &WaypointLeg::reached, "Else passed, or given up.")
+      .def_readonly("converged", &WaypointLeg::converged, "Reached or passed.")
+      .def_readonly("word", &WaypointLeg::word, "L, S, R as driven.")
+      .def_property_readonly(
+          "end", [](const WaypointLeg& leg) { return row(leg.end); }, "[3]: x_m, y_m, heading_rad.")
+      .def_property_readonly(
+          "track",
+          [](const py::object& self) {
+            const auto& leg = self.cast<const WaypointLeg&>();
+            return state_view(leg.track.data(), leg.track.size(), sizeof(State), self);
+          },
+          "float64 [n, 3]: one state a step, a read-only view.")
+      .def("__repr__", [](const WaypointLeg& leg) {
+        return fmt::format("<fairway.WaypointLeg: {}, {:g} m, {}>", leg.word, leg.length_m,
+                           leg.reached     ? "reached"
+                           : leg.converged ? "passed"
+                                           : "given up");
+      });
+  py::class_<WaypointFlight>(m, "WaypointFlight", "What a law drove along way-points.")
+      .def_readonly("converged", &WaypointFlight::converged, "To every way-point.")
+      .def_readonly("length_m", &WaypointFlight::length_m, "Metres driven.")
+      .def_readonly("legs", &WaypointFlight::legs,
+                    "A WaypointLeg for each way-point, up to the first that is given up.")
+      .def("__repr__", [](const WaypointFlight& f) {
+        return fmt::format("<fairway.WaypointFlight: {} legs, {:g} m, {}>", f.legs.size(),
+                           f.length_m, f.converged ? "converged" : "not converged");
+      });
+  m.def("follow_waypoints", &follow, "start"_a, "waypoints"_a, "turn_radius_m"_a, py::kw_only(),
+        "law"_a = "shortest", "place_m"_a = py::none(),
+        "heading_rad"_a = steering_options({}, {}, 1.0).tolerance.heading_rad,
+        "passed_place_m"_a = 0.0, "passed_heading_rad"_a = 0.0,
+        "tie_m"_a = ShortestLawOptions{}.tie_m, "step_m"_a = py::none(),
+        R"(Drives along way-points with headings, one by one, where nothing is in the way.
+
+start               x_m, y_m, heading_rad
+waypoints           float64 [n, 3]: x_m, y_m, heading_rad
+law                 "shortest" or "clf"
+place_m, heading_rad                a way-point is reached within these; default: a fiftieth of the
+                                    radius
+passed_place_m, passed_heading_rad  and passed when the line across it is crossed within these
+tie_m               "shortest": a word is kept while it is at most so much longer
+step_m              between two controls; default: a hundredth of the radius
+
+Returns a WaypointFlight.)");
+}
+
 }  // namespace
 
 void bind_steer(py::module_& m) {
   bind_path(m);
   bind_laws(m);
+  bind_waypoints(m);
   m.def("steer", &steer, "start"_a, "goal"_a, "turn_radius_m"_a,
         R"(Shortest paths between many pairs of poses, on all cores.
 

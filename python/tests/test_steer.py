@@ -97,3 +97,22 @@ def test_options_of_laws():
         fairway.ClfLaw(repulsion="strong")
     with pytest.raises(ValueError, match="n: expected"):
         fairway.ClfLaw(n=0)
+
+
+@pytest.mark.parametrize("law", ["shortest", "clf"])
+def test_way_points_are_driven_one_after_the_other(law):
+    way = np.array([[20.0, 0.0, 0.0], [40.0, 20.0, 1.5], [20.0, 40.0, 3.0]])
+    driven = fairway.follow_waypoints([0, 0, 0], way, RADIUS_M, law=law)
+    assert driven.converged and len(driven.legs) == 3
+    assert driven.length_m == pytest.approx(sum(leg.length_m for leg in driven.legs))
+    for leg, goal in zip(driven.legs, way):
+        assert leg.reached and np.hypot(*(leg.end[:2] - goal[:2])) <= 0.02 * RADIUS_M + 1e-9
+        assert np.array_equal(leg.track[-1], leg.end)
+    for before, after in zip(driven.legs, driven.legs[1:]):
+        assert np.array_equal(before.end, after.track[0])
+    if law == "shortest":
+        assert all(leg.length_m < leg.shortest_m + 0.05 * RADIUS_M for leg in driven.legs)
+    with pytest.raises(ValueError, match="there are none"):
+        fairway.follow_waypoints([0, 0, 0], [], RADIUS_M)
+    with pytest.raises(ValueError, match="law"):
+        fairway.follow_waypoints([0, 0, 0], way, RADIUS_M, law="quick")
