@@ -44,19 +44,27 @@ export class BaseMap {
     const area = size * size;
     const out = new Uint32Array(this.image.data.buffer);
     const { codes, nx } = layer;
-    for (let y = 0, o = 0, ty = phase(oy); y < height; ++y, ty = ty + 1 === size ? 0 : ty + 1) {
-      const row = rows[y];
+    let left = 0, right = width;  // columns of the grid
+    while (left < right && columns[left] < 0) ++left;
+    while (right > left && columns[right - 1] < 0) --right;
+    // Where each pixel's tile begins, for all screen rows of one row of cells.
+    const tile = new Int32Array(width);
+    let tiled = -1;
+    for (let y = 0, ty = phase(oy); y < height; ++y, ty = ty + 1 === size ? 0 : ty + 1) {
+      const row = rows[y], from = y * width;
       if (row < 0) {
-        out.fill(beyond, o, o + width);
-        o += width;
+        out.fill(beyond, from, from + width);
         continue;
       }
-      const base = row * nx;
-      const line = ty * size;
-      for (let x = 0; x < width; ++x) {
-        const column = columns[x];
-        out[o++] = column < 0 ? beyond : pixels[codes[base + column] * area + line + across[x]];
+      if (row !== tiled) {
+        tiled = row;
+        const base = row * nx;
+        for (let x = left; x < right; ++x) tile[x] = codes[base + columns[x]] * area + across[x];
       }
+      const line = ty * size;
+      if (left > 0) out.fill(beyond, from, from + left);
+      for (let x = left; x < right; ++x) out[from + x] = pixels[tile[x] + line];
+      if (right < width) out.fill(beyond, from + right, from + width);
     }
     this.context.putImageData(this.image, 0, 0);
   }
