@@ -1,7 +1,7 @@
 // The engine behind the page, when `fairway view` serves it: a place and a heading are flown and
 // judged at once, and a pose is steered to.
 import { byId, degrees, el, headingWords, short } from "./dom";
-import { drawVehicle, lineOf, strokeTrack, Track, type Pose } from "./flights";
+import { drawVehicle, strokeTrack, Track, type Pose } from "./flights";
 import type { PageRecord } from "./record";
 import type { Viewport } from "./viewport";
 
@@ -233,7 +233,7 @@ class LiveTool implements Live {
       strokeTrack(context, view, track, this.outcome, 2.6);
     }
     if (this.goal && this.mode === "steer") drawVehicle(context, view, this.goal, "#00694b", 11);
-    if (this.start && this.mode !== "look") drawVehicle(context, view, this.start, lineOf(this.outcome).color, 11);
+    if (this.start && this.mode !== "look") drawVehicle(context, view, this.start, "#16202c", 11);
   }
 }
 
