@@ -6,11 +6,12 @@ endif()
 set(pages ${PROJECT_BINARY_DIR}/help)
 set(scripts ${PROJECT_SOURCE_DIR}/tools)
 set(programs $<TARGET_FILE:fairway_command> $<TARGET_FILE:fairway_check>)
+set(python ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0 ${Python3_EXECUTABLE} -B)
 string(TIMESTAMP today "%Y-%m-%d" UTC)  # or SOURCE_DATE_EPOCH
 add_custom_command(OUTPUT ${pages}/made
-  COMMAND ${Python3_EXECUTABLE} -B ${scripts}/manual_pages.py --version ${PROJECT_VERSION} --date ${today}
+  COMMAND ${python} ${scripts}/manual_pages.py --version ${PROJECT_VERSION} --date ${today}
     -o ${pages}/man1 ${programs}
-  COMMAND ${Python3_EXECUTABLE} -B ${scripts}/completions.py -o ${pages}/completions ${programs}
+  COMMAND ${python} ${scripts}/completions.py -o ${pages}/completions ${programs}
   COMMAND ${CMAKE_COMMAND} -E touch ${pages}/made
   DEPENDS fairway_command fairway_check
     ${scripts}/help_texts.py ${scripts}/manual_pages.py ${scripts}/completions.py
