@@ -84,6 +84,13 @@ double share_of(const std::array<double, verdict_count>& volume, Verdict verdict
   return volume[static_cast<std::size_t>(verdict)];
 }
 
+/// Places that the goal cannot be reached from count against no plan.
+std::string commanded_words(const VolumeFractions& volume) {
+  const double reach = share_of(volume.commanded, Verdict::reach);
+  if (percent(reach) == percent(share_of(volume.free, Verdict::reach))) return "";
+  return fmt::format(" ({} of those in cells from which the goal can be reached)", percent(reach));
+}
+
 }  // namespace
 
 Verification verify_plan(const Plan& plan, const std::string& where, const RegionOfInterest& region,
@@ -117,6 +124,7 @@ Verification verify_plan(const Plan& plan, const std::string& where, const Regio
   json record = record_of(plan, options, made.outcome);
   c.record_json = record.dump(-1, ' ', true);
   made.summary = std::move(record);
+  made.summary["volume_fraction_free_commanded"] = fractions_json(made.outcome.volume.commanded);
   made.summary["method"] = "certified";
   made.summary["cells"] = {plan.grid.nx, plan.grid.ny};
   made.summary["leaves"] = c.sections.leaves();
@@ -126,10 +134,11 @@ Verification verify_plan(const Plan& plan, const std::string& where, const Regio
 std::string verification_words(const Verification& v) {
   const VolumeFractions& volume = v.outcome.volume;
   std::string words = fmt::format(
-      "Proved for every heading and place: of the safe-start states {} reach, of all states "
-      "outside "
-      "obstacles and target {} reach, {} collide, {} leave, {} circle forever; {} are undecided",
-      percent(share_of(volume.free, Verdict::reach)), percent(share_of(volume.all, Verdict::reach)),
+      "Proved for every heading and place: of the safe-start states {} reach{}, of all states "
+      "outside obstacles and target {} reach, {} collide, {} leave, {} circle forever; {} are "
+      "undecided",
+      percent(share_of(volume.free, Verdict::reach)), commanded_words(volume),
+      percent(share_of(volume.all, Verdict::reach)),
       percent(share_of(volume.all, Verdict::collide)),
       percent(share_of(volume.all, Verdict::leave)),
       percent(share_of(volume.all, Verdict::trapped)),

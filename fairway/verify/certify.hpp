@@ -43,9 +43,10 @@ const char* name_of(StoppedBy reason);
 /// Shares of the configuration volume by verdict, [Verdict]; each sums to 1, or to 0 when there is
 /// no such cell. Measured by proved queries of sampled states, the same number in every cell.
 struct VolumeFractions {
-  std::array<double, verdict_count> all{};     ///< cells neither obstacle nor target
-  std::array<double, verdict_count> free{};    ///< of these, the safe-start cells
-  std::array<double, verdict_count> buffer{};  ///< and those of the buffer
+  std::array<double, verdict_count> all{};        ///< cells neither obstacle nor target
+  std::array<double, verdict_count> free{};       ///< of these, the safe-start cells
+  std::array<double, verdict_count> commanded{};  ///< of those, the ones that have a command
+  std::array<double, verdict_count> buffer{};     ///< and those of the buffer
   std::size_t samples = 0;
   double worst_time_s = 0.0;  ///< largest bound of a sampled state proved to reach
 };

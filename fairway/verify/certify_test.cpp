@@ -446,11 +446,24 @@ TEST(Certify, shares_sum_to_one_where_there_are_cells) {
     const Plan plan = random_plan(number);
     const Proof proof(plan, 5);
     const VolumeFractions& volume = proof.certified.volume;
-    for (const auto& shares : {volume.all, volume.free, volume.buffer}) {
+    for (const auto& shares : {volume.all, volume.free, volume.commanded, volume.buffer}) {
       const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
       EXPECT_TRUE(std::abs(sum - 1.0) < 1e-12 || sum == 0.0) << number;
     }
   }
+}
+
+TEST(Certify, counts_safe_starts_with_a_command_apart) {
+  // All cells command east but those of the first column, which command nothing.
+  Plan plan = empty_plan(3, 4, 1.0, 2.0);
+  for (int iy = 0; iy < 4; ++iy) plan.heading_rad[plan.grid.index({0, iy})] = NAN;
+  plan.region[plan.grid.index({2, 1})] = Region::goal;
+  plan.region[plan.grid.index({2, 2})] = Region::goal;
+  const Proof proof(plan, 10);
+  const VolumeFractions& volume = proof.certified.volume;
+  const std::size_t reach = static_cast<std::size_t>(Verdict::reach);
+  EXPECT_GT(volume.commanded[reach], volume.free[reach] + 0.05);
+  EXPECT_EQ(volume.free[reach], volume.all[reach]);  // there is no buffer
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ export function showFacts(record: PageRecord): void {
   const facts: HTMLElement[] = [];
   const fact = (name: string, ...value: (Node | string)[]) => facts.push(term(name, ...value));
   if (verify.volume_fraction) {
-    fact("of safe-start states proved to reach", percent(verify.volume_fraction_free.reach, 2));
+    fact("of safe-start states with a command proved to reach", percent(verify.volume_fraction_free_commanded.reach, 2));
     fact("of all states proved to reach", percent(verify.volume_fraction.reach, 2));
     const failing = verify.volume_fraction.collide + verify.volume_fraction.leave + verify.volume_fraction.trapped;
     fact("of all states proved to fail", percent(failing, 2));
@@ -49,7 +49,7 @@ export function showVolumes(record: PageRecord, tiles: Tiles): void {
   const rows: [string, Record<string, number>][] = [];
   if (verify.volume_fraction) {
     rows.push(["All states", verify.volume_fraction], ["Safe starts", verify.volume_fraction_free],
-      ["Buffer about obstacles", verify.volume_fraction_buffer]);
+      ["Safe starts with a command", verify.volume_fraction_free_commanded], ["Buffer about obstacles", verify.volume_fraction_buffer]);
   }
   const paints: (() => void)[] = [];
   byId("volumes").replaceChildren(...rows.map(([name, share]) => {
