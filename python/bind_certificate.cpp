@@ -21,6 +21,7 @@
 #include "fairway/run/ask_certificate.hpp"
 #include "fairway/run/checker.hpp"
 #include "fairway/run/export_raster.hpp"
+#include "fairway/run/verification.hpp"
 #include "fairway/verify/sample_verdicts.hpp"
 #include "fairway/verify/verdict.hpp"
 
@@ -67,6 +68,19 @@ nlohmann::json record_of(const HeldCertificate& held) {
 py::object member_of(const HeldCertificate& held, const char* name) {
   const nlohmann::json record = record_of(held);
   return record.contains(name) ? python_of(record[name]) : py::none();
+}
+
+py::tuple failing(const HeldCertificate& held, std::size_t of_each, std::uint64_t seed) {
+  std::vector<State> states;
+  std::vector<std::int8_t> verdicts;
+  {
+    const py::gil_scoped_release unlocked;
+    for (const FailingState& state : failing_states(held.certificate, of_each, seed)) {
+      states.push_back(state.start);
+      verdicts.push_back(static_cast<std::int8_t>(state.verdict));
+    }
+  }
+  return py::make_tuple(state_array(std::move(states)), owning(std::move(verdicts)));
 }
 
 void save_geotiff(const HeldCertificate& held, const std::filesystem::path& path,
@@ -146,6 +160,11 @@ Returns (verdict int8 [n], time_bound_s float64 [n]): codes of Verdict (0 undeci
 Returns int8 [ny, nx], the lowest row first, codes of Verdict; collide in an obstacle, reach in
 the goal. The states are cell_m / 37 and cell_m / 53 beside the middle and 0.0005 rad beside the
 heading: exactly in the middle, flights meet ties that have no volume.)")
+      .def("failing_states", &failing, "of_each"_a = 100, "seed"_a = 1,
+           R"(Sampled states that do not reach: at most `of_each` of every other verdict.
+
+Returns (states float64 [n, 3], verdict int8 [n]), in the order collide, leave, trapped,
+undecided: for Plan.fly and a look at its tracks.)")
       .def_property_readonly(
           "volume_fraction",
           [](const HeldCertificate& held) { return member_of(held, "volume_fraction"); },

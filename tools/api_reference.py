@@ -39,7 +39,7 @@ def python_reference(folder):
              if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
     lines = ["# Python API", "",
              "Made from the package's docstrings and type stubs by `tools/api_reference.py`. "
-             "[python.md](python.md) is the tutorial, with the conventions that hold everywhere. In signatures "
+             "[Python](../python.md) is the tutorial, with the conventions that hold everywhere. In signatures "
              "`_Path` is a text or an `os.PathLike`, `_Pair` and `_Extent` tuples of two and four numbers, `_Progress` a "
              "function of (stage, left_s), `_Law` a name or a function.", ""]
     functions = [n for n in fairway.__all__ if isinstance(stubs[n], ast.FunctionDef)]

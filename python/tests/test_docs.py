@@ -25,7 +25,7 @@ def test_the_tutorial_prints_what_it_shows(source, tmp_path, monkeypatch):
             printed = out.getvalue()
     assert compared >= 8
     assert {path.name for path in tmp_path.iterdir()} == {
-        "plan.svg", "lake.safetensors", "lake.cert.safetensors"}
+        "plan.svg", "lost.png", "lake.safetensors", "lake.cert.safetensors"}
 
 
 @pytest.mark.parametrize("page", ["python.md", "exchange.md"])

@@ -54,6 +54,16 @@ def test_a_map_of_verdicts_is_a_query_of_every_cell(small_plan, certificate):
         certificate.verdict_map(math.nan)
 
 
+def test_failing_states_fly_as_their_verdicts_say(plan):
+    certificate = fairway.verify(plan, undecided_max=0.2, samples=2000)
+    states, verdict = certificate.failing_states(40, seed=3)
+    assert states.shape == (len(verdict), 3) and verdict.dtype == np.int8
+    assert np.array_equal(certificate.query(states)[0], verdict)
+    collide = verdict == fairway.Verdict.COLLIDE
+    assert collide.sum() == 40
+    assert np.all(plan.fly(states[collide]).outcome == fairway.Outcome.COLLIDE)
+
+
 def test_shares_sum_to_one_and_are_recorded(small_plan, certificate):
     assert sum(certificate.volume_fraction.values()) == pytest.approx(1.0)
     assert certificate.volume_fraction["undecided"] <= 0.05
