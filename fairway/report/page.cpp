@@ -126,6 +126,7 @@ json flights_json(const std::vector<PageFlights>& groups) {
 
 json record_of(const PageContent& content) {
   const Grid& g = content.plan.grid;
+  const PageValues values = page_values(g);
   json left_out = json::object();
   for (const PageFlights& group : content.flights) {
     if (group.flights.size() > group.most)
@@ -135,6 +136,8 @@ json record_of(const PageContent& content) {
           {"title", content.title},
           {"grid",
            {{"nx", g.nx}, {"ny", g.ny}, {"x0_m", g.x0_m}, {"y0_m", g.y0_m}, {"cell_m", g.cell_m}}},
+          {"values",
+           {{"nx", values.nx}, {"ny", values.ny}, {"cells_per_value", values.cells_per_value}}},
           {"vehicle",
            {{"speed_mps", content.plan.vehicle.speed_mps},
             {"turn_radius_m", content.plan.vehicle.turn_radius_m}}},

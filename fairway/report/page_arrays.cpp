@@ -59,7 +59,9 @@ void add_streamlines(const Plan& plan, PagePayload& payload) {
   const Grid& g = plan.grid;
   const double longer_m = std::max(g.width_m(), g.height_m());
   constexpr int across = 45;
-  for (const auto& line : evenly_spaced_streamlines(plan, longer_m / across)) {
+  const auto field = longer_m > 0.0 ? evenly_spaced_streamlines(plan, longer_m / across)
+                                    : std::vector<std::vector<Vec2>>{};
+  for (const auto& line : field) {
     lines.begin.push_back(static_cast<std::uint32_t>(lines.x.size()));
     for (const Vec2 p : without_straight_vertices(line, longer_m / 10000.0)) {
       lines.x.push_back(share(p.x - g.x0_m, g.width_m()));
@@ -95,7 +97,22 @@ double largest_finite_cost_m(const Plan& plan) {
   return static_cast<double>(largest);
 }
 
+int middle(int block, int per, int cells) {
+  const int begin = block * per;
+  return begin + (std::min(begin + per, cells) - begin) / 2;
+}
+
 }  // namespace
+
+Cell PageValues::cell_of(int ix, int iy, const Grid& grid) const {
+  return {middle(ix, cells_per_value, grid.nx), middle(iy, cells_per_value, grid.ny)};
+}
+
+PageValues page_values(const Grid& grid) {
+  constexpr int most_across = 1024;
+  const int per = std::max(1, (std::max(grid.nx, grid.ny) + most_across - 1) / most_across);
+  return {per, (grid.nx + per - 1) / per, (grid.ny + per - 1) / per};
+}
 
 double page_cost_step_m(const Plan& plan) {
   const double largest_m = largest_finite_cost_m(plan);
@@ -121,22 +138,25 @@ void add_plan_arrays(const Plan& plan, PagePayload& payload) {
               plan.region.size() == g.size(),
           "a plan's arrays have the size of its grid");
   const double step_m = page_cost_step_m(plan);
-  std::vector<std::uint8_t> region(g.size());
-  std::vector<std::uint16_t> heading(g.size());
-  std::vector<std::uint16_t> cost(g.size());
-  for (std::size_t i = 0; i < g.size(); ++i) {
-    region[i] = static_cast<std::uint8_t>(static_cast<int>(plan.region[i]) + 1);
+  const PageValues values = page_values(g);
+  const auto nx = static_cast<std::size_t>(values.nx);
+  const auto ny = static_cast<std::size_t>(values.ny);
+  std::vector<std::uint8_t> region(nx * ny);
+  std::vector<std::uint16_t> heading(nx * ny);
+  std::vector<std::uint16_t> cost(nx * ny);
+  for (std::size_t k = 0; k < nx * ny; ++k) {
+    const std::size_t i =
+        g.index(values.cell_of(static_cast<int>(k % nx), static_cast<int>(k / nx), g));
+    region[k] = static_cast<std::uint8_t>(static_cast<int>(plan.region[i]) + 1);
     const double turns = static_cast<double>(plan.heading_rad[i]) / two_pi;
-    heading[i] = std::isfinite(turns)
+    heading[k] = std::isfinite(turns)
                      ? static_cast<std::uint16_t>(
                            std::lround((turns < 0.0 ? turns + 1.0 : turns) * none) % none)
                      : none;
-    cost[i] = std::isfinite(plan.cost_m[i])
+    cost[k] = std::isfinite(plan.cost_m[i])
                   ? static_cast<std::uint16_t>(std::lround(plan.cost_m[i] / step_m))
                   : none;
   }
-  const auto nx = static_cast<std::size_t>(g.nx);
-  const auto ny = static_cast<std::size_t>(g.ny);
   payload.add("region", {ny, nx}, std::span<const std::uint8_t>(region));
   payload.add("heading", {ny, nx}, std::span<const std::uint16_t>(heading), PageFilter::delta);
   payload.add("cost", {ny, nx}, std::span<const std::uint16_t>(cost), PageFilter::delta);

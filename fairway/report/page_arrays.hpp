@@ -8,6 +8,16 @@
 
 namespace fairway {
 
+/// Which cells' values the page carries: one of each block of cells_per_value^2 cells, the middle
+/// one of those on the grid, so that a page of the largest plan stays small.
+struct PageValues {
+  int cells_per_value = 1;
+  int nx = 0;
+  int ny = 0;
+  Cell cell_of(int ix, int iy, const Grid& grid) const;
+};
+[[nodiscard]] PageValues page_values(const Grid& grid);
+
 /// `region`, `heading`, `cost` of the plan, `streamline_*`, `contour_*`.
 void add_plan_arrays(const Plan& plan, PagePayload& payload);
 

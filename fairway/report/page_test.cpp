@@ -191,6 +191,19 @@ RC_GTEST_PROP(Page, ShowsThePlanWithinItsSteps, (std::uint64_t seed)) {
   }
 }
 
+TEST(Page, OfTheLargestPlansItCarriesOneCellOfEachBlock) {
+  const Plan plan = island_plan({2500, 7, 0.0, 0.0, 1.0}, {2000.0, 3.0}, {40, 3});
+  const std::string page = page_html({"t", plan, goal, {}}, bare);
+  const json values = record_of(page)["values"];
+  EXPECT_EQ(values, json({{"nx", 834}, {"ny", 3}, {"cells_per_value", 3}}));
+  const auto region = arrays_of(page).array<std::uint8_t>("region");
+  ASSERT_EQ(region.size(), 834U * 3U);
+  EXPECT_EQ(region[1 * 834 + 13], 1 + static_cast<int>(Region::obstacle));  // cell (40, 4)
+  EXPECT_EQ(region[1 * 834 + 666], 1 + static_cast<int>(Region::goal));     // cell (1999, 4)
+  // The last block is cut by the grid's edge: its cell is on the grid all the same.
+  EXPECT_EQ(page_values(plan.grid).cell_of(833, 2, plan.grid), (Cell{2499, 6}));
+}
+
 VerdictMap verdicts_of(const Plan& plan) {
   VerdictMap map;
   map.grid = plan.grid;

@@ -101,7 +101,7 @@ export function costLayer(record: PageRecord, region: Numbers, cost: Numbers): C
       : cost[i] === no_value ? 2 * steps + 2
       : region[i] === RegionCode.buffer ? steps + ramp : ramp;
   }
-  return { codes, nx: record.grid.nx, ny: record.grid.ny, cells: 1 };
+  return { codes, nx: record.values.nx, ny: record.values.ny, cells: record.values.cells_per_value };
 }
 
 // Regions: those of the plan, and what is free but has no way to the goal.
@@ -115,7 +115,7 @@ export function regionLayer(record: PageRecord, region: Numbers, cost: Numbers):
   for (let i = 0; i < codes.length; ++i) {
     codes[i] = region[i] === RegionCode.free && cost[i] === no_value ? 4 : region[i];
   }
-  return { codes, nx: record.grid.nx, ny: record.grid.ny, cells: 1 };
+  return { codes, nx: record.values.nx, ny: record.values.ny, cells: record.values.cells_per_value };
 }
 
 export const share_kinds = ["proved to reach", "proved to fail", "undecided"] as const;

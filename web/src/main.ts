@@ -11,7 +11,7 @@ import { showCostLegend, showRegionLegend, showShareLegend, showVerdictLegend, u
 import { connect, type Live } from "./live";
 import { showFacts, showNumbers, showTitle, showTrust, showVolumes, showWords } from "./numbers";
 import { headingOfCode, Overlay, type GridLines, type LayerChoice } from "./overlay";
-import { Code, no_value, recordOfPage, RegionCode, type PageRecord } from "./record";
+import { Code, no_value, recordOfPage, RegionCode, valueIndex, type PageRecord } from "./record";
 import { Replay } from "./replay";
 import { showSolid } from "./solid";
 import { Viewport } from "./viewport";
@@ -123,7 +123,7 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
       box.replaceChildren(term("place", "point at the map to read it"));
       return;
     }
-    const i = cell[1] * grid.nx + cell[0];
+    const i = valueIndex(record, cell[0], cell[1]);
     const parts = [term("x, y", `${short(cross[0])}, ${short(cross[1])} m`), term("cell", `${cell[0]}, ${cell[1]}`), term("region", region_names[region[i]]),
       term("cost to go", cost[i] === no_value ? "no way" : `${short(cost[i] * record.cost_step_m)} m`),
       term("commanded heading", heading[i] === no_value || region[i] === RegionCode.obstacle ? "none" : headingWords(headingOfCode(heading[i])))];
@@ -141,6 +141,8 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
         }
       }
     }
+    const per = record.values.cells_per_value;
+    if (per > 1) parts.push(term("values", `of one cell in ${per} × ${per}`));
     box.replaceChildren(...parts);
   }
 

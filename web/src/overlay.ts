@@ -2,7 +2,7 @@
 import type { Numbers } from "./arrays";
 import { short } from "./dom";
 import { strokeTrack, type ShownFlight } from "./flights";
-import { no_value, RegionCode, type Mission, type PageRecord } from "./record";
+import { no_value, RegionCode, valueIndex, type Mission, type PageRecord } from "./record";
 import type { Viewport } from "./viewport";
 
 /** Lines on the grid: places as shares of its width and height in 65535ths. */
@@ -134,7 +134,7 @@ export class Overlay {
   private arrows(context: CanvasRenderingContext2D, view: Viewport): void {
     const { nx, ny, x0_m, y0_m, cell_m } = this.record.grid;
     const { heading, region } = this.field;
-    const stride = Math.max(1, Math.ceil(17 / (cell_m * view.scale)));
+    const stride = Math.max(this.record.values.cells_per_value, Math.ceil(17 / (cell_m * view.scale)));
     const length = Math.min(0.82 * stride * cell_m * view.scale, 34);
     const head = Math.min(0.42 * length, 6);
     const heads = new Path2D();
@@ -148,7 +148,7 @@ export class Overlay {
     };
     for (let iy = first(bottom, y0_m); iy < ny && y0_m + (iy - 1) * cell_m < top; iy += stride) {
       for (let ix = first(left, x0_m); ix < nx && x0_m + (ix - 1) * cell_m < right; ix += stride) {
-        const i = iy * nx + ix;
+        const i = valueIndex(this.record, ix, iy);
         if (heading[i] === no_value || region[i] === RegionCode.obstacle) continue;
         const h = headingOfCode(heading[i]);
         const ux = Math.cos(h), uy = -Math.sin(h);

@@ -33,6 +33,7 @@ export interface PageRecord {
   format_version: number;
   title: string;
   grid: GridShape;
+  values: { nx: number; ny: number; cells_per_value: number };  // of which cells the plan's arrays are
   vehicle: { speed_mps: number; turn_radius_m: number };
   mission: Mission;
   cost_step_m: number;
@@ -56,6 +57,12 @@ export const enum Code { undecided = 0, reach = 1, collide = 2, leave = 3, trapp
 
 /** Codes of the array `region`: those of a plan file plus 1. */
 export const enum RegionCode { buffer = 0, free = 1, obstacle = 2, goal = 3 }
+
+/** Where the values of a cell stand in the plan's arrays. */
+export function valueIndex(record: PageRecord, ix: number, iy: number): number {
+  const { nx, cells_per_value } = record.values;
+  return Math.floor(iy / cells_per_value) * nx + Math.floor(ix / cells_per_value);
+}
 
 export const no_value = 65535;
 
