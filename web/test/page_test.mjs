@@ -232,7 +232,12 @@ test("flights are chosen and replayed", async (t) => {
   await page.keyboard.press("ArrowDown");
   assert.equal(await rows.nth(2).getAttribute("aria-selected"), "true");
   assert.equal(await page.locator("#charts .uplot").count(), 2);
+  const times = recordOf(small).flights.map((flight) => flight.time_s ?? 0);
+  const longest = times.indexOf(Math.max(...times));
+  await rows.nth(longest + 1).click();
   const marks = await picture(page, "map-marks");
+  await page.locator("#replay select").selectOption("1");  // so that it does not end meanwhile
+  assert.ok(times[longest] > 8, "a flight that takes its time");
   const play = page.locator("#replay button");
   await play.click();
   await page.waitForFunction(() => parseFloat(document.querySelector("#replay output").textContent) > 0.5);
