@@ -1,6 +1,7 @@
 #!/bin/bash
 # Installs the Debian packages into a fresh, minimal Debian 12 and uses them there: the demonstration
-# is run, its certificate checked, the Python module imported, a stranger's C++ project built.
+# is run, its certificate checked, the Python module imported, a stranger's C++ project built, and
+# every command and every Python block of the docs tried.
 # Usage (as root, for debootstrap and chroot): tools/try_package.sh FOLDER_OF_DEBS [CHROOT]
 # CHROOT is made, and removed at the end; KEEP_CHROOT=1 leaves it. Wants about 2 GB and a few minutes.
 set -euo pipefail
@@ -70,6 +71,16 @@ strangers_project() {
   as_user 'cmake -S consumer -B consumer/build -DCMAKE_BUILD_TYPE=Release >/dev/null &&
     cmake --build consumer/build >/dev/null && consumer/build/consumer plan.safetensors'
 }
+docs() {  # what the docs say to type, with what is installed alone
+  mkdir -p "$root/home/someone/source/python"
+  cp tests/docs_commands_test.py "$root/home/someone/source"
+  cp -r python/tests "$root/home/someone/source/python"
+  inside cp -r /usr/share/doc/fairway/docs /usr/share/doc/fairway/examples/demo /home/someone/source
+  inside chown -R someone: /home/someone/source
+  as_user 'python3 source/docs_commands_test.py source /usr/bin/fairway -v -k test_page'
+  as_user 'FAIRWAY=/usr/bin/fairway FAIRWAY_SOURCE=$PWD/source \
+    python3 -B source/python/tests/run_tests.py source/python/tests/test_docs.py'
+}
 gone() {  # nothing of the packages is left
   inside apt-get purge -y -q fairway libfairway-dev python3-fairway >/dev/null 2>&1
   ! inside find /usr /etc -path '*fairway*' | grep .
@@ -85,5 +96,7 @@ step "apt-get install python3-fairway" install '/debs/python3-fairway_*.deb'
 step "import fairway" from_python
 step "apt-get install libfairway-dev, and a compiler" install '/debs/libfairway-dev_*.deb' g++ cmake make
 step "find_package(fairway)" strangers_project
+step "apt-get install python3-pytest" install python3-pytest
+step "every page of the docs" docs
 step "apt-get purge leaves nothing" gone
 echo "try_package: all of it works"
