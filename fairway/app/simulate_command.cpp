@@ -378,6 +378,7 @@ Action declare_simulate(CLI::App& options) {
   });
   options.footer(
       "Without --outcomes - and the like, prints what became of the flights.\n"
+      "Where the plan's goal has a heading, exact flights that reach go on by a last leg to it.\n"
       "Example: fairway simulate demo.safetensors --state 100,100,90deg --random 1000 --outcomes "
       "out.csv");
   return [arguments](const Session& session) { return simulate_command(*arguments, session); };

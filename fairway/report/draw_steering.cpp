@@ -1,8 +1,10 @@
 #include "fairway/report/draw_steering.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <fmt/format.h>
 
