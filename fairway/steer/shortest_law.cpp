@@ -51,7 +51,7 @@ bool PoseTolerance::holds(const State& state, const State& goal) const {
 bool PoseTolerance::covers(double step_m, double turn_radius_m) const {
   // Half a step beside the goal along its way; and what two joins within a step add.
   const double half = 0.5 * step_m / turn_radius_m;
-  return place_m > 0.5 * step_m * (1.0 + half) && heading_rad > half;
+  return place_m > step_m * (0.5 + half) && heading_rad > half;
 }
 
 void ShortestLaw::choose(const State& state, const State& goal, double turn_radius_m) {
@@ -82,7 +82,7 @@ void ShortestLaw::choose(const State& state, const State& goal, double turn_radi
 double ShortestLaw::curvature_per_m(const State& state, const State& goal, double turn_radius_m,
                                     double step_m) {
   require(step_m > 0.0 && options_.tolerance.covers(step_m, turn_radius_m),
-          "the tolerance is more than step / 2 + step^2 / (4 r), and step / (2 r)");
+          "the tolerance is more than step / 2 + step^2 / (2 r), and step / (2 r)");
   choose(state, goal, turn_radius_m);
   driven_m_ = step_m;
   return turn_over(*path_, step_m) / step_m;

@@ -12,13 +12,13 @@
 //     that one ends beside the goal can explain, is not taken while that one ends within the
 //     tolerance.
 //   Sampling. A control holds for a step. Where a part ends within the step the mean curvature is
-//     held, so that the heading after the step is the path's; the place errs by step^2 / (8 r) at
+//     held, so that the heading after the step is the path's; the place errs by step^2 / (4 r) at
 //     most for each join, and the goal is passed at half a step at most: the tolerance must be more
-//     than step / 2 + step^2 / (4 r) in place and step / (2 r) in heading, which is a contract.
+//     than step / 2 + step^2 / (2 r) in place and step / (2 r) in heading, which is a contract.
 // Properties that always hold, with W the length of what is left of the path that is followed:
 //   1. While that path ends within the tolerance of the goal, W falls by the step in every step,
 //      but for at most four times what it ends beside the goal (place, and heading times r).
-//      Undisturbed that is step^2 / r at most, as a path has two joins.
+//      Undisturbed that is 2 step^2 / r at most, as a path has two joins.
 //   2. The path followed ends within `tolerance` of the goal, or is a path to the goal itself.
 // docs/steering.md argues the descent, with noise and with a moving goal.
 #pragma once
