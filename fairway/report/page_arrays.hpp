@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "fairway/report/page.hpp"
 #include "fairway/report/page_payload.hpp"
