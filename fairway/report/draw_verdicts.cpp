@@ -130,7 +130,7 @@ Picture draw_proved_shares(const VerdictMap& map, const VerdictPictureOptions& o
                  std::move(entries));
   for (const Share share : {reached, failing, open}) {
     page.draw_panel(share, [&](std::size_t i) {
-      return share_color(share, class_of(states_of(map, i, share), each));
+      return share_color(static_cast<int>(share), class_of(states_of(map, i, share), each));
     });
   }
   return page.finish();
