@@ -2,6 +2,7 @@
 import { BufferAttribute, BufferGeometry, CanvasTexture, Color, DoubleSide, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
   NearestFilter, PerspectiveCamera, Plane, PlaneGeometry, Scene, Sprite, SpriteMaterial, SRGBColorSpace, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { oneOf } from "./choices";
 import { byId, cssVariable, el, headingWords, pixelRatio } from "./dom";
 import type { VerdictLayers } from "./layers";
 import { Code, type PageRecord } from "./record";
@@ -233,15 +234,8 @@ export function showSolid(record: PageRecord, layers: VerdictLayers): (heading: 
       box.replaceChildren(el("p", { class: "hint" }, "This browser gives no 3-D canvas (WebGL): the map above shows the same states, heading by heading."));
       return;
     }
-    const tools = el("div", { class: "solid-tools", role: "group", "aria-label": "Which states" });
-    bodies.forEach((body, kind) => {
-      const button = el("button", { type: "button", "aria-pressed": kind === 0 ? "true" : "false" }, body.name);
-      button.addEventListener("click", () => {
-        tools.querySelectorAll("button").forEach((b, k) => b.setAttribute("aria-pressed", String(k === kind)));
-        void solid!.show(kind);
-      });
-      tools.append(button);
-    });
+    const tools = oneOf(bodies.map((body) => body.name), "Which states", (kind) => void solid!.show(kind));
+    tools.classList.add("solid-tools");
     const cut = el("input", { type: "range", min: 0, max: layers.length - 1, value: first_cut, "aria-label": "Heading of the cut" });
     const words = el("output", {}, "");
     const moved = () => {

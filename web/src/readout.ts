@@ -1,0 +1,45 @@
+// What plan and certificate say of the place under the cross.
+import { byId, headingWords, short, term } from "./dom";
+import { headingOfCode, type FieldArrays } from "./overlay";
+import { Code, no_value, RegionCode, valueIndex, type PageRecord } from "./record";
+
+const region_names = ["buffer", "safe start", "obstacle", "target"];
+
+/** The layer that is shown, its heading, and of how many headings a sample reaches once that is known. */
+export interface ShownVerdicts { codes: Uint8Array; heading_rad: number; reaching: Uint16Array | null }
+
+type Cell = [number, number];
+
+function cellAt(record: PageRecord, place: [number, number]): Cell | null {
+  const { nx, ny, x0_m, y0_m, cell_m } = record.grid;
+  const cell: Cell = [Math.floor((place[0] - x0_m) / cell_m), Math.floor((place[1] - y0_m) / cell_m)];
+  return cell[0] >= 0 && cell[0] < nx && cell[1] >= 0 && cell[1] < ny ? cell : null;
+}
+
+function verdictTerms(record: PageRecord, cell: Cell, verdicts: ShownVerdicts): HTMLElement[] {
+  const info = record.verdicts!;
+  const sample = Math.floor(cell[1] / info.cells_per_sample) * info.nx + Math.floor(cell[0] / info.cells_per_sample);
+  const code = verdicts.codes[sample];
+  if (code >= Code.obstacle) return [];
+  const name = record.styles.verdict[code].name;
+  const terms = [term(`verdict at ${headingWords(verdicts.heading_rad)}`, code === Code.undecided ? name : `proved: ${name}`)];
+  if (verdicts.reaching) terms.push(term("headings that reach", `${verdicts.reaching[sample]} of ${info.heading_rad.length}`));
+  return terms;
+}
+
+export function showReadout(record: PageRecord, field: FieldArrays, place: [number, number] | null, verdicts: ShownVerdicts | null): void {
+  const cell = place && cellAt(record, place);
+  if (!place || !cell) {
+    byId("readout").replaceChildren(term("place", "point at the map to read it"));
+    return;
+  }
+  const { region, heading, cost } = field;
+  const i = valueIndex(record, ...cell);
+  const per = record.values.cells_per_value;
+  byId("readout").replaceChildren(
+    term("x, y", `${short(place[0])}, ${short(place[1])} m`), term("cell", cell.join(", ")), term("region", region_names[region[i]]),
+    term("cost to go", cost[i] === no_value ? "no way" : `${short(cost[i] * record.cost_step_m)} m`),
+    term("commanded heading", heading[i] === no_value || region[i] === RegionCode.obstacle ? "none" : headingWords(headingOfCode(heading[i]))),
+    ...(verdicts ? verdictTerms(record, cell, verdicts) : []),
+    ...(per > 1 ? [term("values", `of one cell in ${per} × ${per}`)] : []));
+}
