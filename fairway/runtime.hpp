@@ -194,7 +194,9 @@ class Certificate {
     const SectionView& sections;
     VerdictSet found;
 
-    double seconds(double length_m) const { return above(length_m / flow.speed_mps); }
+    double seconds(double length_m) const {
+      return length_m == 0.0 ? 0.0 : above(length_m / flow.speed_mps);
+    }
     void arrive(std::size_t section, Interval along_m, double length_m, bool) {
       sections.look_up(section, units_of(along_m, flow.size.cell_m), seconds(length_m), found);
     }

@@ -136,6 +136,16 @@ TEST_F(RuntimeTest, ACommandTurnsTheShortWay) {
   EXPECT_TRUE(std::isnan(certificate.command(-100.0, 6.0, 0.0).heading_rad));
 }
 
+TEST_F(RuntimeTest, AStateInTheGoalHasReachedItAlready) {
+  const auto words = aligned(bytes());
+  runtime::Certificate certificate;
+  ASSERT_EQ(certificate.open(words.data(), bytes().size()), runtime::Status::ok);
+  for (const double y : {25.3, 25.0}) {  // the goal is about (4, 25), a border
+    EXPECT_EQ(certificate.query(4.1, y, 0.3).verdict, Verdict::reach);
+    EXPECT_EQ(certificate.query(4.1, y, 0.3).time_bound_s, 0.0);
+  }
+}
+
 TEST_F(RuntimeTest, StatesOffTheGridOrNotFiniteAreNotMisjudged) {
   const auto words = aligned(bytes());
   runtime::Certificate certificate;
