@@ -5,7 +5,7 @@
 // Properties that always hold, for finite poses no farther apart than 1e100 turning radii:
 //   1. The length is the least of the six words'. Each angle is in [0, 2 pi): no extra loop.
 //   2. The path ends at the goal: within 1e-12 (r + distance) in place, 1e-12 rad in heading
-//      (observed: 3e-13 of each at most, nearly all of it where property 3 applies).
+//      (observed: 7e-13 of each at most, nearly all of it where property 3 applies).
 //   3. The length of a shortest path jumps by a loop where a turn shrinks to nothing and would
 //      have to become negative: across the circles of least radius that touch the start. On such
 //      a place no rounding may decide. A word counts as feasible when it ends within `nearness` of
