@@ -140,6 +140,7 @@ bool go_turning(const Bundle& set, const Vec& command, int sign, const Real& ahe
   const Vec centre = set.turn == sign ? set.centre : Vec{set.at.x - kr * u.y, set.at.y + kr * u.x};
   const Arc arc{u, headings_between(u, last), centre, k, kr, radius};
   const Vec at{centre.x + kr * command.y, centre.y - kr * command.x};  // when aligned
+  // No state's part changes its sign on the way when no product of its first and last is below 0.
   const auto runs_one_way_inside = [](const Real& first, const Real& end, const Real& place) {
     return (first * end).lower() >= 0.0 && place.lower() > -0.5 && place.upper() < 0.5;
   };

@@ -20,7 +20,8 @@
 //   2. At the exactly opposite heading both turns are followed; a touch of a side is a departure;
 //      a set that straddles a corner departs through both sides, each part cut at the corner.
 //   3. length_m bounds what any state flies inside the cell.
-// No include but the standard's and the project's own toolboxes, no heap, no exception.
+// No include but the standard's and the project's own toolboxes, no heap, no exception. One file on
+// purpose, long as it is: it is the whole of what lemmas 2 and 3 of docs/trust.md are about.
 #pragma once
 
 #include <cmath>

@@ -11,14 +11,15 @@
 //      exact numbers meets, its place inside the interval told, within the length told.
 //   2. On its way it passes no corner and touches no border that it does not cross, by more than
 //      the balls: which cells it met is certain.
-// Error bounds (derived; docs/trust.md, lemma 7). Lengths by R, the turning radius, and d < R:
-//   centre       e_c = e_p + R e_u                               p -+ R (u_y, -u_x)
-//   crossing     e_t = e_c / R,  e_n = e_t / n                   t = (line - C) / R, n =
-//   sqrt(1-t^2) its place    e_p = e_c + R e_n                               C -+ R n aligned at
-//   e_a = e_c                                       C +- R (c_y, -c_x)
+// Error bounds (derived; docs/trust.md, lemma 8), with R the turning radius, L a straight length:
+//   centre     p -+ R (u_y, -u_x)                        e_c = e_p + R e_u
+//   crossing   t = (line - C) / R, n = sqrt(1 - t t)     e_t = e_c / R, e_n = e_t / n
+//   its place  C -+ R n                                  e_p = e_c + R e_n
+//   aligned    C +- R (c_y, -c_x)                        e_a = e_c
+//   straight   p + L u, to a side with speed s           e = (e_p + 2 L e_u) (1 + 1 / s)
 // each 1.05 times, and `rounding` (2^-46) of the largest number in it more: no line has more than
 // 16 operations, each errs by 2^-53 of numbers up to 4 R.
-// Cost: a square root and a division for each of at most three sides a cell; one sine and cosine.
+// Cost: a sine and a cosine a cell, and a square root for each of at most three sides.
 #pragma once
 
 #include <cmath>
