@@ -17,11 +17,12 @@
 #include "bench/child_process.hpp"
 #include "bench/sections.hpp"
 #include "fairway/base/random.hpp"
+#include "fairway/bitmap/bitmap_backward.hpp"
+#include "fairway/bitmap/bitmap_volume.hpp"
 #include "fairway/field/compute_field.hpp"
+#include "fairway/plan/plan_of_field.hpp"
 #include "fairway/simulate/exact_flight.hpp"
-#include "fairway/verify/bitmap_backward.hpp"
-#include "fairway/verify/bitmap_region.hpp"
-#include "fairway/verify/bitmap_volume.hpp"
+#include "fairway/verify/region_of_interest.hpp"
 
 namespace fairway::bench {
 namespace {
@@ -39,13 +40,7 @@ Plan open_plan(int side) {
   if (const auto* refused = std::get_if<MissionRefusal>(&answer)) {
     throw std::runtime_error("the open map refuses its mission: " + refused->message);
   }
-  Field& field = std::get<Field>(answer);
-  return {field.grid,
-          vehicle,
-          std::move(field.heading_rad),
-          std::move(field.region),
-          std::move(field.cost_m),
-          "{}"};
+  return plan_of_field(std::move(std::get<Field>(answer)), vehicle);
 }
 
 struct Run {
@@ -158,7 +153,7 @@ void add_rows(std::vector<Row>& rows, const Settings& settings, int side, double
 
 void run_one_bitmap(int side, int samples) {
   const Plan plan = open_plan(side);
-  const std::vector<std::uint8_t> target = cells_of(plan, Region::goal);
+  const std::vector<std::uint8_t> target = target_cells(plan.grid, plan.region, {});
   BorderBitmap set;
   const Took took = timed([&] { set = backward_reachable_set(plan, target, {samples}); });
   rusage usage{};

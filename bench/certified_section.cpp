@@ -21,6 +21,7 @@
 #include "fairway/base/random.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/field/compute_field.hpp"
+#include "fairway/plan/plan_of_field.hpp"
 #include "fairway/run/verification.hpp"
 #include "fairway/runtime.hpp"
 
@@ -67,13 +68,7 @@ Plan plan_of(const Case& c) {
   if (const auto* refused = std::get_if<MissionRefusal>(&answer)) {
     throw std::runtime_error(c.name + " refuses its mission: " + refused->message);
   }
-  Field& field = std::get<Field>(answer);
-  return {field.grid,
-          c.vehicle,
-          std::move(field.heading_rad),
-          std::move(field.region),
-          std::move(field.cost_m),
-          "{}"};
+  return plan_of_field(std::move(std::get<Field>(answer)), c.vehicle);
 }
 
 struct Proved {
@@ -106,8 +101,8 @@ double query_ns(const fs::path& file, int repeats) {
   std::vector<State> states(count);
   Random random(11);
   for (State& s : states) {
-    s = {{flow.x0_m + random.unit() * flow.nx * flow.size.cell_m,
-          flow.y0_m + random.unit() * flow.ny * flow.size.cell_m},
+    s = {{flow.grid.x0_m + random.unit() * flow.grid.nx * flow.grid.cell_m,
+          flow.grid.y0_m + random.unit() * flow.grid.ny * flow.grid.cell_m},
          Heading::from_rad(random.uniform(-pi, pi))};
   }
   std::vector<double> ns;

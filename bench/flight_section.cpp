@@ -16,6 +16,7 @@
 #include "bench/synthetic_plan.hpp"
 #include "fairway/base/random.hpp"
 #include "fairway/field/compute_field.hpp"
+#include "fairway/plan/plan_of_field.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 
 namespace fairway::bench {
@@ -29,13 +30,7 @@ Plan plan_on_blobs(int side) {
   if (const auto* refused = std::get_if<MissionRefusal>(&answer)) {
     throw std::runtime_error("the blob map refuses its mission: " + refused->message);
   }
-  Field& field = std::get<Field>(answer);
-  return {field.grid,
-          vehicle,
-          std::move(field.heading_rad),
-          std::move(field.region),
-          std::move(field.cost_m),
-          "{}"};
+  return plan_of_field(std::move(std::get<Field>(answer)), vehicle);
 }
 
 // Anywhere in the safe-start region from which the goal can be reached, any heading.

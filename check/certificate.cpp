@@ -46,15 +46,16 @@ void take_arrays(const TensorFile& file, Certificate& c) {
   c.rank = values<std::uint32_t>(file, "leaf_rank", "U32", leaves);
   c.time_s = values<float>(file, "leaf_time_s", "F32", leaves);
   c.verdict = values<std::uint8_t>(file, "leaf_verdict", "U8", leaves);
-  c.geometry = values<double>(file, "geometry", "F64", {6});
+  const auto numbers = values<double>(file, "geometry", "F64", {6});
+  c.geometry = {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5]};
 }
 
-void require_geometry(const std::vector<double>& g) {
+void require_geometry(const Geometry& g) {
   const auto in = [](double x, double least, double most) { return x >= least && x <= most; };
-  require(in(g[0], -1e15, 1e15) && in(g[1], -1e15, 1e15) && in(g[2], 1e-15, 1e15) &&
-              in(g[4], 1e-15, 1e15) && g[5] == 0x1p32,
+  require(in(g.x0_m, -1e15, 1e15) && in(g.y0_m, -1e15, 1e15) && in(g.cell_m, 1e-15, 1e15) &&
+              in(g.speed_mps, 1e-15, 1e15) && g.units == 0x1p32,
           "geometry: expected finite numbers in proportion, and 2^32 units in a side");
-  require(g[2] < g[3] && g[3] <= 1e9 * g[2],
+  require(g.cell_m < g.turn_radius_m && g.turn_radius_m <= 1e9 * g.cell_m,
           "geometry: the cells are not smaller than the turning radius, or next to nothing");
 }
 
@@ -77,13 +78,11 @@ void require_digests(const TensorFile& file, const Certificate& c, const std::st
            tensor.shape == file.tensors.at("region").shape;
   }
   const json& p = plan.record;
-  const json geometry{p.at("origin_m").at(0),
-                      p.at("origin_m").at(1),
-                      p.at("cell_m"),
-                      p.at("vehicle").at("turn_radius_m"),
-                      p.at("vehicle").at("speed_mps"),
-                      0x1p32};
-  require(same && geometry == json(c.geometry), "is not the certificate of the plan " + plan_path);
+  const Geometry& g = c.geometry;
+  same = same && p.at("origin_m") == json{g.x0_m, g.y0_m} && p.at("cell_m") == g.cell_m &&
+         p.at("vehicle").at("turn_radius_m") == g.turn_radius_m &&
+         p.at("vehicle").at("speed_mps") == g.speed_mps;
+  require(same, "is not the certificate of the plan " + plan_path);
 }
 
 /// Whether [low, low + cell_m] lies in [from, to], as it is, or, where that is a matter of
@@ -100,10 +99,10 @@ void require_cells(const Certificate& c, const json& interest) {
   const auto box =
       of_goal || of_obstacles ? std::array<double, 4>{} : interest.get<std::array<double, 4>>();
   for (std::size_t i = 0; i < c.loop.kind.size(); ++i) {
-    const double d = c.geometry[2];
+    const double d = c.geometry.cell_m;
     const Cell cell = c.loop.cell_at(i);
-    const double x = c.geometry[0] + cell.x * d;
-    const double y = c.geometry[1] + cell.y * d;
+    const double x = c.geometry.x0_m + cell.x * d;
+    const double y = c.geometry.y0_m + cell.y * d;
     const double h = c.loop.command_rad[i];
     const bool said = c.loop.kind[i] == target;
     const bool is_target = of_goal ? c.region[i] == 2
@@ -172,7 +171,7 @@ Certificate read_certificate(const std::string& path, const std::string& plan) {
   require_digests(file, c, plan);
   require_geometry(c.geometry);
   require_cells(c, file.record.at("region_of_interest"));
-  c.loop.take_directions(c.geometry[3], c.geometry[2]);
+  c.loop.take_directions(c.geometry.turn_radius_m, c.geometry.cell_m);
   require_leaves(c);
   return c;
 }

@@ -11,8 +11,18 @@
 
 namespace fairway_check {
 
+/// The array "geometry", number by number.
+struct Geometry {
+  double x0_m;
+  double y0_m;
+  double cell_m;
+  double turn_radius_m;
+  double speed_mps;
+  double units;  ///< in a side
+};
+
 struct Certificate {
-  std::vector<double> geometry;       ///< x0, y0, cell_m, turn_radius_m, speed_mps, units
+  Geometry geometry;
   std::vector<std::int8_t> region;    ///< [iy][ix]
   std::vector<std::uint32_t> first;   ///< [4 cells + 1]
   std::vector<std::uint32_t> begin;   ///< [leaves]

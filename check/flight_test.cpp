@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fairway/base/random.hpp"
-#include "fairway/verify/sample_plans.hpp"
-#include "fairway/verify/wide_flight.hpp"
+#include "fairway/verify/testing/plans_to_verify.hpp"
+#include "fairway/verify/testing/wide_flight.hpp"
 
 namespace fairway_check {
 namespace {
@@ -56,13 +56,13 @@ struct Told : Listener {
 
 Loop loop_of(const fairway::Flow& flow) {
   Loop loop;
-  loop.nx = flow.nx;
-  loop.ny = flow.ny;
-  loop.command_rad.assign(flow.heading_rad, flow.heading_rad + flow.cells());
-  for (std::size_t i = 0; i < flow.cells(); ++i) {
+  loop.nx = flow.grid.nx;
+  loop.ny = flow.grid.ny;
+  loop.command_rad.assign(flow.heading_rad, flow.heading_rad + flow.grid.size());
+  for (std::size_t i = 0; i < flow.grid.size(); ++i) {
     loop.kind.push_back(static_cast<std::uint8_t>(flow.kind[i]));
   }
-  loop.take_directions(flow.size.turn_radius_m, flow.size.cell_m);
+  loop.take_directions(flow.vehicle.turn_radius_m, flow.grid.cell_m);
   return loop;
 }
 
@@ -76,7 +76,7 @@ TEST(CheckFlight, EveryFlightFromALeafMeetsWhatWasTold) {
     const fairway::WideCommands<Wide> commands(flow);
     Random random = Random::stream(3, seed);
     for (int draw = 0; draw < 200; ++draw) {
-      const std::size_t section = random.below(4 * flow.cells());
+      const std::size_t section = random.below(4 * flow.grid.size());
       const int side = static_cast<int>(section % 4);
       const std::size_t cell = section / 4;
       if (flow.kind[cell] != fairway::CellKind::ordinary || std::isnan(flow.heading_rad[cell]) ||
@@ -97,8 +97,8 @@ TEST(CheckFlight, EveryFlightFromALeafMeetsWhatWasTold) {
       for (int m = 0; m < 5; ++m) {
         const double place = begin + width * (m == 0 ? 0.0 : m == 1 ? 1.0 : random.unit());
         if (place == 0.0 || place == 1.0) continue;  // a corner: whoever brings it is told of it
-        const Wide along_m = Wide(place) * Wide(flow.size.cell_m);
-        const Wide line = side < 2 ? Wide(0) : Wide(flow.size.cell_m);
+        const Wide along_m = Wide(place) * Wide(flow.grid.cell_m);
+        const Wide line = side < 2 ? Wide(0) : Wide(flow.grid.cell_m);
         const fairway::WideVec<Wide> p = side % 2 == 0 ? fairway::WideVec<Wide>{line, along_m}
                                                        : fairway::WideVec<Wide>{along_m, line};
         fairway::WideFlight<Wide> flight(commands, loop.beyond(section).x, loop.beyond(section).y,
@@ -109,7 +109,7 @@ TEST(CheckFlight, EveryFlightFromALeafMeetsWhatWasTold) {
             meeting.end == fairway::Verdict::undecided)
           continue;
         ++flights;
-        ASSERT_TRUE(told.knows_of(meeting, flow.size.cell_m))
+        ASSERT_TRUE(told.knows_of(meeting, flow.grid.cell_m))
             << "plan " << seed << " section " << section << " from " << begin << " width " << width
             << " place " << place << " meets section " << meeting.section << " or ends with "
             << name_of(meeting.end);

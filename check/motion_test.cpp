@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "fairway/base/random.hpp"
-#include "fairway/vehicle/wide_motion.hpp"
+#include "fairway/vehicle/testing/wide_motion.hpp"
 
 namespace fairway_check {
 namespace {

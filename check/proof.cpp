@@ -19,7 +19,7 @@ class Outcome : public Listener {
  public:
   /// `own`: the leaf that the set is, on which a hop may come down.
   explicit Outcome(const Certificate& c, std::size_t own = ~std::size_t{0})
-      : c_(c), own_(own), seconds_per_cell_(Real(c.geometry[2]) / c.geometry[4]) {}
+      : c_(c), own_(own), seconds_per_cell_(Real(c.geometry.cell_m) / c.geometry.speed_mps) {}
 
   void arrive(std::size_t section, const Real& place, double length, bool hop) override {
     const Real flown_s = length * seconds_per_cell_;

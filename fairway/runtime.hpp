@@ -90,8 +90,8 @@ class Certificate {
     const char* data = file + 8 + header;
     const std::size_t data_size = size - 8 - static_cast<std::size_t>(header);
 
-    Array geometry, heading, first, begin, time, kind, verdict;
-    if (!find(text, "\"geometry\":", "\"F64\"", geometry) ||
+    Array numbers, heading, first, begin, time, kind, verdict;
+    if (!find(text, "\"geometry\":", "\"F64\"", numbers) ||
         !find(text, "\"heading_rad\":", "\"F32\"", heading) ||
         !find(text, "\"section_first\":", "\"U32\"", first) ||
         !find(text, "\"leaf_begin\":", "\"U32\"", begin) ||
@@ -100,32 +100,24 @@ class Certificate {
         !find(text, "\"leaf_verdict\":", "\"U8\"", verdict)) {
       return Status::not_certificate;
     }
-    for (const Array* array : {&geometry, &heading, &first, &begin, &time, &kind, &verdict}) {
+    for (const Array* array : {&numbers, &heading, &first, &begin, &time, &kind, &verdict}) {
       if (array->end < array->begin || array->end > data_size) return Status::misfit;
     }
     const std::size_t cells = kind.bytes();
     const std::size_t leaves = verdict.bytes();
-    if (geometry.bytes() != 6 * sizeof(double) || cells == 0 || heading.bytes() != 4 * cells ||
+    if (numbers.bytes() != sizeof(Geometry) || cells == 0 || heading.bytes() != 4 * cells ||
         first.bytes() != 4 * (4 * cells + 1) || begin.bytes() != 4 * leaves ||
         time.bytes() != 4 * leaves || heading.columns == 0 || cells % heading.columns != 0 ||
         cells / heading.columns > 0x7fffffff || heading.columns > 0x7fffffff ||
-        geometry.begin % 8 != 0 || (heading.begin | first.begin | begin.begin | time.begin) % 4) {
+        numbers.begin % 8 != 0 || (heading.begin | first.begin | begin.begin | time.begin) % 4) {
       return Status::misfit;
     }
-    double g[6];
-    std::memcpy(g, data + geometry.begin, sizeof g);
-    for (const double x : g) {
-      if (!std::isfinite(x)) return Status::misfit;
-    }
-    if (!(g[2] > 0.0 && g[3] > g[2] && g[4] > 0.0) || g[5] != units_per_side) {
-      return Status::misfit;
-    }
-    flow_.nx = static_cast<int>(heading.columns);
-    flow_.ny = static_cast<int>(cells / heading.columns);
-    flow_.x0_m = g[0];
-    flow_.y0_m = g[1];
-    flow_.size = {g[2], g[3]};
-    flow_.speed_mps = g[4];
+    Geometry geometry;
+    std::memcpy(&geometry, data + numbers.begin, sizeof geometry);
+    if (!geometry.is_valid()) return Status::misfit;
+    geometry.put_into(flow_.grid, flow_.vehicle);
+    flow_.grid.nx = static_cast<int>(heading.columns);
+    flow_.grid.ny = static_cast<int>(cells / heading.columns);
     flow_.heading_rad = reinterpret_cast<const float*>(data + heading.begin);
     flow_.kind = reinterpret_cast<const CellKind*>(data + kind.begin);
     sections_.first = reinterpret_cast<const std::uint32_t*>(data + first.begin);
@@ -165,14 +157,13 @@ class Certificate {
   Command command(double x_m, double y_m, double heading_rad) const noexcept {
     Command answer;
     if (!is_near(x_m, y_m) || !std::isfinite(heading_rad)) return answer;
-    const int ix = static_cast<int>(std::floor((x_m - flow_.x0_m) / flow_.size.cell_m));
-    const int iy = static_cast<int>(std::floor((y_m - flow_.y0_m) / flow_.size.cell_m));
-    if (!flow_.contains(ix, iy)) return answer;
-    const double command_rad = static_cast<double>(flow_.heading_rad[flow_.index(ix, iy)]);
+    const Cell cell = flow_.grid.cell_of({x_m, y_m});
+    if (!flow_.grid.contains(cell)) return answer;
+    const double command_rad = static_cast<double>(flow_.heading_rad[flow_.grid.index(cell)]);
     if (std::isnan(command_rad)) return answer;
     answer.heading_rad = command_rad;
     const double turn = std::remainder(command_rad - heading_rad, 2.0 * 3.14159265358979323846);
-    const double rate = flow_.speed_mps / flow_.size.turn_radius_m;
+    const double rate = flow_.vehicle.speed_mps / flow_.vehicle.turn_radius_m;
     answer.turn_rate_radps = turn == 0.0 ? 0.0 : turn > 0.0 ? rate : -rate;
     return answer;
   }
@@ -195,10 +186,10 @@ class Certificate {
     VerdictSet found;
 
     double seconds(double length_m) const {
-      return length_m == 0.0 ? 0.0 : above(length_m / flow.speed_mps);
+      return length_m == 0.0 ? 0.0 : above(length_m / flow.vehicle.speed_mps);
     }
     void arrive(std::size_t section, Interval along_m, double length_m, bool) {
-      sections.look_up(section, units_of(along_m, flow.size.cell_m), seconds(length_m), found);
+      sections.look_up(section, units_of(along_m, flow.grid.cell_m), seconds(length_m), found);
     }
     void end(Verdict verdict, double length_m) { found.add(verdict, seconds(length_m)); }
     void give_up() { found.add(Verdict::undecided, 0.0); }
@@ -222,8 +213,9 @@ class Certificate {
     return text.number(offsets, array.end);
   }
   bool is_near(double x_m, double y_m) const noexcept {
-    const double far = 0x1p30 * flow_.size.cell_m;
-    return opened_ && std::abs(x_m - flow_.x0_m) < far && std::abs(y_m - flow_.y0_m) < far;
+    const double far = 0x1p30 * flow_.grid.cell_m;
+    return opened_ && std::abs(x_m - flow_.grid.x0_m) < far &&
+           std::abs(y_m - flow_.grid.y0_m) < far;
   }
 
   Flow flow_;

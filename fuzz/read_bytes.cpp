@@ -96,7 +96,7 @@ ObstacleMap world_for(Verb verb) {
   ObstacleMap world;
   world.grid = {100, 100, -500.0, -500.0, 10.0};
   world.obstacle.resize(world.grid.size());
-  if (verb == Verb::path_in_degrees) world.geo = GeoReference{47.0, 8.0, 0.0};
+  if (verb == Verb::path_in_degrees) world.frame.geo = GeoReference{47.0, 8.0, 0.0};
   return world;
 }
 

@@ -17,10 +17,10 @@
 
 #include "binding.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/exchange/plan_rasters.hpp"
 #include "fairway/report/draw_verdicts.hpp"
 #include "fairway/run/ask_certificate.hpp"
 #include "fairway/run/checker.hpp"
-#include "fairway/run/export_raster.hpp"
 #include "fairway/run/verification.hpp"
 #include "fairway/verify/sample_verdicts.hpp"
 #include "fairway/verify/verdict.hpp"
@@ -61,7 +61,7 @@ py::array verdict_map(const HeldCertificate& held, double heading_rad) {
 }
 
 nlohmann::json record_of(const HeldCertificate& held) {
-  return nlohmann::json::parse(held.certificate.record_json);
+  return nlohmann::json::parse(record_text(held.certificate));
 }
 
 /// One member of the record as a dict; None when a file of other origin lacks it.
@@ -94,8 +94,9 @@ void save_geotiff(const HeldCertificate& held, const std::filesystem::path& path
     }
   }
   const py::gil_scoped_release unlocked;
-  export_verdicts(held.certificate, "the certificate's record", headings, path,
-                  force ? Existing::replace : Existing::keep);
+  write_verdict_raster(held.certificate.grid, held.certificate.frame.value_or(Frame{}),
+                       verdict_layers(held.certificate, headings), path,
+                       force ? Existing::replace : Existing::keep);
 }
 
 VerdictMap sampled(const HeldCertificate& held, int headings, int states) {

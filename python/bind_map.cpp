@@ -24,10 +24,10 @@ std::size_t obstacle_cells(const ObstacleMap& map) {
 }
 
 py::object georeference(const ObstacleMap& map) {
-  if (!map.geo) return py::none();
-  return py::dict("latitude_deg"_a = map.geo->latitude_deg,
-                  "longitude_deg"_a = map.geo->longitude_deg,
-                  "worst_error_m"_a = map.geo->worst_error_m);
+  if (!map.frame.geo) return py::none();
+  return py::dict("latitude_deg"_a = map.frame.geo->latitude_deg,
+                  "longitude_deg"_a = map.frame.geo->longitude_deg,
+                  "worst_error_m"_a = map.frame.geo->worst_error_m);
 }
 
 ObstacleMap read(const std::filesystem::path& file, double cell_m,
@@ -93,7 +93,7 @@ void bind_map(py::module_& m) {
           "Reference point of the tangent plane, a dict of latitude_deg, "
           "longitude_deg, worst_error_m, when the map came in degrees; else None.")
       .def_property_readonly(
-          "projected_crs", [](const ObstacleMap& map) { return map.projected_crs; },
+          "projected_crs", [](const ObstacleMap& map) { return map.frame.projected_crs; },
           "WKT of a projected map's reference system, or None.")
       .def_property_readonly(
           "warnings", [](const ObstacleMap& map) { return map.warnings; },

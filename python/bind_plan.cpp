@@ -8,8 +8,8 @@
 
 #include "binding.hpp"
 #include "fairway/base/atomic_file.hpp"
+#include "fairway/exchange/plan_rasters.hpp"
 #include "fairway/plan/plan_file.hpp"
-#include "fairway/run/export_raster.hpp"
 
 namespace fairway::python {
 namespace {
@@ -64,7 +64,7 @@ void bind_plan(py::module_& m) {
           },
           "{\"speed_mps\": metres per second, \"turn_radius_m\": metres}.")
       .def_property_readonly(
-          "record", [](const HeldPlan& p) { return python_of_json(p.plan.record_json); },
+          "record", [](const HeldPlan& p) { return python_of_json(json_text(p.plan.record)); },
           "How the plan came about, a dict: mission, every effective option, inputs, frame "
           "(docs/formats.md).")
       .def(
@@ -80,8 +80,7 @@ void bind_plan(py::module_& m) {
           "save_geotiff",
           [](const HeldPlan& p, const std::filesystem::path& path, bool force) {
             const py::gil_scoped_release unlocked;
-            export_plan(p.plan, "the plan's record", path,
-                        force ? Existing::replace : Existing::keep);
+            write_plan_raster(p.plan, path, force ? Existing::replace : Existing::keep);
           },
           "path"_a, py::kw_only(), "force"_a = false,
           "Heading, cost and region as the bands of a GeoTIFF, laid on Earth where the map was "

@@ -19,7 +19,7 @@ Picture picture(const HeldPlan& held, const std::string& title, bool cost, bool 
   const py::gil_scoped_release unlocked;
   PlanPictureOptions options;
   options.title = title;
-  options.mission = mission_of(held.plan, "the plan's record");
+  options.mission = held.plan.record.mission;
   options.cost = cost;
   options.streamlines = streamlines;
   options.arrows = arrows;

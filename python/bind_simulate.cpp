@@ -19,17 +19,17 @@
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
+#include "fairway/exchange/flight_files.hpp"
+#include "fairway/exchange/qgc_mission.hpp"
+#include "fairway/exchange/track.hpp"
+#include "fairway/map/degrees_from_frame.hpp"
 #include "fairway/report/draw_flights.hpp"
-#include "fairway/run/export_raster.hpp"
 #include "fairway/run/final_legs.hpp"
 #include "fairway/run/plan_map.hpp"
 #include "fairway/run/plan_record.hpp"
-#include "fairway/simulate/flight_files.hpp"
 #include "fairway/simulate/flight_statistics.hpp"
-#include "fairway/simulate/qgc_mission.hpp"
 #include "fairway/simulate/sampled_flight.hpp"
 #include "fairway/simulate/start_states.hpp"
-#include "fairway/simulate/track.hpp"
 
 namespace fairway::python {
 namespace {
@@ -58,7 +58,7 @@ struct Flights {
     std::optional<FinalLegs> legs;
     if (sampled) {
       by_law.emplace(plan->plan, *sampled);
-    } else if (const auto goal = goal_pose_of(plan->plan, record_name)) {
+    } else if (const auto goal = goal_pose_of(plan->plan)) {
       legs.emplace(plan->plan, *goal);
     }
     for_ranges(flights.size(), 8, [&](std::size_t low, std::size_t high) {
@@ -213,7 +213,7 @@ Picture picture(const Flights& flights, const std::string& title, int most) {
   const auto drawn = flights.recorded(0, static_cast<std::size_t>(std::max(most, 0)));
   FlightPictureOptions options;
   options.title = title;
-  options.mission = mission_of(flights.plan->plan, record_name);
+  options.mission = flights.plan->plan.record.mission;
   return draw_flights(flights.plan->plan, drawn, options);
 }
 
@@ -231,8 +231,9 @@ void save(const Flights& flights, const std::filesystem::path& path, Text kind,
     text = outcomes_csv(flights.starts, flights.results);
   } else {
     const std::vector<Flight> all = flights.recorded(0, flights.starts.size());
-    text = kind == Text::tracks ? trajectories_csv(all, plan.vehicle.speed_mps, step)
-                                : flights_geojson(all, step, lon_lat_of(plan, record_name));
+    text = kind == Text::tracks
+               ? trajectories_csv(all, plan.vehicle.speed_mps, step)
+               : flights_geojson(all, step, lon_lat_of(frame_in(plan.record), record_name));
   }
   write_whole(path, existing, text);
 }
@@ -246,7 +247,7 @@ void save_mission(const Flights& flights, py::ssize_t i, const std::filesystem::
   const std::size_t place = place_in(flights, i);
   const py::gil_scoped_release unlocked;
   const Plan& plan = flights.plan->plan;
-  const LonLatOf lon_lat = lon_lat_of(plan, record_name);
+  const LonLatOf lon_lat = lon_lat_of(frame_in(plan.record), record_name);
   require(static_cast<bool>(lon_lat),
           "the plan's map has no place on Earth: there is no latitude and longitude to fly to");
   const auto text = kind == ".plan" ? &qgc_plan_text : &qgc_waypoints_text;

@@ -38,7 +38,7 @@ void translate(std::exception_ptr thrown) {
     raise(mission_refused, refused.message,
           {{"reason", py::str(name_of(refused.refusal.reason))},
            {"lacks_m", py::float_(refused.refusal.lacks_m)}});
-  } catch (const ContractViolation& violation) {
+  } catch (const PreconditionViolation& violation) {
     PyErr_SetString(PyExc_ValueError, violation.what());
   }
 }

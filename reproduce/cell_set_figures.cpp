@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
+#include "fairway/cellular/border_backward_set.hpp"
+#include "fairway/cellular/border_forward_set.hpp"
 #include "fairway/report/canvas.hpp"
 #include "fairway/report/legend.hpp"
 #include "fairway/report/plot_frame.hpp"
-#include "fairway/verify/border_backward_set.hpp"
-#include "fairway/verify/border_forward_set.hpp"
 #include "reproduce/solid_view.hpp"
 
 namespace fairway::reproduce {

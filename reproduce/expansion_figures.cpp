@@ -9,17 +9,18 @@
 
 #include <fmt/format.h>
 
+#include "fairway/bitmap/bitmap_backward.hpp"
+#include "fairway/bitmap/bitmap_expansion.hpp"
+#include "fairway/bitmap/bitmap_row.hpp"
+#include "fairway/bitmap/bitmap_volume.hpp"
+#include "fairway/cellular/border_backward_set.hpp"
+#include "fairway/cellular/border_forward_set.hpp"
 #include "fairway/field/compute_field.hpp"
+#include "fairway/plan/plan_of_field.hpp"
 #include "fairway/report/canvas.hpp"
 #include "fairway/report/legend.hpp"
 #include "fairway/report/plot_frame.hpp"
-#include "fairway/verify/bitmap_backward.hpp"
-#include "fairway/verify/bitmap_expansion.hpp"
-#include "fairway/verify/bitmap_region.hpp"
-#include "fairway/verify/bitmap_row.hpp"
-#include "fairway/verify/bitmap_volume.hpp"
-#include "fairway/verify/border_backward_set.hpp"
-#include "fairway/verify/border_forward_set.hpp"
+#include "fairway/verify/region_of_interest.hpp"
 #include "reproduce/solid_view.hpp"
 
 namespace fairway::reproduce {
@@ -217,13 +218,7 @@ Plan plan_of_figure_23() {
   FieldOrRefusal answer = compute_field(map, vehicle, GoalMission{{64.0, 88.0}, {}}, {});
   if (const auto* refused = std::get_if<MissionRefusal>(&answer))
     throw std::runtime_error(refused->message);
-  Field& field = std::get<Field>(answer);
-  return {field.grid,
-          vehicle,
-          std::move(field.heading_rad),
-          std::move(field.region),
-          std::move(field.cost_m),
-          "{}"};
+  return plan_of_field(std::move(std::get<Field>(answer)), vehicle);
 }
 
 /// Fig. 23a: layers of equal heading over the workspace, lifted apart.
@@ -316,7 +311,7 @@ ExpansionFigures draw_expansion() {
   ExpansionFigures out;
   draw_column(out);
   const Plan plan = plan_of_figure_23();
-  const auto target = cells_of(plan, Region::goal);
+  const auto target = target_cells(plan.grid, plan.region, {});
   const BorderBitmap set = backward_reachable_set(plan, target, {samples_per_border});
   out.states = set.borders().count() * set.states_per_border();
   out.stored_bytes = set.bytes();

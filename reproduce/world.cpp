@@ -14,6 +14,7 @@
 #include "fairway/field/raw_field.hpp"
 #include "fairway/field/transition.hpp"
 #include "fairway/map/read_map.hpp"
+#include "fairway/plan/plan_of_field.hpp"
 #include "fairway/run/mission_on_map.hpp"
 #include "fairway/run/scenario.hpp"
 
@@ -52,13 +53,7 @@ Plan plan_in(const World& world, const FieldOptions& options) {
   FieldOrRefusal result = compute_field(world.map, world.vehicle, world.mission, options);
   if (const auto* refusal = std::get_if<MissionRefusal>(&result))
     throw std::runtime_error(refusal->message);
-  Field& field = std::get<Field>(result);
-  return {field.grid,
-          world.vehicle,
-          std::move(field.heading_rad),
-          std::move(field.region),
-          std::move(field.cost_m),
-          "{}"};
+  return plan_of_field(std::move(std::get<Field>(result)), world.vehicle);
 }
 
 FieldSteps steps_in(const World& world, const FieldOptions& options) {

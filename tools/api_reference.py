@@ -12,16 +12,17 @@ import sys
 
 # What a program that uses the library calls; headers behind these are no promise.
 HEADERS = {
-    "base": ["vec2", "heading", "grid", "error", "atomic_file", "random"],
+    "base": ["vec2", "heading", "grid", "frame", "error", "atomic_file", "random"],
     "vehicle": ["vehicle", "mission"],
     "map": ["region", "obstacle_map"],
     "field": ["field", "compute_field"],
-    "plan": ["plan", "plan_file"],
+    "plan": ["plan", "plan_record", "plan_of_field", "plan_file"],
     "simulate": ["flight", "exact_flight", "sampled_flight", "start_states", "flight_statistics",
-                 "track", "flight_files", "state_files", "qgc_mission"],
-    "verify": ["verdict", "certify", "verdict_map", "sample_verdicts"],
+                 "state_files"],
+    "verify": ["verdict", "region_of_interest", "certify", "verdict_map", "sample_verdicts"],
     "certificate": ["certificate", "certificate_file"],
     "steer": ["dubins_words", "shortest_law", "clf_law", "steering_flight", "clear_approach"],
+    "exchange": ["flight_files", "track", "qgc_mission"],
 }
 
 

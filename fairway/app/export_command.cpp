@@ -10,8 +10,9 @@
 #include "fairway/app/command.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/exchange/plan_rasters.hpp"
 #include "fairway/plan/plan_file.hpp"
-#include "fairway/run/export_raster.hpp"
+#include "fairway/run/ask_certificate.hpp"
 #include "fairway/run/product_file.hpp"
 
 namespace fairway {
@@ -40,11 +41,11 @@ CLI::Validator heading_argument() {
   return {check, "", "heading"};
 }
 
-std::string place_words(const WorldPlace& place) {
-  if (place.projected_crs) return "in the map's projected system";
-  if (place.geo) {
+std::string place_words(const Frame& frame) {
+  if (frame.projected_crs) return "in the map's projected system";
+  if (frame.geo) {
     return fmt::format("in the tangent plane about latitude {}, longitude {}",
-                       place.geo->latitude_deg, place.geo->longitude_deg);
+                       frame.geo->latitude_deg, frame.geo->longitude_deg);
   }
   return "in metres of the map, which has no place on Earth";
 }
@@ -53,7 +54,7 @@ int export_command(const ExportArguments& a, const Session& session) {
   require_writable_place(a.output, session.existing());
   const std::string where = a.product.string();
   std::vector<Heading> headings;
-  WorldPlace place;
+  Frame frame;
   const bool verdicts = product_kind(a.product) == ProductKind::certificate;
   if (verdicts) {
     for (const std::string& text : a.headings) {
@@ -61,27 +62,28 @@ int export_command(const ExportArguments& a, const Session& session) {
     }
     if (headings.empty()) headings = even_headings(8);
     const Certificate certificate = read_certificate(a.product);
-    place = world_place_of(certificate.record_json, where);
-    export_verdicts(certificate, where, headings, a.output, session.existing());
+    frame = certificate.frame.value_or(Frame{});
+    write_verdict_raster(certificate.grid, frame, verdict_layers(certificate, headings), a.output,
+                         session.existing());
   } else {
     if (!a.headings.empty()) {
       throw InputError(where, "is a plan: --heading asks for verdicts, which a certificate has");
     }
     const Plan plan = read_plan(a.product);
-    place = world_place_of(plan.record_json, where);
-    export_plan(plan, where, a.output, session.existing());
+    frame = frame_in(plan.record);
+    write_plan_raster(plan, a.output, session.existing());
   }
   json list = json::array();
   for (const Heading heading : headings) list.push_back(heading.rad());
   session.tell({{"raster", a.output.string()},
                 {"of", verdicts ? "verdicts" : "plan"},
                 {"headings_rad", verdicts ? list : json()},
-                {"on_earth", place.geo.has_value() || place.projected_crs.has_value()}},
+                {"on_earth", frame.geo.has_value() || frame.projected_crs.has_value()}},
                fmt::format("{} has {} {}.", a.output.string(),
                            verdicts ? fmt::format("the verdicts at {} heading{}", headings.size(),
                                                   headings.size() == 1 ? "" : "s")
                                     : "heading, cost and region of the plan",
-                           place_words(place)));
+                           place_words(frame)));
   return exit_done;
 }
 

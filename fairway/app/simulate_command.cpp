@@ -15,14 +15,14 @@
 #include "fairway/app/terminal_progress.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
+#include "fairway/exchange/flight_files.hpp"
+#include "fairway/exchange/qgc_mission.hpp"
+#include "fairway/map/degrees_from_frame.hpp"
 #include "fairway/plan/plan_file.hpp"
-#include "fairway/run/export_raster.hpp"
 #include "fairway/run/final_legs.hpp"
 #include "fairway/run/plan_record.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/simulate/exact_flight.hpp"
-#include "fairway/simulate/flight_files.hpp"
-#include "fairway/simulate/qgc_mission.hpp"
 #include "fairway/simulate/sampled_flight.hpp"
 #include "fairway/simulate/start_states.hpp"
 #include "fairway/simulate/state_files.hpp"
@@ -126,7 +126,7 @@ Flown fly_as_asked(const SimulateArguments& arguments, const Plan& plan,
   if (arguments.law == "exact") {
     const ExactFlights flights(plan);
     std::optional<FinalLegs> legs;
-    if (const auto goal = goal_pose_of(plan, arguments.plan.string())) legs.emplace(plan, *goal);
+    if (const auto goal = goal_pose_of(plan)) legs.emplace(plan, *goal);
     return fly(
         starts, with_tracks, legs, clock,
         [&](const State& s, std::size_t) { return flights.fly(s); },
@@ -215,7 +215,7 @@ std::string mission_text(const SimulateArguments& arguments, const Plan& plan,
                                  "--state",
                                  flights.size()));
   }
-  const LonLatOf lon_lat = lon_lat_of(plan, file);
+  const LonLatOf lon_lat = lon_lat_of(frame_in(plan.record), file);
   if (!lon_lat) {
     throw InputError(file,
                      "its map has no place on Earth, so that there is no latitude and longitude to "
@@ -246,7 +246,7 @@ int simulate_command(const SimulateArguments& arguments, const Session& session)
     stdout_used |= put(arguments.csv, session, text);
   }
   if (!arguments.geojson.empty()) {
-    const LonLatOf lon_lat = lon_lat_of(plan, arguments.plan.string());
+    const LonLatOf lon_lat = lon_lat_of(frame_in(plan.record), arguments.plan.string());
     const std::string text = flights_geojson(flown.recorded, step_m, lon_lat);
     stdout_used |= put(arguments.geojson, session, text);
   }

@@ -1,6 +1,6 @@
 // Three kinds of error, kept apart:
 //   InputError         bad input from outside, thrown by readers only; the command exits with 65.
-//   ContractViolation  a caller's mistake, always checked; our fault in the command (exit 70).
+//   PreconditionViolation  a caller's mistake, always checked; our fault in the command (exit 70).
 //   the domain's answer (goal unreachable, undecided) is a value, never an exception.
 #pragma once
 
@@ -21,14 +21,14 @@ class InputError : public std::runtime_error {
   std::string where_;
 };
 
-class ContractViolation : public std::logic_error {
+class PreconditionViolation : public std::logic_error {
  public:
   using std::logic_error::logic_error;
 };
 
-/// Throws ContractViolation when a caller's promise does not hold. Always on.
+/// Throws PreconditionViolation when a caller's promise does not hold. Always on.
 inline void require(bool holds, const char* promise) {
-  if (!holds) throw ContractViolation(promise);
+  if (!holds) throw PreconditionViolation(promise);
 }
 
 }  // namespace fairway

@@ -4,24 +4,20 @@
 // from region and region_of_interest (cell_kinds); those of section_verdicts.hpp.
 #pragma once
 
-#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "fairway/base/frame.hpp"
 #include "fairway/base/grid.hpp"
-#include "fairway/plan/plan.hpp"
+#include "fairway/map/region.hpp"
+#include "fairway/plan/plan_digests.hpp"
+#include "fairway/vehicle/vehicle.hpp"
 #include "fairway/verify/flow.hpp"
+#include "fairway/verify/region_of_interest.hpp"
 #include "fairway/verify/section_verdicts.hpp"
 
 namespace fairway {
-
-/// What flights are to reach. It takes the goal's place: with another region, goal cells are
-/// ordinary cells; with obstacles, touching one is to reach.
-struct RegionOfInterest {
-  enum class Kind { goal, obstacle, rectangle };
-  Kind kind = Kind::goal;
-  std::array<double, 4> rectangle_m{};  ///< x0, y0, x1, y1; cells wholly inside
-};
 
 struct Certificate {
   Grid grid;
@@ -31,19 +27,15 @@ struct Certificate {
   std::vector<Region> region;      ///< [iy][ix]
   std::vector<CellKind> kind;      ///< [iy][ix]
   SectionVerdicts sections;
-  /// The rest of the metadata, one JSON object: digests of the plan, options, volumes.
-  std::string record_json = "{}";
+  PlanDigests plan;            ///< which plan it is of
+  std::optional<Frame> frame;  ///< where the plan's grid lies; none: the plan did not say
+  /// How it was found and what it amounts to, one JSON object: program, options, volumes, levels.
+  std::string evidence_json = "{}";
 
-  Flow flow() const {
-    return {grid.nx,
-            grid.ny,
-            grid.x0_m,
-            grid.y0_m,
-            {grid.cell_m, vehicle.turn_radius_m},
-            vehicle.speed_mps,
-            heading_rad.data(),
-            kind.data()};
-  }
+  Flow flow() const { return {grid, vehicle, heading_rad.data(), kind.data()}; }
 };
+
+/// What a certificate's file says beside its arrays, one JSON object with sorted keys.
+[[nodiscard]] std::string record_text(const Certificate& certificate);
 
 }  // namespace fairway

@@ -10,6 +10,7 @@
 
 #include "fairway/base/digest.hpp"
 #include "fairway/base/error.hpp"
+#include "fairway/base/frame_json.hpp"
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/base/safetensors.hpp"
@@ -23,18 +24,18 @@ using nlohmann::json;
 constexpr const char* format_name = "fairway-certificate";
 constexpr int format_version = 1;
 
-std::array<double, 6> geometry_of(const Certificate& c) {
+Geometry geometry_of(const Certificate& c) {
   return {c.grid.x0_m,         c.grid.y0_m,   c.grid.cell_m, c.vehicle.turn_radius_m,
           c.vehicle.speed_mps, units_per_side};
 }
 
 /// Wide types first, so that every array is aligned.
-std::vector<Tensor> tensors_of(const Certificate& c, const std::array<double, 6>& geometry) {
+std::vector<Tensor> tensors_of(const Certificate& c, const Geometry& geometry) {
   const std::vector<std::uint64_t> cells{static_cast<std::uint64_t>(c.grid.ny),
                                          static_cast<std::uint64_t>(c.grid.nx)};
   const std::vector<std::uint64_t> leaves{c.sections.leaves()};
   const auto bytes = [](const auto& array) { return std::as_bytes(std::span(array)); };
-  return {{"geometry", "F64", {6}, bytes(geometry)},
+  return {{"geometry", "F64", {geometry_numbers}, std::as_bytes(std::span(&geometry, 1))},
           {"heading_rad", "F32", cells, bytes(c.heading_rad)},
           {"section_first", "U32", {c.sections.first.size()}, bytes(c.sections.first)},
           {"leaf_begin", "U32", leaves, bytes(c.sections.begin)},
@@ -53,6 +54,19 @@ json digests_of(const std::vector<Tensor>& tensors) {
   json all = json::object();
   for (std::size_t i = 0; i < tensors.size(); ++i) all[tensors[i].name] = digest[i];
   return all;
+}
+
+json record_of(const Certificate& c) {
+  json record = json::parse(c.evidence_json, nullptr, false);
+  require(record.is_object(), "evidence_json is one JSON object");
+  record["plan_sha256"] = json::parse(json_text(c.plan));
+  record["frame"] = c.frame ? json_of(*c.frame) : json();
+  return record;
+}
+
+PlanDigests plan_digests_of(const json& value, const std::string& where) {
+  return {text_member(value, "heading_rad", where), text_member(value, "cost_m", where),
+          text_member(value, "region", where)};
 }
 
 json json_of(const RegionOfInterest& region) {
@@ -121,18 +135,14 @@ void take_cells(const Safetensors& file, const std::string& where, Certificate& 
   c.heading_rad = array_of<float>(file, "heading_rad", "F32", cells, where);
   c.region = array_of<Region>(file, "region", "I8", cells, where);
   c.kind = array_of<CellKind>(file, "cell_kind", "U8", cells, where);
-  const auto g = array_of<double>(file, "geometry", "F64", {6}, where);
-  c.grid.x0_m = g[0];
-  c.grid.y0_m = g[1];
-  c.grid.cell_m = g[2];
-  c.vehicle.turn_radius_m = g[3];
-  c.vehicle.speed_mps = g[4];
-  const bool finite = std::isfinite(g[0]) && std::isfinite(g[1]) && std::isfinite(g[3]) &&
-                      std::isfinite(g[4]) && g[5] == units_per_side;
-  if (!finite || !(g[2] > 0.0 && g[3] > g[2] && g[4] > 0.0)) {
+  const auto numbers = array_of<double>(file, "geometry", "F64", {geometry_numbers}, where);
+  Geometry g;
+  std::memcpy(&g, numbers.data(), sizeof g);
+  if (!g.is_valid()) {
     throw InputError(where + ": \"geometry\"",
                      "expected finite numbers, 0 < cell_m < turn_radius_m, speed_mps > 0, 2^32");
   }
+  g.put_into(c.grid, c.vehicle);
 }
 
 void take_sections(const Safetensors& file, const std::string& where, Certificate& c) {
@@ -159,45 +169,22 @@ void take_sections(const Safetensors& file, const std::string& where, Certificat
 
 }  // namespace
 
-std::vector<CellKind> cell_kinds(const Grid& grid, const std::vector<Region>& region,
-                                 const RegionOfInterest& interest) {
-  using Of = RegionOfInterest::Kind;
-  std::vector<CellKind> kind(grid.size(), CellKind::ordinary);
-  const auto& [x0, y0, x1, y1] = interest.rectangle_m;
-  for (std::size_t i = 0; i < kind.size(); ++i) {
-    if (region[i] == Region::obstacle) {
-      kind[i] = interest.kind == Of::obstacle ? CellKind::target : CellKind::obstacle;
-    } else if (interest.kind == Of::goal) {
-      if (region[i] == Region::goal) kind[i] = CellKind::target;
-    } else if (interest.kind == Of::rectangle) {
-      const Vec2 low = grid.corner(grid.cell_at(i));
-      const Vec2 high{low.x + grid.cell_m, low.y + grid.cell_m};
-      if (low.x >= x0 && low.y >= y0 && high.x <= x1 && high.y <= y1) kind[i] = CellKind::target;
-    }
-  }
-  return kind;
-}
-
-std::string plan_digests_json(const Plan& plan) {
-  const auto digest = [](const auto& array) { return sha256_hex(std::as_bytes(std::span(array))); };
-  const json all = {{"heading_rad", digest(plan.heading_rad)},
-                    {"cost_m", digest(plan.cost_m)},
-                    {"region", digest(plan.region)}};
-  return all.dump();
+std::string record_text(const Certificate& c) {
+  return record_of(c).dump(-1, ' ', true, json::error_handler_t::replace);
 }
 
 void write_certificate(const Certificate& c, const std::filesystem::path& path, Existing existing) {
   AtomicFile file(path, existing);
-  const std::array<double, 6> geometry = geometry_of(c);
+  const Geometry geometry = geometry_of(c);
   const std::vector<Tensor> tensors = tensors_of(c, geometry);
-  json record = json::parse(c.record_json, nullptr, false);
-  require(record.is_object(), "record_json is one JSON object");
+  json record = record_of(c);
   record["format"] = format_name;
   record["format_version"] = format_version;
   record["method"] = "certified";
   record["region_of_interest"] = json_of(c.region_of_interest);
   record["sha256"] = digests_of(tensors);
-  write_safetensors(file, {{{"fairway", record.dump(-1, ' ', true)}}, tensors});
+  write_safetensors(
+      file, {{{"fairway", record.dump(-1, ' ', true, json::error_handler_t::replace)}}, tensors});
   file.commit();
 }
 
@@ -235,10 +222,15 @@ Certificate read_certificate(const std::filesystem::path& path) {
   if (cell_kinds(c.grid, c.region, c.region_of_interest) != c.kind) {
     throw InputError(where + ": \"cell_kind\"", "does not follow from region");
   }
-  for (const char* key : {"format", "format_version", "method", "region_of_interest", "sha256"}) {
+  c.plan = plan_digests_of(member(record, "plan_sha256", place), place + ".plan_sha256");
+  if (const auto frame = record.find("frame"); frame != record.end() && !frame->is_null()) {
+    c.frame = frame_of(*frame, place + ".frame");
+  }
+  for (const char* key : {"format", "format_version", "method", "region_of_interest", "sha256",
+                          "plan_sha256", "frame"}) {
     record.erase(key);
   }
-  c.record_json = record.dump(-1, ' ', true);
+  c.evidence_json = record.dump();
   return c;
 }
 

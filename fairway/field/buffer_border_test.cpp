@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "fairway/field/distance_transform.hpp"
-#include "fairway/field/sample_maps.hpp"
+#include "fairway/field/testing/sample_maps.hpp"
 
 namespace fairway {
 namespace {

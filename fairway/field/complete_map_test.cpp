@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "fairway/base/error.hpp"
-#include "fairway/field/sample_maps.hpp"
+#include "fairway/field/testing/sample_maps.hpp"
 
 namespace fairway {
 namespace {
@@ -415,7 +415,7 @@ TEST(Assumption1, AGoalAtTheCornerOfFourCellsOrOfTheMapIsPlaced) {
 TEST(Assumption1, APathWithoutLengthIsNoMission) {
   const ObstacleMap map = samples::map_of(Mask(20, 20), 1.0);
   const PathMission path{{{5.0, 5.0}, {5.0, 5.0}}, true};
-  EXPECT_THROW(static_cast<void>(placed(map, path, {})), ContractViolation);
+  EXPECT_THROW(static_cast<void>(placed(map, path, {})), PreconditionViolation);
 }
 
 TEST(Assumption1, APathKeepsItsCellsAndTheirTangents) {

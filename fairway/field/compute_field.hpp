@@ -9,7 +9,7 @@
 
 namespace fairway {
 
-/// Throws ContractViolation when vehicle, mission or options are out of range or not finite;
+/// Throws PreconditionViolation when vehicle, mission or options are out of range or not finite;
 /// readers check them before. A mission that the map does not allow is a MissionRefusal.
 [[nodiscard]] FieldOrRefusal compute_field(const ObstacleMap& map, const Vehicle& vehicle,
                                            const Mission& mission, const FieldOptions& options);

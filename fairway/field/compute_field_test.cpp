@@ -11,7 +11,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/heading.hpp"
-#include "fairway/field/sample_maps.hpp"
+#include "fairway/field/testing/sample_maps.hpp"
 
 namespace fairway {
 namespace {
@@ -411,34 +411,37 @@ TEST(ComputeField, BrokenPromisesThrow) {
   };
   EXPECT_NO_THROW(with_options([](FieldOptions&) {})());
   for (const double bad : {0.0, -1.0, inf, std::nan("")}) {
-    EXPECT_THROW(with_options([=](auto& o) { o.alpha = bad; })(), ContractViolation) << bad;
-    EXPECT_THROW(with_options([=](auto& o) { o.beta = bad; })(), ContractViolation) << bad;
-    EXPECT_THROW(with_options([=](auto& o) { o.mu_path = bad; })(), ContractViolation) << bad;
-    EXPECT_THROW(with_options([=](auto& o) { o.mu_border = bad; })(), ContractViolation) << bad;
-    EXPECT_THROW(with_map([=](auto& m) { m.grid.cell_m = bad; })(), ContractViolation) << bad;
-    EXPECT_THROW((void)compute_field(map, {bad, 4.0}, mission, modest()), ContractViolation);
-    EXPECT_THROW((void)compute_field(map, {10.0, bad}, mission, modest()), ContractViolation);
+    EXPECT_THROW(with_options([=](auto& o) { o.alpha = bad; })(), PreconditionViolation) << bad;
+    EXPECT_THROW(with_options([=](auto& o) { o.beta = bad; })(), PreconditionViolation) << bad;
+    EXPECT_THROW(with_options([=](auto& o) { o.mu_path = bad; })(), PreconditionViolation) << bad;
+    EXPECT_THROW(with_options([=](auto& o) { o.mu_border = bad; })(), PreconditionViolation) << bad;
+    EXPECT_THROW(with_map([=](auto& m) { m.grid.cell_m = bad; })(), PreconditionViolation) << bad;
+    EXPECT_THROW((void)compute_field(map, {bad, 4.0}, mission, modest()), PreconditionViolation);
+    EXPECT_THROW((void)compute_field(map, {10.0, bad}, mission, modest()), PreconditionViolation);
   }
   for (const double bad : {-1e-9, inf, std::nan("")}) {
-    EXPECT_THROW(with_options([=](auto& o) { o.sigma_cells = bad; })(), ContractViolation) << bad;
-    EXPECT_THROW(with_options([=](auto& o) { o.sigma_path = bad; })(), ContractViolation) << bad;
-    EXPECT_THROW(with_options([=](auto& o) { o.sigma_border = bad; })(), ContractViolation) << bad;
-    EXPECT_THROW(with_options([=](auto& o) { o.axis_capture_rad = bad; })(), ContractViolation);
+    EXPECT_THROW(with_options([=](auto& o) { o.sigma_cells = bad; })(), PreconditionViolation)
+        << bad;
+    EXPECT_THROW(with_options([=](auto& o) { o.sigma_path = bad; })(), PreconditionViolation)
+        << bad;
+    EXPECT_THROW(with_options([=](auto& o) { o.sigma_border = bad; })(), PreconditionViolation)
+        << bad;
+    EXPECT_THROW(with_options([=](auto& o) { o.axis_capture_rad = bad; })(), PreconditionViolation);
   }
-  EXPECT_THROW(with_options([](auto& o) { o.mu_path = 1.01; })(), ContractViolation);
-  EXPECT_THROW(with_options([](auto& o) { o.mu_border = 1.01; })(), ContractViolation);
-  EXPECT_THROW(with_map([](auto& m) { m.obstacle.pop_back(); })(), ContractViolation);
-  EXPECT_THROW(with_map([](auto& m) { m.grid.nx = 0; })(), ContractViolation);
-  EXPECT_THROW(with_map([](auto& m) { m.grid.x0_m = inf; })(), ContractViolation);
-  EXPECT_THROW((void)compute_field(map, {10.0, 1.0}, mission, modest()), ContractViolation)
+  EXPECT_THROW(with_options([](auto& o) { o.mu_path = 1.01; })(), PreconditionViolation);
+  EXPECT_THROW(with_options([](auto& o) { o.mu_border = 1.01; })(), PreconditionViolation);
+  EXPECT_THROW(with_map([](auto& m) { m.obstacle.pop_back(); })(), PreconditionViolation);
+  EXPECT_THROW(with_map([](auto& m) { m.grid.nx = 0; })(), PreconditionViolation);
+  EXPECT_THROW(with_map([](auto& m) { m.grid.x0_m = inf; })(), PreconditionViolation);
+  EXPECT_THROW((void)compute_field(map, {10.0, 1.0}, mission, modest()), PreconditionViolation)
       << "a turning radius not larger than the cell";
   EXPECT_THROW((void)compute_field(map, vehicle, GoalMission{{inf, 1.0}, {}}, modest()),
-               ContractViolation);
+               PreconditionViolation);
   EXPECT_THROW((void)compute_field(map, vehicle, PathMission{{{1.0, 1.0}}}, modest()),
-               ContractViolation);
+               PreconditionViolation);
   EXPECT_THROW(
       (void)compute_field(map, vehicle, PathMission{{{1.0, 1.0}, {2.0, std::nan("")}}}, modest()),
-      ContractViolation);
+      PreconditionViolation);
 }
 
 }  // namespace

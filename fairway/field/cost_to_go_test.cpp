@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "fairway/field/octile.hpp"
-#include "fairway/field/sample_maps.hpp"
+#include "fairway/field/testing/sample_maps.hpp"
 #include "fairway/vehicle/path_geometry.hpp"
 
 namespace fairway {

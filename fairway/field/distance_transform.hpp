@@ -32,7 +32,7 @@ struct DistanceOutput {
 };
 
 /// `feature`: [iy][ix], nx * ny entries, not zero where the feature is. Sides up to
-/// largest_distance_side, else ContractViolation.
+/// largest_distance_side, else PreconditionViolation.
 void distance_transform(std::span<const std::uint8_t> feature, int nx, int ny,
                         const DistanceOutput& output);
 

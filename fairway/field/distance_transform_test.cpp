@@ -7,7 +7,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "fairway/base/error.hpp"
-#include "fairway/field/sample_maps.hpp"
+#include "fairway/field/testing/sample_maps.hpp"
 
 namespace fairway {
 namespace {
@@ -156,12 +156,12 @@ TEST(DistanceTransform, RefusesSizesThatDoNotFit) {
   const Mask m(4, 3);
   std::vector<std::int32_t> squared(12), short_squared(11);
   std::vector<std::uint32_t> long_nearest(13);
-  EXPECT_THROW(distance_transform(m.cells, 4, 4, {squared, {}}), ContractViolation);
-  EXPECT_THROW(distance_transform(m.cells, 4, 3, {short_squared, {}}), ContractViolation);
-  EXPECT_THROW(distance_transform(m.cells, 4, 3, {{}, long_nearest}), ContractViolation);
-  EXPECT_THROW(distance_transform(m.cells, -4, -3, {squared, {}}), ContractViolation);
+  EXPECT_THROW(distance_transform(m.cells, 4, 4, {squared, {}}), PreconditionViolation);
+  EXPECT_THROW(distance_transform(m.cells, 4, 3, {short_squared, {}}), PreconditionViolation);
+  EXPECT_THROW(distance_transform(m.cells, 4, 3, {{}, long_nearest}), PreconditionViolation);
+  EXPECT_THROW(distance_transform(m.cells, -4, -3, {squared, {}}), PreconditionViolation);
   const Mask wide(largest_distance_side + 1, 1);
-  EXPECT_THROW(distance_transform(wide.cells, wide.nx, wide.ny, {}), ContractViolation);
+  EXPECT_THROW(distance_transform(wide.cells, wide.nx, wide.ny, {}), PreconditionViolation);
   EXPECT_NO_THROW(distance_transform({}, 0, 5, {}));
 }
 

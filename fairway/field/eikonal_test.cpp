@@ -12,7 +12,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/field/octile.hpp"
-#include "fairway/field/sample_maps.hpp"
+#include "fairway/field/testing/sample_maps.hpp"
 
 namespace fairway {
 namespace {
@@ -379,10 +379,10 @@ TEST(Eikonal, RefusesSourcesOffTheGridOrWithoutADistance) {
   for (const EikonalSource bad :
        {EikonalSource{12, 0.0F}, EikonalSource{0, -1.0F}, EikonalSource{0, nan},
         EikonalSource{0, inf}, EikonalSource{0, 1.0e6F}}) {
-    EXPECT_THROW((void)solved(inside, {bad}), ContractViolation) << bad.distance_cells;
+    EXPECT_THROW((void)solved(inside, {bad}), PreconditionViolation) << bad.distance_cells;
   }
-  EXPECT_THROW((void)eikonal_distance(inside.cells, 4, 4, {}), ContractViolation);
-  EXPECT_THROW((void)eikonal_distance(inside.cells, -4, -3, {}), ContractViolation);
+  EXPECT_THROW((void)eikonal_distance(inside.cells, 4, 4, {}), PreconditionViolation);
+  EXPECT_THROW((void)eikonal_distance(inside.cells, -4, -3, {}), PreconditionViolation);
 }
 
 }  // namespace

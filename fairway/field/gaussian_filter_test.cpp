@@ -11,7 +11,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/field/gaussian_band.hpp"
-#include "fairway/field/sample_maps.hpp"
+#include "fairway/field/testing/sample_maps.hpp"
 
 namespace fairway {
 namespace {
@@ -118,7 +118,7 @@ TEST(GaussianFilter, HasTheKernelOfEquation20) {
     EXPECT_EQ(gaussian_half_width(sigma), half) << "sigma " << sigma;
   }
   for (const double bad : {0.0, -1.0, std::nan(""), 1e300}) {
-    EXPECT_THROW((void)gaussian_half_width(bad), ContractViolation);
+    EXPECT_THROW((void)gaussian_half_width(bad), PreconditionViolation);
   }
 }
 
@@ -256,7 +256,7 @@ TEST(GaussianFilterBetweenWalls, AMapOfWallsAloneGivesNothing) {
 TEST(GaussianFilterBetweenWalls, RefusesWallsOfAnotherSize) {
   VectorField f(12);
   const Mask wall(3, 3);
-  EXPECT_THROW(gaussian_filter_between_walls(f, wall.cells, 4, 3, 1.0), ContractViolation);
+  EXPECT_THROW(gaussian_filter_between_walls(f, wall.cells, 4, 3, 1.0), PreconditionViolation);
 }
 
 // A plane in bands of `height` rows, one after the other.

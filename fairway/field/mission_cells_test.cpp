@@ -280,7 +280,7 @@ TEST(CellsOnPath, AlongALineBetweenCellsBothSidesCount) {
 TEST(CellsOnPath, APathWithoutLengthOrOutsideTheGridHasNoCells) {
   const Grid g{6, 6, 0.0, 0.0, 1.0};
   EXPECT_TRUE(cells_on_path(g, {{{2.5, 2.5}, {2.5, 2.5}}, true}).empty());
-  EXPECT_THROW((void)cells_on_path(g, {{}, false}), ContractViolation);
+  EXPECT_THROW((void)cells_on_path(g, {{}, false}), PreconditionViolation);
   EXPECT_TRUE(cells_on_path(g, {{{-5.0, 1.0}, {-1.0, 5.0}}, false}).empty());
   EXPECT_TRUE(cells_on_path(g, {{{7.0, 1.0}, {9.0, 1.0}}, false}).empty());
   EXPECT_TRUE(cells_on_path(g, {{{1.0, 8.0}, {1.0, 7.0}}, false}).empty());

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "fairway/base/error.hpp"
-#include "fairway/field/sample_maps.hpp"
+#include "fairway/field/testing/sample_maps.hpp"
 
 namespace fairway {
 namespace {
@@ -109,10 +109,10 @@ TEST(OctileDistance, DiagonalStepsPassBetweenTwoBlockedCells) {
 TEST(OctileDistance, RefusesSourcesOffTheGridAndWrongSizes) {
   const Mask inside(3, 2, 1);
   const std::vector<std::uint32_t> off{6};
-  EXPECT_THROW((void)octile_distance(inside.cells, 3, 2, off), ContractViolation);
-  EXPECT_THROW((void)octile_distance(inside.cells, 3, 3, {}), ContractViolation);
-  EXPECT_THROW((void)paper_wavefront(inside.cells, 3, 2, off, 1.0F, 0), ContractViolation);
-  EXPECT_THROW((void)paper_wavefront(inside.cells, 3, 3, {}, 1.0F, 0), ContractViolation);
+  EXPECT_THROW((void)octile_distance(inside.cells, 3, 2, off), PreconditionViolation);
+  EXPECT_THROW((void)octile_distance(inside.cells, 3, 3, {}), PreconditionViolation);
+  EXPECT_THROW((void)paper_wavefront(inside.cells, 3, 2, off, 1.0F, 0), PreconditionViolation);
+  EXPECT_THROW((void)paper_wavefront(inside.cells, 3, 3, {}, 1.0F, 0), PreconditionViolation);
 }
 
 // Lines 3 to 13 of Algorithm 2, and 4 to 15 of Algorithm 1: a new map from the old one, sweep by

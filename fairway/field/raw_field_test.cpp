@@ -10,7 +10,7 @@
 
 #include "fairway/field/cost_to_go.hpp"
 #include "fairway/field/distance_transform.hpp"
-#include "fairway/field/sample_maps.hpp"
+#include "fairway/field/testing/sample_maps.hpp"
 #include "fairway/vehicle/path_geometry.hpp"
 
 namespace fairway {

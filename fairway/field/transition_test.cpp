@@ -12,7 +12,7 @@
 #include "fairway/field/cost_to_go.hpp"
 #include "fairway/field/distance_transform.hpp"
 #include "fairway/field/raw_field.hpp"
-#include "fairway/field/sample_maps.hpp"
+#include "fairway/field/testing/sample_maps.hpp"
 
 namespace fairway {
 namespace {

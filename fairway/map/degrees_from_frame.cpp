@@ -34,15 +34,16 @@ std::shared_ptr<OGRCoordinateTransformation> to_degrees(const std::string& proje
 
 }  // namespace
 
-std::function<GeodeticPoint(Vec2)> degrees_from_frame(
-    const std::optional<GeoReference>& geo, const std::optional<std::string>& projected_crs,
-    const std::string& where) {
-  if (geo) {
-    const TangentPlane plane({geo->latitude_deg, geo->longitude_deg});
-    return [plane](Vec2 position_m) { return plane.from_plane(position_m); };
+LonLatOf lon_lat_of(const Frame& frame, const std::string& where) {
+  if (frame.geo) {
+    const TangentPlane plane({frame.geo->latitude_deg, frame.geo->longitude_deg});
+    return [plane](Vec2 position_m) {
+      const GeodeticPoint point = plane.from_plane(position_m);
+      return LonLat{point.longitude_deg, point.latitude_deg};
+    };
   }
-  if (!projected_crs) return {};
-  return [projection = to_degrees(*projected_crs, where), where](Vec2 position_m) {
+  if (!frame.projected_crs) return {};
+  return [projection = to_degrees(*frame.projected_crs, where), where](Vec2 position_m) {
     const GdalSession session;
     double x = position_m.x;
     double y = position_m.y;
@@ -50,7 +51,7 @@ std::function<GeodeticPoint(Vec2)> degrees_from_frame(
       throw InputError(where, fmt::format("({:g}, {:g}) lies outside its reference system",
                                           position_m.x, position_m.y));
     }
-    return GeodeticPoint{y, x};
+    return LonLat{x, y};
   };
 }
 

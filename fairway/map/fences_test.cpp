@@ -7,8 +7,8 @@
 
 #include "fairway/base/heading.hpp"
 #include "fairway/map/read_map.hpp"
-#include "fairway/map/scratch_folder.hpp"
 #include "fairway/map/tangent_plane.hpp"
+#include "fairway/map/testing/scratch_folder.hpp"
 
 namespace fairway {
 namespace {
@@ -97,9 +97,9 @@ TEST_F(Fences, GeoJsonPolygonsAreObstaclesWithHoles) {
   EXPECT_FALSE(blocked(map, {0, 0}));
   EXPECT_FALSE(blocked(map, {15, 15}));
   EXPECT_FALSE(blocked(map, {45, 45}));
-  ASSERT_TRUE(map.geo.has_value());
-  EXPECT_EQ(map.geo->latitude_deg, zurich.latitude_deg);
-  EXPECT_EQ(map.geo->longitude_deg, zurich.longitude_deg);
+  ASSERT_TRUE(map.frame.geo.has_value());
+  EXPECT_EQ(map.frame.geo->latitude_deg, zurich.latitude_deg);
+  EXPECT_EQ(map.frame.geo->longitude_deg, zurich.longitude_deg);
 }
 
 TEST_F(Fences, EveryKindOfGeoJsonDocumentIsRead) {
@@ -208,13 +208,13 @@ TEST_F(Fences, AMissionWithoutFencesIsAnOpenWorldAroundIt) {
 TEST_F(Fences, TheReferenceIsTheRequestsElseHomeElseTheMiddle) {
   MapRequest request = this->request("a.plan", plan(plan_square(100, 0, 40, true)));
   request.reference.reset();
-  EXPECT_EQ(read_map(request).geo->latitude_deg, 47.3977);
+  EXPECT_EQ(read_map(request).frame.geo->latitude_deg, 47.3977);
   request = this->request("a.geojson", polygon(square(100, 0, 40)));
   request.reference.reset();
   const ObstacleMap map = read_map(request);
   const GeodeticPoint middle = at(100, 0);
-  EXPECT_NEAR(map.geo->latitude_deg, middle.latitude_deg, 1e-7);
-  EXPECT_NEAR(map.geo->longitude_deg, middle.longitude_deg, 1e-7);
+  EXPECT_NEAR(map.frame.geo->latitude_deg, middle.latitude_deg, 1e-7);
+  EXPECT_NEAR(map.frame.geo->longitude_deg, middle.longitude_deg, 1e-7);
 }
 
 TEST_F(Fences, AHomeFarAwayIsNoOrigin) {
@@ -223,7 +223,7 @@ TEST_F(Fences, AHomeFarAwayIsNoOrigin) {
   MapRequest request = this->request("a.plan", text);
   request.reference.reset();
   const ObstacleMap map = read_map(request);
-  EXPECT_NEAR(map.geo->latitude_deg, zurich.latitude_deg, 1e-6);
+  EXPECT_NEAR(map.frame.geo->latitude_deg, zurich.latitude_deg, 1e-6);
   EXPECT_THAT(map.warnings, ::testing::ElementsAre(HasSubstr("farther than 100 km")));
 }
 
@@ -313,7 +313,7 @@ TEST_F(Fences, AnArduPilotFenceIsAKeepInRingAboutItsReturnPoint) {
   EXPECT_NEAR(map.grid.x0_m, -52.0, 0.01);
   EXPECT_FALSE(blocked(map, {0, 0}));
   EXPECT_FALSE(blocked(map, {45, 45}));
-  EXPECT_NEAR(map.geo->latitude_deg, zurich.latitude_deg, 1e-9);
+  EXPECT_NEAR(map.frame.geo->latitude_deg, zurich.latitude_deg, 1e-9);
 
   EXPECT_EQ(error("a.txt", line(0, 0) + ring),
             "a.txt:5: the ring is not closed: the last point differs from the first corner in line "

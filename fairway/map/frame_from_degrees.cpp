@@ -18,22 +18,23 @@ struct FrameFromDegrees::Conversion {
   std::unique_ptr<OGRCoordinateTransformation> projection;
 };
 
-bool has_geographic_frame(const ObstacleMap& map) { return map.geo || map.projected_crs; }
+bool has_geographic_frame(const ObstacleMap& map) { return map.frame.is_on_earth(); }
 
 FrameFromDegrees::FrameFromDegrees(const ObstacleMap& map, const std::filesystem::path& file)
     : conversion_(std::make_unique<Conversion>()) {
-  if (map.geo) {
-    conversion_->plane.emplace(GeodeticPoint{map.geo->latitude_deg, map.geo->longitude_deg});
+  if (map.frame.geo) {
+    conversion_->plane.emplace(
+        GeodeticPoint{map.frame.geo->latitude_deg, map.frame.geo->longitude_deg});
     return;
   }
-  if (!map.projected_crs)
+  if (!map.frame.projected_crs)
     throw InputError(file.string(),
                      "is in degrees, but the map does not say where on Earth it lies; expected x_m "
                      "and y_m in the map's metres");
   OGRSpatialReference from;
   OGRSpatialReference to;
   if (from.SetWellKnownGeogCS("WGS84") != OGRERR_NONE ||
-      to.importFromWkt(map.projected_crs->c_str()) != OGRERR_NONE)
+      to.importFromWkt(map.frame.projected_crs->c_str()) != OGRERR_NONE)
     throw InputError(file.string(), "cannot be laid on the map: its reference system is unknown: " +
                                         conversion_->session.message());
   from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);

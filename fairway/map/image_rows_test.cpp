@@ -9,7 +9,7 @@
 
 #include "fairway/base/random.hpp"
 #include "fairway/map/occupancy.hpp"
-#include "fairway/map/scratch_folder.hpp"
+#include "fairway/map/testing/scratch_folder.hpp"
 
 namespace fairway {
 namespace {

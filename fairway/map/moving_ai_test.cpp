@@ -3,7 +3,7 @@
 #include <rapidcheck.h>
 
 #include "fairway/map/read_map.hpp"
-#include "fairway/map/scratch_folder.hpp"
+#include "fairway/map/testing/scratch_folder.hpp"
 
 namespace fairway {
 namespace {

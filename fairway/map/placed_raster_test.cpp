@@ -9,7 +9,7 @@
 
 #include "fairway/map/read_map.hpp"
 #include "fairway/map/read_path.hpp"
-#include "fairway/map/scratch_folder.hpp"
+#include "fairway/map/testing/scratch_folder.hpp"
 
 namespace fairway {
 namespace {
@@ -73,8 +73,8 @@ TEST_F(PlacedRaster, GroundAboveTheAltitudeMinusTheMarginBlocks) {
   const ObstacleMap map = read_map(request);
   EXPECT_EQ(map.grid, (Grid{3, 2, 600000.0, 5199996.0, 2.0}));
   EXPECT_EQ(map.obstacle, (std::vector<std::uint8_t>{0, 1, 1, 0, 0, 0}));
-  EXPECT_TRUE(map.projected_crs.has_value());
-  EXPECT_FALSE(map.geo.has_value());
+  EXPECT_TRUE(map.frame.projected_crs.has_value());
+  EXPECT_FALSE(map.frame.geo.has_value());
   request.margin_m = 15.0;  // 30 is not above 45 - 15
   EXPECT_EQ(read_map(request).obstacle, (std::vector<std::uint8_t>{1, 1, 1, 0, 0, 0}));
   request.margin_m = 15.001;

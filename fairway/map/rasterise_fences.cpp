@@ -288,7 +288,7 @@ ObstacleMap rasterise(const FenceSet& fences, const RasteriseOptions& options, I
   ObstacleMap map;
   map.obstacle = rasteriser.cells();
   map.grid = close_world(inner, extent, options, map.obstacle);
-  map.geo = fences.geo;
+  map.frame.geo = fences.geo;
   map.inputs = fences.inputs;
   map.warnings = fences.warnings;
   return map;

@@ -175,8 +175,8 @@ ObstacleMap rasterise(const SourceRaster& source, const RasteriseOptions& option
   else
     rasteriser.without_growth();
   map.grid = close_world(inner, extent, options, map.obstacle);
-  map.world_from_grid = source.world_from_grid;
-  map.projected_crs = source.projected_crs;
+  map.frame.world_from_grid = source.world_from_grid;
+  map.frame.projected_crs = source.projected_crs;
   map.inputs = source.inputs;
   map.warnings = source.warnings;
   return map;

@@ -127,7 +127,7 @@ ObstacleMap read_kind(Kind kind, const MapRequest& request) {
     case Kind::fence:
       return rasterise_fences(read_ardupilot_fence(read_source(request.file)), request);
   }
-  throw ContractViolation("a kind of map without a reader");
+  throw PreconditionViolation("a kind of map without a reader");
 }
 
 }  // namespace

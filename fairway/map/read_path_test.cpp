@@ -5,8 +5,8 @@
 #include <rapidcheck.h>
 
 #include "fairway/map/read_map.hpp"
-#include "fairway/map/scratch_folder.hpp"
 #include "fairway/map/tangent_plane.hpp"
+#include "fairway/map/testing/scratch_folder.hpp"
 
 namespace fairway {
 namespace {
@@ -22,7 +22,7 @@ class ReadPath : public ::testing::Test {
     plain_.grid = {100, 50, -10.0, -5.0, 1.0};
     plain_.obstacle.resize(plain_.grid.size());
     geographic_ = plain_;
-    geographic_.geo = GeoReference{zurich.latitude_deg, zurich.longitude_deg, 0.0};
+    geographic_.frame.geo = GeoReference{zurich.latitude_deg, zurich.longitude_deg, 0.0};
   }
   std::vector<Vec2> read(const std::string& text, const std::string& name = "line.csv",
                          bool closed = false) {

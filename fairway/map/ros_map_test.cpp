@@ -7,7 +7,7 @@
 #include "fairway/base/digest.hpp"
 #include "fairway/base/random.hpp"
 #include "fairway/map/read_map.hpp"
-#include "fairway/map/scratch_folder.hpp"
+#include "fairway/map/testing/scratch_folder.hpp"
 
 namespace fairway {
 namespace {
@@ -154,16 +154,16 @@ TEST_F(RosMap, TheOriginIsTheLowerLeftCornerAndTheFirstImageRowTheTop) {
   EXPECT_EQ(map.grid.nx, 1);
   EXPECT_EQ(map.grid.ny, 2);
   EXPECT_EQ(map.obstacle, (std::vector<std::uint8_t>{0, 1}));
-  EXPECT_EQ(map.world_from_grid.yaw_rad, 0.0);
+  EXPECT_EQ(map.frame.world_from_grid.yaw_rad, 0.0);
 }
 
 TEST_F(RosMap, ATurnedOriginIsHonoured) {
   write_row({0, 255});
   const ObstacleMap map = read(yaml({{"origin", "origin: [2.0, 3.0, 1.5]"}}));
   EXPECT_EQ(map.grid, (Grid{2, 1, 0.0, 0.0, 1.0}));
-  EXPECT_EQ(map.world_from_grid.x_m, 2.0);
-  EXPECT_EQ(map.world_from_grid.y_m, 3.0);
-  EXPECT_EQ(map.world_from_grid.yaw_rad, 1.5);
+  EXPECT_EQ(map.frame.world_from_grid.x_m, 2.0);
+  EXPECT_EQ(map.frame.world_from_grid.y_m, 3.0);
+  EXPECT_EQ(map.frame.world_from_grid.yaw_rad, 1.5);
   ASSERT_EQ(map.warnings.size(), 1U);
   EXPECT_THAT(map.warnings[0], HasSubstr("turned by 1.5 rad"));
 }

@@ -154,8 +154,8 @@ TEST_F(SharedMaps, EveryFenceAndMissionIsRead) {
     request.cell_m = 2.0;
     const ObstacleMap map = read_map(request);
     EXPECT_LT(share_of_obstacles(map), 0.95) << name;
-    ASSERT_TRUE(map.geo.has_value()) << name;
-    EXPECT_LT(map.geo->worst_error_m, 0.02) << name;
+    ASSERT_TRUE(map.frame.geo.has_value()) << name;
+    EXPECT_LT(map.frame.geo->worst_error_m, 0.02) << name;
   }
 }
 

@@ -19,6 +19,7 @@
 #include "fairway/base/parallel.hpp"
 #include "fairway/base/safetensors.hpp"
 #include "fairway/base/strict_json.hpp"
+#include "fairway/plan/plan_record_json.hpp"
 
 namespace fairway {
 namespace {
@@ -65,6 +66,11 @@ std::string geometry_defect(const Grid& grid, const Vehicle& vehicle) {
   return {};
 }
 
+bool is_on(const Grid& grid, Vec2 p) {
+  return p.x >= grid.x0_m && p.x <= grid.x0_m + grid.width_m() && p.y >= grid.y0_m &&
+         p.y <= grid.y0_m + grid.height_m();
+}
+
 bool cell_valid(const Plan& plan, std::size_t i) {
   const double heading_rad = plan.heading_rad[i];
   const int region = static_cast<int>(plan.region[i]);
@@ -90,10 +96,9 @@ std::string cell_defect(const Plan& plan, std::size_t i) {
 }
 
 json metadata_of(const Plan& plan, const std::vector<Tensor>& tensors) {
-  json record = json::parse(plan.record_json, nullptr, false);
-  require(record.is_object(), "record_json is one JSON object");
+  json record = json_of(plan.record);
   for (const char* key : own_keys)
-    require(!record.contains(key), "record_json leaves out what the plan holds");
+    require(!record.contains(key), "the record leaves out what the plan holds");
   const auto digest = digests_of(tensors);
   record["format_version"] = format_version;
   record["origin_m"] = {plan.grid.x0_m, plan.grid.y0_m};
@@ -188,11 +193,12 @@ std::string plan_defect(const Plan& plan) {
 
 void write_plan(const Plan& plan, const std::filesystem::path& path, Existing existing) {
   if (const std::string defect = plan_defect(plan); !defect.empty()) {
-    throw ContractViolation("a plan to be written: " + defect);
+    throw PreconditionViolation("a plan to be written: " + defect);
   }
   AtomicFile file(path, existing);
   const std::vector<Tensor> tensors = tensors_of(plan);
-  const std::string record = metadata_of(plan, tensors).dump(-1, ' ', true);
+  const std::string record =
+      metadata_of(plan, tensors).dump(-1, ' ', true, json::error_handler_t::replace);
   write_safetensors(file, {{{"fairway", record}}, tensors});
   file.commit();
 }
@@ -229,7 +235,10 @@ Plan plan_of_bytes(std::span<const std::byte> bytes, const std::string& where) {
     throw InputError(where, defect);
   }
   for (const char* key : own_keys) record.erase(key);
-  plan.record_json = record.dump(-1, ' ', true);
+  plan.record = plan_record_of(std::move(record), place);
+  if (const auto goal = goal_pose_of(plan); goal && !is_on(plan.grid, goal->position_m)) {
+    throw InputError(place + ".mission.goal_m", "expected [x, y] on the plan's grid");
+  }
   return plan;
 }
 

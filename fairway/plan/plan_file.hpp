@@ -17,7 +17,7 @@
 
 namespace fairway {
 
-/// Writes `plan` whole or not at all. Throws ContractViolation when `plan` lacks a property of
+/// Writes `plan` whole or not at all. Throws PreconditionViolation when `plan` lacks a property of
 /// plan.hpp, InputError when the place cannot be written.
 void write_plan(const Plan& plan, const std::filesystem::path& path, Existing existing);
 

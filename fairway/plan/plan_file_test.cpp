@@ -40,7 +40,8 @@ Plan random_plan(int nx, int ny, std::uint64_t seed) {
     plan.cost_m.push_back(reachable ? static_cast<float>(random.uniform(0.0, 500.0)) : infinity);
     plan.heading_rad.push_back(reachable ? Heading::stored(random.uniform(-4.0, 4.0)) : nan_f);
   }
-  plan.record_json = R"({"mission":{"kind":"goal"},"options":{"alpha":2.0}})";
+  plan.record.mission = GoalMission{plan.grid.center({0, 0}), {}};
+  plan.record.options_json = R"({"plan":{"alpha":2.0}})";
   return plan;
 }
 
@@ -73,7 +74,7 @@ TEST(PlanFile, GivesBackWhatWasWrittenAndTheSameBytesAgain) {
     RC_ASSERT(same_bits(back.heading_rad, plan.heading_rad));
     RC_ASSERT(same_bits(back.region, plan.region));
     RC_ASSERT(same_bits(back.cost_m, plan.cost_m));
-    RC_ASSERT(json::parse(back.record_json) == json::parse(plan.record_json));
+    RC_ASSERT(json_text(back.record) == json_text(plan.record));
     RC_ASSERT(bytes_of(back) == bytes);
   });
 }
@@ -306,15 +307,16 @@ TEST(PlanFile, APlanWithADefectIsNeverWritten) {
   const fs::path path = fs::path(testing::TempDir()) / "defective.safetensors";
   Plan plan = random_plan(4, 4, 6);
   plan.heading_rad[3] = 4.0F;
-  EXPECT_THROW(write_plan(plan, path, Existing::replace), ContractViolation);
+  EXPECT_THROW(write_plan(plan, path, Existing::replace), PreconditionViolation);
   plan = random_plan(4, 4, 6);
   plan.cost_m.pop_back();
-  EXPECT_THROW(write_plan(plan, path, Existing::replace), ContractViolation);
+  EXPECT_THROW(write_plan(plan, path, Existing::replace), PreconditionViolation);
   plan = random_plan(4, 4, 6);
-  plan.record_json = "[]";
-  EXPECT_THROW(write_plan(plan, path, Existing::replace), ContractViolation);
-  plan.record_json = R"({"cell_m":3})";
-  EXPECT_THROW(write_plan(plan, path, Existing::replace), ContractViolation);
+  plan.record.options_json = "[]";
+  EXPECT_THROW(write_plan(plan, path, Existing::replace), PreconditionViolation);
+  plan.record.options_json.clear();
+  plan.record.more_json = R"({"cell_m":3})";
+  EXPECT_THROW(write_plan(plan, path, Existing::replace), PreconditionViolation);
   EXPECT_FALSE(fs::exists(path));
 }
 

@@ -57,8 +57,8 @@ class CairoPage;
 
 class Canvas {
  public:
-  /// A white page. `title` is for readers of the SVG that speak. Throws ContractViolation when a
-  /// size is not positive or the PNG would be wider or higher than 20000 pixels.
+  /// A white page. `title` is for readers of the SVG that speak. Throws PreconditionViolation when
+  /// a size is not positive or the PNG would be wider or higher than 20000 pixels.
   Canvas(double width_pt, double height_pt, double pixels_per_pt, std::string_view title);
   ~Canvas();
   Canvas(const Canvas&) = delete;

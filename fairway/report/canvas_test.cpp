@@ -11,7 +11,7 @@
 #include "fairway/base/error.hpp"
 #include "fairway/base/heading.hpp"
 #include "fairway/report/hatch.hpp"
-#include "fairway/report/reading_back.hpp"
+#include "fairway/report/testing/reading_pictures.hpp"
 
 namespace fairway {
 namespace {
@@ -109,12 +109,12 @@ TEST(Canvas, AFullCircleIsDrawnInFull) {
 }
 
 TEST(Canvas, MistakesOfTheCallerAreNamed) {
-  EXPECT_THROW(Canvas(0.0, 10.0, 1.0, ""), ContractViolation);
-  EXPECT_THROW(Canvas(10.0, 1e9, 1.0, ""), ContractViolation);
+  EXPECT_THROW(Canvas(0.0, 10.0, 1.0, ""), PreconditionViolation);
+  EXPECT_THROW(Canvas(10.0, 1e9, 1.0, ""), PreconditionViolation);
   Canvas canvas(10.0, 10.0, 1.0, "");
-  EXPECT_THROW(canvas.image({2, 2, {palette::ink}}, {0.0, 0.0, 1.0, 1.0}), ContractViolation);
+  EXPECT_THROW(canvas.image({2, 2, {palette::ink}}, {0.0, 0.0, 1.0, 1.0}), PreconditionViolation);
   const auto layer = canvas.layer("open");
-  EXPECT_THROW(static_cast<void>(canvas.finish()), ContractViolation);
+  EXPECT_THROW(static_cast<void>(canvas.finish()), PreconditionViolation);
 }
 
 TEST(Canvas, LongerTextsAreWider) {

@@ -11,7 +11,7 @@
 namespace fairway {
 
 /// Axes that hold every finite point, with the labels of the options; the rectangle is left open.
-/// Throws ContractViolation when a series has unequal x and y.
+/// Throws PreconditionViolation when a series has unequal x and y.
 [[nodiscard]] PlotFrame chart_frame(std::span<const ChartSeries> series,
                                     const ChartOptions& options);
 

@@ -46,7 +46,7 @@ TEST(Color, TheCostRampDarkensInEvenStepsSoThatItSurvivesGreyPrintAndColourBlind
 TEST(Color, TheCostRampIsCutAtItsEndsAndRefusesNan) {
   EXPECT_EQ(cost_ramp(-1.0), cost_ramp(0.0));
   EXPECT_EQ(cost_ramp(std::numeric_limits<double>::infinity()), cost_ramp(1.0));
-  EXPECT_THROW(static_cast<void>(cost_ramp(std::nan(""))), ContractViolation);
+  EXPECT_THROW(static_cast<void>(cost_ramp(std::nan(""))), PreconditionViolation);
 }
 
 TEST(Color, ObstaclesAreFarDarkerThanEveryShadeOfCost) {

@@ -30,7 +30,7 @@ struct ChartOptions {
   double pixels_per_pt = 2.0;
 };
 
-/// Throws ContractViolation when a series has unequal x and y, or a size is out of range.
+/// Throws PreconditionViolation when a series has unequal x and y, or a size is out of range.
 [[nodiscard]] Picture draw_chart(std::span<const ChartSeries> series, const ChartOptions& options);
 
 }  // namespace fairway

@@ -10,7 +10,7 @@
 #include "fairway/base/error.hpp"
 #include "fairway/base/random.hpp"
 #include "fairway/report/flight_series.hpp"
-#include "fairway/report/reading_back.hpp"
+#include "fairway/report/testing/reading_pictures.hpp"
 
 namespace fairway {
 namespace {
@@ -78,8 +78,8 @@ RC_GTEST_PROP(DrawChart, AnyNumbersGiveAChart, (std::uint64_t seed)) {
 
 TEST(DrawChart, MistakesOfTheCallerAreNamed) {
   const std::vector<ChartSeries> uneven{{"u", {0.0, 1.0}, {0.0}, {}}};
-  EXPECT_THROW(static_cast<void>(draw_chart(uneven, {})), ContractViolation);
-  EXPECT_THROW(static_cast<void>(draw_chart({}, {.width_pt = 1.0})), ContractViolation);
+  EXPECT_THROW(static_cast<void>(draw_chart(uneven, {})), PreconditionViolation);
+  EXPECT_THROW(static_cast<void>(draw_chart({}, {.width_pt = 1.0})), PreconditionViolation);
 }
 
 /// Straight on, then twice round to the left, at 10 m/s with a radius of 20 m.
@@ -124,7 +124,7 @@ TEST(FlightSeries, DistancesFromAPathAreThoseOfTheCircle) {
 
 TEST(FlightSeries, AnUnrecordedFlightGivesAnEmptySeries) {
   EXPECT_TRUE(heading_over_time(Flight{}, 10.0, "h").x.empty());
-  EXPECT_THROW(static_cast<void>(heading_over_time(Flight{}, 0.0, "h")), ContractViolation);
+  EXPECT_THROW(static_cast<void>(heading_over_time(Flight{}, 0.0, "h")), PreconditionViolation);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ struct FlightPictureOptions {
   double pixels_per_pt = 2.0;
 };
 
-/// Flights without segments are counted and their start is drawn. Throws ContractViolation as
+/// Flights without segments are counted and their start is drawn. Throws PreconditionViolation as
 /// draw_plan does.
 [[nodiscard]] Picture draw_flights(const Plan& plan, std::span<const Flight> flights,
                                    const FlightPictureOptions& options);

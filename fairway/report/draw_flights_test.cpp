@@ -9,8 +9,8 @@
 #include "fairway/base/error.hpp"
 #include "fairway/report/flight_path.hpp"
 #include "fairway/report/map_page.hpp"
-#include "fairway/report/reading_back.hpp"
-#include "fairway/report/sample_plans.hpp"
+#include "fairway/report/testing/plans_to_draw.hpp"
+#include "fairway/report/testing/reading_pictures.hpp"
 
 namespace fairway {
 namespace {
@@ -167,7 +167,7 @@ TEST(DrawFlights, NamesReplaceOutcomesAndEqualNamesShareAStyle) {
   EXPECT_FALSE(has_layer(picture.svg, "flights-3"));
   EXPECT_FALSE(has_text(picture.svg, "reach (3)"));
   EXPECT_THROW(static_cast<void>(draw_flights(open_water(), flights, {.names = {"one"}})),
-               ContractViolation);
+               PreconditionViolation);
 }
 
 TEST(DrawFlights, FinalLegsHaveStrokesOfTheirOwnAndTheGoalsArrowOnTop) {

@@ -27,7 +27,7 @@ struct PlanPictureOptions {
   double pixels_per_pt = 2.0;   ///< resolution of the PNG, 0.5..8
 };
 
-/// Any plan whose arrays have grid.size() entries, an empty grid too. Throws ContractViolation
+/// Any plan whose arrays have grid.size() entries, an empty grid too. Throws PreconditionViolation
 /// when they have not, or when an option is out of range.
 [[nodiscard]] Picture draw_plan(const Plan& plan, const PlanPictureOptions& options);
 

@@ -7,8 +7,8 @@
 #include "fairway/base/error.hpp"
 #include "fairway/report/cell_layer.hpp"
 #include "fairway/report/map_page.hpp"
-#include "fairway/report/reading_back.hpp"
-#include "fairway/report/sample_plans.hpp"
+#include "fairway/report/testing/plans_to_draw.hpp"
+#include "fairway/report/testing/reading_pictures.hpp"
 
 namespace fairway {
 namespace {
@@ -146,11 +146,11 @@ TEST(DrawPlan, ABigPlanGivesAnSvgThatAPaperCanHold) {
 
 TEST(DrawPlan, MistakesOfTheCallerAreNamed) {
   Plan p = plan();
-  EXPECT_THROW(static_cast<void>(draw_plan(p, {.frame_pt = 0.0})), ContractViolation);
-  EXPECT_THROW(static_cast<void>(draw_plan(p, {.pixels_per_pt = 99.0})), ContractViolation);
-  EXPECT_THROW(static_cast<void>(draw_plan(p, {.arrows_across = 0})), ContractViolation);
+  EXPECT_THROW(static_cast<void>(draw_plan(p, {.frame_pt = 0.0})), PreconditionViolation);
+  EXPECT_THROW(static_cast<void>(draw_plan(p, {.pixels_per_pt = 99.0})), PreconditionViolation);
+  EXPECT_THROW(static_cast<void>(draw_plan(p, {.arrows_across = 0})), PreconditionViolation);
   p.cost_m.pop_back();
-  EXPECT_THROW(static_cast<void>(draw_plan(p, {})), ContractViolation);
+  EXPECT_THROW(static_cast<void>(draw_plan(p, {})), PreconditionViolation);
 }
 
 TEST(CellLayer, BigPlansAreAveragedBlockByBlockWithTheTopRowFirst) {

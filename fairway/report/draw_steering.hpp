@@ -34,8 +34,8 @@ struct SteeringPicture {
   double pixels_per_pt = 2.0;                          ///< resolution of the PNG, 0.5..8
 };
 
-/// Throws ContractViolation when a size is out of range, the radius is not positive, or a series
-/// has unequal x and y.
+/// Throws PreconditionViolation when a size is out of range, the radius is not positive, or a
+/// series has unequal x and y.
 [[nodiscard]] Picture draw_steering(const SteeringPicture& picture);
 
 }  // namespace fairway

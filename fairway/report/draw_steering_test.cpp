@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "fairway/base/error.hpp"
-#include "fairway/report/reading_back.hpp"
+#include "fairway/report/testing/reading_pictures.hpp"
 
 namespace fairway {
 namespace {
@@ -91,10 +91,10 @@ TEST(DrawSteering, StayingWhereItIsIsDrawnToo) {
 TEST(DrawSteering, RefusesSizesThatFitNoPage) {
   SteeringPicture picture = quarter_and_straight();
   picture.map_pt = 10.0;
-  EXPECT_THROW((void)draw_steering(picture), ContractViolation);
+  EXPECT_THROW((void)draw_steering(picture), PreconditionViolation);
   picture = quarter_and_straight();
   picture.turn_radius_m = 0.0;
-  EXPECT_THROW((void)draw_steering(picture), ContractViolation);
+  EXPECT_THROW((void)draw_steering(picture), PreconditionViolation);
 }
 
 }  // namespace

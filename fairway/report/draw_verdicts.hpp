@@ -15,8 +15,8 @@ struct VerdictPictureOptions {
 };
 
 /// A panel for each heading, four in a row: the verdict of the vehicle at each cell's middle with
-/// that heading, by colour and pattern. Throws ContractViolation when an option is out of range,
-/// the map's arrays do not fit, or it has no heading.
+/// that heading, by colour and pattern. Throws PreconditionViolation when an option is out of
+/// range, the map's arrays do not fit, or it has no heading.
 [[nodiscard]] Picture draw_verdicts(const VerdictMap& map, const VerdictPictureOptions& options);
 
 /// Three panels: of the states of each cell, over all headings, the share proved to reach, the

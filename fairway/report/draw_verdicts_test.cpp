@@ -10,7 +10,7 @@
 #include "fairway/base/heading.hpp"
 #include "fairway/base/random.hpp"
 #include "fairway/report/map_panels.hpp"
-#include "fairway/report/reading_back.hpp"
+#include "fairway/report/testing/reading_pictures.hpp"
 #include "fairway/report/verdict_style.hpp"
 
 namespace fairway {
@@ -264,15 +264,16 @@ TEST(DrawVerdicts, AMapOfThePlansOfABigCityGivesSvgsThatAPaperCanHold) {
 
 TEST(DrawVerdicts, MistakesOfTheCallerAreNamed) {
   VerdictMap map = stripes();
-  EXPECT_THROW(static_cast<void>(draw_verdicts(map, {.panel_pt = 5.0})), ContractViolation);
-  EXPECT_THROW(static_cast<void>(draw_verdicts(map, {.pixels_per_pt = 99.0})), ContractViolation);
+  EXPECT_THROW(static_cast<void>(draw_verdicts(map, {.panel_pt = 5.0})), PreconditionViolation);
+  EXPECT_THROW(static_cast<void>(draw_verdicts(map, {.pixels_per_pt = 99.0})),
+               PreconditionViolation);
   map.count.pop_back();
-  EXPECT_THROW(static_cast<void>(draw_proved_shares(map, {})), ContractViolation);
+  EXPECT_THROW(static_cast<void>(draw_proved_shares(map, {})), PreconditionViolation);
   VerdictMap without = stripes(0);
-  EXPECT_THROW(static_cast<void>(draw_verdicts(without, {})), ContractViolation);
+  EXPECT_THROW(static_cast<void>(draw_verdicts(without, {})), PreconditionViolation);
   without = stripes();
   without.states_per_sample = 0;
-  EXPECT_THROW(static_cast<void>(draw_proved_shares(without, {})), ContractViolation);
+  EXPECT_THROW(static_cast<void>(draw_proved_shares(without, {})), PreconditionViolation);
 }
 
 }  // namespace

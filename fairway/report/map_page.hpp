@@ -24,8 +24,8 @@ struct MapPageOptions {
 
 class MapPage {
  public:
-  /// Draws cells, contours and patterns. Throws ContractViolation when the plan's arrays have not
-  /// grid.size() entries or an option is out of range. `plan` must outlive the page. `entries`
+  /// Draws cells, contours and patterns. Throws PreconditionViolation when the plan's arrays have
+  /// not grid.size() entries or an option is out of range. `plan` must outlive the page. `entries`
   /// stand in the legend above those of the regions and the mission; the page only leaves room for
   /// them here and draws them in finish().
   MapPage(const Plan& plan, const MapPageOptions& options, std::vector<LegendEntry> entries);

@@ -37,7 +37,7 @@ struct SamplePattern {
 
 class MapPanels {
  public:
-  /// Lays the page out: a panel for each caption, row by row. Throws ContractViolation when an
+  /// Lays the page out: a panel for each caption, row by row. Throws PreconditionViolation when an
   /// option is out of range. `map` must outlive the page. `entries` stand in the legend above
   /// those of obstacles and goal.
   MapPanels(const VerdictMap& map, const MapPanelsOptions& options,

@@ -15,6 +15,7 @@
 #include "fairway/report/page_payload.hpp"
 #include "fairway/report/page_template.hpp"
 #include "fairway/report/verdict_style.hpp"
+#include "fairway/vehicle/mission_json.hpp"
 
 namespace fairway {
 namespace {
@@ -63,18 +64,6 @@ json styles_json() {
           {"goal_pattern", hex(palette::goal_pattern)},
           {"unreachable", hex(palette::unreachable)},
           {"unreachable_pattern", hex(palette::unreachable_pattern)}};
-}
-
-json mission_json(const Mission& mission) {
-  if (const auto* goal = std::get_if<GoalMission>(&mission)) {
-    return {{"kind", "goal"},
-            {"goal_m", {goal->goal_m.x, goal->goal_m.y}},
-            {"goal_heading_rad", goal->goal_heading_rad ? json(*goal->goal_heading_rad) : json()}};
-  }
-  const auto& path = std::get<PathMission>(mission);
-  json vertices = json::array();
-  for (const Vec2 v : path.vertices_m) vertices.push_back({v.x, v.y});
-  return {{"kind", "path"}, {"closed", path.closed}, {"vertices_m", std::move(vertices)}};
 }
 
 json verdicts_json(const VerdictMap& map) {
@@ -141,7 +130,7 @@ json record_of(const PageContent& content) {
           {"vehicle",
            {{"speed_mps", content.plan.vehicle.speed_mps},
             {"turn_radius_m", content.plan.vehicle.turn_radius_m}}},
-          {"mission", mission_json(content.mission)},
+          {"mission", json_of(content.mission)},
           {"cost_step_m", page_cost_step_m(content.plan)},
           {"styles", styles_json()},
           {"verdicts", content.verdicts != nullptr && content.verdicts->samples() > 0

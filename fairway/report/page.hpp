@@ -40,7 +40,7 @@ struct PageContent {
   std::string summary_json = "{}";       ///< an object, shown as numbers and digests
 };
 
-/// Throws ContractViolation when there is no template (page_template.hpp) or arrays do not fit.
+/// Throws PreconditionViolation when there is no template (page_template.hpp) or arrays do not fit.
 [[nodiscard]] std::string page_html(const PageContent& content);
 
 /// The same with a template of the caller's.

@@ -23,8 +23,8 @@ enum class PageFilter : std::uint8_t { none, planes, delta };
 
 class PagePayload {
  public:
-  /// `shape` in elements, the last running fastest. Throws ContractViolation for a name used twice
-  /// or a shape that does not fit.
+  /// `shape` in elements, the last running fastest. Throws PreconditionViolation for a name used
+  /// twice or a shape that does not fit.
   void add(std::string_view name, std::vector<std::size_t> shape,
            std::span<const std::uint8_t> values);
   void add(std::string_view name, std::vector<std::size_t> shape,

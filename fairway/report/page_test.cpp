@@ -16,7 +16,7 @@
 #include "fairway/report/page_arrays.hpp"
 #include "fairway/report/page_payload.hpp"
 #include "fairway/report/page_template.hpp"
-#include "fairway/report/sample_plans.hpp"
+#include "fairway/report/testing/plans_to_draw.hpp"
 
 namespace fairway {
 namespace {
@@ -165,9 +165,10 @@ TEST(PagePayload, RefusesShapesThatDoNotFitAndNamesUsedTwice) {
   const std::vector<std::uint8_t> three(3);
   PagePayload payload;
   payload.add("a", {3}, std::span<const std::uint8_t>(three));
-  EXPECT_THROW(payload.add("a", {3}, std::span<const std::uint8_t>(three)), ContractViolation);
-  EXPECT_THROW(payload.add("b", {2, 2}, std::span<const std::uint8_t>(three)), ContractViolation);
-  EXPECT_THROW(payload.add_layers("c", {}, three), ContractViolation);
+  EXPECT_THROW(payload.add("a", {3}, std::span<const std::uint8_t>(three)), PreconditionViolation);
+  EXPECT_THROW(payload.add("b", {2, 2}, std::span<const std::uint8_t>(three)),
+               PreconditionViolation);
+  EXPECT_THROW(payload.add_layers("c", {}, three), PreconditionViolation);
 }
 
 RC_GTEST_PROP(Page, ShowsThePlanWithinItsSteps, (std::uint64_t seed)) {
@@ -304,7 +305,7 @@ TEST(Page, BytesThatAreNoTextDoNotBreakIt) {
 TEST(Page, ATemplateWithoutAMarkIsRefused) {
   const Plan plan = island_plan({14, 12, -3.0, 5.0, 6.0}, {60.0, 40.0}, {4, 6});
   EXPECT_THROW((void)page_html({"t", plan, goal, {}}, "@FAIRWAY_TITLE@ @FAIRWAY_RECORD@"),
-               ContractViolation);
+               PreconditionViolation);
 }
 
 TEST(PageTemplate, IsAPageThatFetchesNothingOrSaysWhyThereIsNone) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "fairway/report/sample_plans.hpp"
+#include "fairway/report/testing/plans_to_draw.hpp"
 
 namespace fairway {
 namespace {

@@ -34,8 +34,8 @@ TEST(Ticks, AnEmptyRangeHasOneTickAtMost) {
 }
 
 TEST(Ticks, ARangeThatIsTurnedRoundOrEndlessIsAMistake) {
-  EXPECT_THROW(static_cast<void>(ticks_between(1.0, 0.0, 5)), ContractViolation);
-  EXPECT_THROW(static_cast<void>(ticks_between(0.0, INFINITY, 5)), ContractViolation);
+  EXPECT_THROW(static_cast<void>(ticks_between(1.0, 0.0, 5)), PreconditionViolation);
+  EXPECT_THROW(static_cast<void>(ticks_between(0.0, INFINITY, 5)), PreconditionViolation);
 }
 
 TEST(Ticks, LabelsHaveTheDecimalsTheStepNeedsAndNoMinusZero) {

@@ -40,4 +40,13 @@ std::vector<Verdict> verdicts_at(const Certificate& certificate, Heading heading
   return verdicts;
 }
 
+std::vector<VerdictLayer> verdict_layers(const Certificate& certificate,
+                                         std::span<const Heading> headings) {
+  std::vector<VerdictLayer> layers;
+  for (const Heading heading : headings) {
+    layers.push_back({heading, verdicts_at(certificate, heading)});
+  }
+  return layers;
+}
+
 }  // namespace fairway

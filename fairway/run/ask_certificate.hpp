@@ -9,6 +9,7 @@
 
 #include "fairway/base/heading.hpp"
 #include "fairway/certificate/certificate.hpp"
+#include "fairway/exchange/plan_rasters.hpp"
 #include "fairway/runtime.hpp"
 #include "fairway/vehicle/vehicle.hpp"
 
@@ -22,6 +23,10 @@ namespace fairway {
 /// the middle, as in verify/verdict_map.hpp: exactly in the middle flights meet ties that have no
 /// volume. In an obstacle: collide; in the target: reach.
 [[nodiscard]] std::vector<Verdict> verdicts_at(const Certificate& certificate, Heading heading);
+
+/// verdicts_at() each of the headings.
+[[nodiscard]] std::vector<VerdictLayer> verdict_layers(const Certificate& certificate,
+                                                       std::span<const Heading> headings);
 
 /// The states that verdicts_at() asks for, [iy][ix].
 [[nodiscard]] std::vector<State> states_asked_at(const Grid& grid, Heading heading);

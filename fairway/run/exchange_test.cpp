@@ -14,19 +14,20 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/random.hpp"
+#include "fairway/exchange/plan_rasters.hpp"
+#include "fairway/exchange/qgc_mission.hpp"
+#include "fairway/exchange/track.hpp"
+#include "fairway/map/degrees_from_frame.hpp"
 #include "fairway/map/frame_from_degrees.hpp"
 #include "fairway/map/read_map.hpp"
 #include "fairway/map/read_path.hpp"
-#include "fairway/map/reading_back.hpp"
-#include "fairway/map/scratch_folder.hpp"
+#include "fairway/map/testing/reading_rasters.hpp"
+#include "fairway/map/testing/scratch_folder.hpp"
 #include "fairway/run/ask_certificate.hpp"
-#include "fairway/run/export_raster.hpp"
 #include "fairway/run/plan_map.hpp"
 #include "fairway/run/verification.hpp"
 #include "fairway/simulate/exact_flight.hpp"
-#include "fairway/simulate/qgc_mission.hpp"
 #include "fairway/simulate/start_states.hpp"
-#include "fairway/simulate/track.hpp"
 
 namespace fairway {
 namespace {
@@ -43,7 +44,7 @@ ObstacleMap walled(const std::optional<GeoReference>& geo) {
     map.obstacle[map.grid.index({i, 12})] = 1;
     map.obstacle[map.grid.index({12, i})] = 1;
   }
-  map.geo = geo;
+  map.frame.geo = geo;
   return map;
 }
 
@@ -63,7 +64,7 @@ class Exchange : public ::testing::Test {
 
 TEST_F(Exchange, a_plan_reads_back_from_its_raster_bit_for_bit) {
   const Plan plan = plan_on(walled(somewhere));
-  export_plan(plan, "plan", folder_.file("p.tif"), Existing::keep);
+  write_plan_raster(plan, folder_.file("p.tif"), Existing::keep);
   const std::vector<ReadBand> bands = bands_of(folder_.file("p.tif"), plan.grid);
   ASSERT_EQ(bands.size(), 3U);
   EXPECT_TRUE(same_bits(bands[0].values, plan.heading_rad));
@@ -90,13 +91,13 @@ TEST_F(Exchange, a_certificate_knows_where_its_plan_lies_and_reads_back) {
   options.undecided_max = 0.5;
   options.samples = 1000;
   const Verification made = verify_plan(plan, "plan", {}, options, {}, clock);
-  const WorldPlace place = world_place_of(made.certificate.record_json, "certificate");
-  ASSERT_TRUE(place.geo);
-  EXPECT_EQ(place.geo->latitude_deg, somewhere.latitude_deg);
-  EXPECT_EQ(place.geo->longitude_deg, somewhere.longitude_deg);
+  EXPECT_EQ(made.certificate.frame, plan.record.frame);
+  EXPECT_EQ(made.certificate.frame->geo, somewhere);
 
   const std::vector<Heading> headings = even_headings(3);
-  export_verdicts(made.certificate, "certificate", headings, folder_.file("v.tif"), Existing::keep);
+  write_verdict_raster(plan.grid, *made.certificate.frame,
+                       verdict_layers(made.certificate, headings), folder_.file("v.tif"),
+                       Existing::keep);
   const std::vector<ReadBand> bands = bands_of(folder_.file("v.tif"), plan.grid);
   ASSERT_EQ(bands.size(), 3U);
   std::array<std::size_t, verdict_count> seen{};
@@ -140,7 +141,7 @@ TEST_F(Exchange, verdicts_at_a_heading_are_queries_of_its_states) {
 TEST_F(Exchange, missions_read_back_as_lines_within_the_tolerance_of_the_flight) {
   const ObstacleMap map = walled(somewhere);
   const Plan plan = plan_on(map);
-  const LonLatOf lon_lat = lon_lat_of(plan, "plan");
+  const LonLatOf lon_lat = lon_lat_of(frame_in(plan.record), "plan");
   const ExactFlights flights(plan);
   const double speed_mps = plan.vehicle.speed_mps;
   int read_back = 0;
@@ -170,7 +171,7 @@ TEST_F(Exchange, missions_read_back_as_lines_within_the_tolerance_of_the_flight)
 TEST_F(Exchange, a_mission_has_the_parts_that_ground_stations_ask_for) {
   const Plan plan = plan_on(walled(somewhere));
   const Flight flight = ExactFlights(plan).record({{-100.0, 60.0}, Heading::from_rad(0.0)});
-  const LonLatOf lon_lat = lon_lat_of(plan, "plan");
+  const LonLatOf lon_lat = lon_lat_of(frame_in(plan.record), "plan");
   const auto mission = nlohmann::json::parse(qgc_plan_text(flight, 10.0, lon_lat, {35.0, 1.0}));
   EXPECT_EQ(mission["fileType"], "Plan");
   EXPECT_EQ(mission["version"], 1);
@@ -194,63 +195,22 @@ TEST_F(Exchange, a_mission_has_the_parts_that_ground_stations_ask_for) {
   // An altitude of its own and a wider tolerance: fewer points.
   const auto coarse = nlohmann::json::parse(qgc_plan_text(flight, 10.0, lon_lat, {0.0, 20.0}));
   EXPECT_LT(coarse["mission"]["items"].size(), items.size());
-  EXPECT_THROW((void)qgc_plan_text(flight, 10.0, {}, {}), ContractViolation);
-  EXPECT_THROW((void)qgc_plan_text(flight, 10.0, lon_lat, {-1.0, 1.0}), ContractViolation);
-  EXPECT_THROW((void)qgc_waypoints_text(flight, 10.0, lon_lat, {1.0, 0.0}), ContractViolation);
+  EXPECT_THROW((void)qgc_plan_text(flight, 10.0, {}, {}), PreconditionViolation);
+  EXPECT_THROW((void)qgc_plan_text(flight, 10.0, lon_lat, {-1.0, 1.0}), PreconditionViolation);
+  EXPECT_THROW((void)qgc_waypoints_text(flight, 10.0, lon_lat, {1.0, 0.0}), PreconditionViolation);
 }
 
 TEST_F(Exchange, a_projected_plan_has_degrees_and_a_plan_of_nowhere_has_none) {
   ObstacleMap map = walled({});
-  EXPECT_FALSE(lon_lat_of(plan_on(map), "plan"));
-  map.projected_crs = wkt_of_epsg(32632);
+  EXPECT_FALSE(lon_lat_of(map.frame, "plan"));
+  map.frame.projected_crs = wkt_of_epsg(32632);
   map.grid.x0_m += 600000.0;
   map.grid.y0_m += 5200000.0;
-  auto answer = plan_map(map, {10.0, 8.0}, GoalMission{{600060.0, 5200050.0}, {}}, {});
-  const LonLat place = lon_lat_of(std::get<Plan>(answer), "plan")({600000.0, 5200000.0});
+  const LonLat place = lon_lat_of(map.frame, "plan")({600000.0, 5200000.0});
   EXPECT_NEAR(place.longitude_deg, 10.3, 0.1);  // 100 km east of the zone's meridian, 9 degrees
   const Vec2 back =
       FrameFromDegrees(map, "path").point_m("path", {place.latitude_deg, place.longitude_deg});
   EXPECT_LT(norm(back - Vec2{600000.0, 5200000.0}), 1e-4);
-}
-
-TEST_F(Exchange, a_damaged_frame_is_named) {
-  const auto complaint = [](const char* record) {
-    try {
-      (void)world_place_of(record, "p");
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("no error");
-  };
-  EXPECT_EQ(complaint("{}"), "no error");
-  EXPECT_EQ(complaint(R"({"frame": null})"), "no error");
-  EXPECT_NE(complaint(R"({"frame": 3})").find("p: fairway.frame"), std::string::npos);
-  EXPECT_NE(complaint(R"({"frame": {"georeference": {"latitude_deg": 1}}})").find("longitude_deg"),
-            std::string::npos);
-  EXPECT_NE(complaint(R"({"frame": {"projected_crs": 7}})").find("projected_crs"),
-            std::string::npos);
-}
-
-TEST_F(Exchange, the_mission_in_a_record_is_the_one_planned) {
-  const Plan plan = plan_on(walled({}));
-  const auto goal = mission_of(plan, "plan");
-  ASSERT_TRUE(goal);
-  EXPECT_EQ(std::get<GoalMission>(*goal).goal_m, (Vec2{60.0, 50.0}));
-  EXPECT_FALSE(std::get<GoalMission>(*goal).goal_heading_rad);
-  PathMission path{{{-80.0, 40.0}, {80.0, 40.0}, {80.0, 60.0}}, true, 5.0, 0.25};
-  auto answer = plan_map(walled({}), {10.0, 8.0}, path, {});
-  const auto back = mission_of(std::get<Plan>(answer), "plan");
-  ASSERT_TRUE(back);
-  const auto& found = std::get<PathMission>(*back);
-  EXPECT_EQ(found.vertices_m, path.vertices_m);
-  EXPECT_EQ(found.closed, path.closed);
-  EXPECT_EQ(found.delta_position_m, path.delta_position_m);
-  EXPECT_EQ(found.delta_heading_rad, path.delta_heading_rad);
-  Plan other = plan;
-  other.record_json = "{}";
-  EXPECT_FALSE(mission_of(other, "plan"));
-  other.record_json = R"({"mission": {"kind": "race"}})";
-  EXPECT_THROW((void)mission_of(other, "plan"), InputError);
 }
 
 }  // namespace

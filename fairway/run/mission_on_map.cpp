@@ -15,28 +15,28 @@ namespace {
 Vec2 goal_on_map(const Scenario& scenario, const ObstacleMap& map) {
   const MissionRequest& asked = scenario.mission;
   if (!asked.goal_deg) return *asked.goal_m;
-  if (!map.geo) {
+  if (!map.frame.geo) {
     throw InputError(
         scenario.place_of("mission.goal_deg"),
         "mission.goal_deg: this map is not in degrees, expected mission.goal_m = [x, y] "
         "in metres");
   }
-  const TangentPlane plane({map.geo->latitude_deg, map.geo->longitude_deg});
+  const TangentPlane plane({map.frame.geo->latitude_deg, map.frame.geo->longitude_deg});
   const Vec2 goal_m = plane.to_plane_m(*asked.goal_deg);
   if (!std::isfinite(goal_m.x) || !std::isfinite(goal_m.y) ||
       norm(goal_m) > tangent_plane_limit_m) {
-    throw InputError(
-        scenario.place_of("mission.goal_deg"),
-        fmt::format("mission.goal_deg: is more than {:g} km from the map's reference "
-                    "point, latitude {} longitude {}",
-                    tangent_plane_limit_m / 1000.0, map.geo->latitude_deg, map.geo->longitude_deg));
+    throw InputError(scenario.place_of("mission.goal_deg"),
+                     fmt::format("mission.goal_deg: is more than {:g} km from the map's reference "
+                                 "point, latitude {} longitude {}",
+                                 tangent_plane_limit_m / 1000.0, map.frame.geo->latitude_deg,
+                                 map.frame.geo->longitude_deg));
   }
   return goal_m;
 }
 
 /// What most often stands behind a goal outside the map.
 std::string hint(const Scenario& scenario, const ObstacleMap& map) {
-  if (!map.geo || !scenario.mission.goal_m) return {};
+  if (!map.frame.geo || !scenario.mission.goal_m) return {};
   return "; this map came in degrees and is planned in metres about its reference point: give "
          "mission.goal_deg = [latitude, longitude]";
 }

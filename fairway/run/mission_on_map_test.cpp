@@ -7,8 +7,9 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/field/compute_field.hpp"
-#include "fairway/map/scratch_folder.hpp"
+#include "fairway/map/degrees_from_frame.hpp"
 #include "fairway/map/tangent_plane.hpp"
+#include "fairway/map/testing/scratch_folder.hpp"
 #include "fairway/run/plan_record.hpp"
 
 namespace fairway {
@@ -27,7 +28,7 @@ ObstacleMap map_of(bool in_degrees) {
   ObstacleMap map;
   map.grid = {200, 100, -100.0, -50.0, 1.0};
   map.obstacle.assign(map.grid.size(), 0);
-  if (in_degrees) map.geo = GeoReference{47.3977, 8.5456, 0.0};
+  if (in_degrees) map.frame.geo = GeoReference{47.3977, 8.5456, 0.0};
   return map;
 }
 
@@ -49,7 +50,7 @@ TEST(MissionOnMap, AGoalInDegreesLiesWhereItsMetresSay) {
   const Vec2 goal_m = std::get<GoalMission>(mission).goal_m;
   EXPECT_NEAR(goal_m.x, 30.0, 0.2);  // six decimals of a degree
   EXPECT_NEAR(goal_m.y, -20.0, 0.2);
-  const auto lon_lat = lon_lat_of(map_of(true).geo)({30.0, -20.0});
+  const auto lon_lat = lon_lat_of(map_of(true).frame, "map")({30.0, -20.0});
   EXPECT_DOUBLE_EQ(lon_lat.latitude_deg, point.latitude_deg);
   EXPECT_DOUBLE_EQ(lon_lat.longitude_deg, point.longitude_deg);
 }
@@ -112,19 +113,10 @@ TEST(MapRequest, AMissionWithoutAFenceHasRoomHoweverWideTheVehicleTurns) {
   }
 }
 
-TEST(PlanRecord, GivesTheGeoreferenceBack) {
+TEST(PlanRecord, HoldsTheFrameOfTheMap) {
   const Scenario scenario = scenario_with("goal_m = [0, 0]");
-  Plan plan;
-  plan.record_json = plan_record(scenario, map_of(true), GoalMission{});
-  const auto geo = georeference_of(plan, "p");
-  ASSERT_TRUE(geo);
-  EXPECT_EQ(geo->latitude_deg, 47.3977);
-  plan.record_json = plan_record(scenario, map_of(false), GoalMission{});
-  EXPECT_FALSE(georeference_of(plan, "p"));
-  plan.record_json = "{}";
-  EXPECT_FALSE(georeference_of(plan, "p"));
-  plan.record_json = R"({"frame":{"georeference":{"latitude_deg":"north"}}})";
-  EXPECT_THROW((void)georeference_of(plan, "p"), InputError);
+  EXPECT_EQ(plan_record(scenario, map_of(true), GoalMission{}).frame, map_of(true).frame);
+  EXPECT_EQ(plan_record(scenario, map_of(false), GoalMission{}).frame, Frame{});
 }
 
 }  // namespace

@@ -10,11 +10,13 @@
 
 #include "fairway/base/digest.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/exchange/flight_files.hpp"
 #include "fairway/field/compute_field.hpp"
+#include "fairway/map/degrees_from_frame.hpp"
 #include "fairway/map/read_map.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/plan/plan_of_field.hpp"
 #include "fairway/run/checker.hpp"
-#include "fairway/run/export_raster.hpp"
 #include "fairway/run/mission_on_map.hpp"
 #include "fairway/run/plan_record.hpp"
 #include "fairway/run/report_page.hpp"
@@ -24,7 +26,6 @@
 #include "fairway/run/summary.hpp"
 #include "fairway/run/verdict_pictures.hpp"
 #include "fairway/run/verification.hpp"
-#include "fairway/simulate/flight_files.hpp"
 
 namespace fairway {
 namespace {
@@ -115,7 +116,7 @@ void write_flights(const ScenarioFlights& flown, const Plan& plan, const std::st
   write_whole(place / "flights.csv", Existing::keep,
               trajectories_csv(flown.recorded, plan.vehicle.speed_mps, step_m));
   write_whole(place / "flights.geojson", Existing::keep,
-              flights_geojson(flown.recorded, step_m, lon_lat_of(plan, where)));
+              flights_geojson(flown.recorded, step_m, lon_lat_of(frame_in(plan.record), where)));
   write_whole(place / "outcomes.csv", Existing::keep, outcomes_csv(flown.starts, flown.results));
 }
 

@@ -8,7 +8,6 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
-#include "fairway/run/plan_record.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/simulate/start_states.hpp"
 
@@ -101,7 +100,7 @@ ScenarioFlights fly_scenario(const Scenario& scenario, const Plan& plan, const M
       flown.recorded[i] = recorded_flight(flights, plan, mission, starts[i]);
     }
   });
-  if (const auto goal = goal_pose_of(plan, scenario.file.string())) {
+  if (const auto goal = goal_pose_of(plan)) {
     steer_to_heading(flights, FinalLegs(plan, *goal), flown);
   }
   return flown;

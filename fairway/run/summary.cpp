@@ -7,7 +7,6 @@
 #include <sys/resource.h>
 #include <tbb/global_control.h>
 
-#include "fairway/run/plan_record.hpp"
 #include "fairway/run/scenario_keys.hpp"
 #include "fairway/run/version.hpp"
 
@@ -103,7 +102,7 @@ json plan_summary(const Scenario& scenario, const ObstacleMap& map, const Plan& 
         {"goal", regions.goal}}},
       {"unreachable_free_cells", regions.unreachable},
       {"unreachable_share_of_free", share(regions.unreachable, regions.free)},
-      {"inputs", inputs_json(scenario, map)},
+      {"inputs", json::parse(json_text(plan.record)).value("inputs", json::array())},
       {"options", options},
       {"warnings", map.warnings},
   };

@@ -12,10 +12,10 @@
 #include "fairway/base/heading.hpp"
 #include "fairway/base/random.hpp"
 #include "fairway/base/safetensors.hpp"
+#include "fairway/bitmap/bitmap_backward.hpp"
+#include "fairway/bitmap/bitmap_volume.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/run/version.hpp"
-#include "fairway/verify/bitmap_backward.hpp"
-#include "fairway/verify/bitmap_volume.hpp"
 #include "fairway/verify/images.hpp"
 
 namespace fairway {
@@ -42,13 +42,7 @@ json options_json(const CertifyOptions& o) {
       {"last_level", o.last_level}};
 }
 
-/// Where the plan says that its grid lies; null when it does not.
-json frame_in(const Plan& plan) {
-  const json record = json::parse(plan.record_json, nullptr, false);
-  return record.is_object() ? record.value("frame", json()) : json();
-}
-
-json record_of(const Plan& plan, const CertifyOptions& options, const Certified& outcome) {
+json evidence_of(const CertifyOptions& options, const Certified& outcome) {
   json levels = json::array();
   for (const LevelRecord& level : outcome.levels) {
     levels.push_back({{"level", level.level},
@@ -57,8 +51,6 @@ json record_of(const Plan& plan, const CertifyOptions& options, const Certified&
                       {"undecided_volume", level.undecided_volume}});
   }
   return {{"program", program_version},
-          {"plan_sha256", json::parse(plan_digests_json(plan))},
-          {"frame", frame_in(plan)},
           {"options", options_json(options)},
           {"volume_fraction", fractions_json(outcome.volume.all)},
           {"volume_fraction_free", fractions_json(outcome.volume.free)},
@@ -69,11 +61,8 @@ json record_of(const Plan& plan, const CertifyOptions& options, const Certified&
           {"stopped_by", name_of(outcome.stopped_by)}};
 }
 
-void require_same(const Certificate& earlier, const Certificate& now, const json& digests,
-                  const std::string& where) {
-  const json record = json::parse(earlier.record_json, nullptr, false);
-  if (!record.is_object() || record.value("plan_sha256", json()) != digests ||
-      earlier.kind != now.kind) {
+void require_same(const Certificate& earlier, const Certificate& now, const std::string& where) {
+  if (earlier.plan != now.plan || earlier.kind != now.kind) {
     throw InputError(where, "is not a certificate of this plan and region: nothing to go on from");
   }
 }
@@ -109,11 +98,13 @@ Verification verify_plan(const Plan& plan, const std::string& where, const Regio
   c.heading_rad = plan.heading_rad;
   c.region = plan.region;
   c.kind = cell_kinds(plan.grid, plan.region, region);
+  c.plan = plan_digests(plan);
+  c.frame = plan.record.frame;
   std::vector<bool> is_free(plan.grid.size());
   for (std::size_t i = 0; i < is_free.size(); ++i) is_free[i] = plan.region[i] == Region::free;
   SectionVerdicts start;
   if (earlier) {
-    require_same(*earlier, c, json::parse(plan_digests_json(plan)), where);
+    require_same(*earlier, c, where);
     start = std::move(earlier->sections);
   }
   made.outcome = certify(c.flow(), is_free, options, std::move(start), [&](const LevelRecord& l) {
@@ -121,9 +112,8 @@ Verification verify_plan(const Plan& plan, const std::string& where, const Regio
     clock.tell(unknown_time);
   });
   c.sections = std::move(made.outcome.sections);
-  json record = record_of(plan, options, made.outcome);
-  c.record_json = record.dump(-1, ' ', true);
-  made.summary = std::move(record);
+  c.evidence_json = evidence_of(options, made.outcome).dump();
+  made.summary = json::parse(record_text(c));
   made.summary["volume_fraction_free_commanded"] = fractions_json(made.outcome.volume.commanded);
   made.summary["method"] = "certified";
   made.summary["cells"] = {plan.grid.nx, plan.grid.ny};
@@ -173,7 +163,7 @@ std::vector<FailingState> failing_states(const Certificate& certificate, std::si
                                          std::uint64_t seed) {
   const Flow flow = certificate.flow();
   std::vector<std::size_t> cells;
-  for (std::size_t i = 0; i < flow.cells(); ++i) {
+  for (std::size_t i = 0; i < flow.grid.size(); ++i) {
     if (flow.kind[i] == CellKind::ordinary) cells.push_back(i);
   }
   if (cells.empty()) return {};
@@ -183,8 +173,8 @@ std::vector<FailingState> failing_states(const Certificate& certificate, std::si
     Random random = Random::stream(seed, k);
     const Cell cell = certificate.grid.cell_at(cells[random.below(cells.size())]);
     const Vec2 corner = certificate.grid.corner(cell);
-    states[k] = {corner.x + random.unit() * flow.size.cell_m,
-                 corner.y + random.unit() * flow.size.cell_m, random.uniform(-pi, pi)};
+    states[k] = {corner.x + random.unit() * flow.grid.cell_m,
+                 corner.y + random.unit() * flow.grid.cell_m, random.uniform(-pi, pi)};
   }
   const ImageStore images =
       state_images(flow, states, CertifyOptions{}.most_crossings, [] { return true; });
@@ -218,16 +208,14 @@ std::string failing_states_csv(const std::vector<FailingState>& states) {
 json write_bitmap(const Plan& plan, const RegionOfInterest& region, int samples, std::uint64_t seed,
                   const std::filesystem::path& file, Existing existing) {
   require_writable_place(file, existing);
-  const std::vector<CellKind> kind = cell_kinds(plan.grid, plan.region, region);
-  std::vector<std::uint8_t> target(kind.size());
-  for (std::size_t i = 0; i < kind.size(); ++i) target[i] = kind[i] == CellKind::target;
+  const std::vector<std::uint8_t> target = target_cells(plan.grid, plan.region, region);
   const BorderBitmap set = backward_reachable_set(plan, target, {samples});
   constexpr std::size_t draws = 200'000;
   const VolumeShare share = volume_share_reached(plan, target, set, draws, seed);
   json record = {
       {"format", "fairway-bitmap"},    {"format_version", 1},
       {"program", program_version},    {"method", "bitmap"},
-      {"samples_per_border", samples}, {"plan_sha256", json::parse(plan_digests_json(plan))}};
+      {"samples_per_border", samples}, {"plan_sha256", json::parse(json_text(plan_digests(plan)))}};
   std::vector<std::uint64_t> words(set.words.size());
   for (std::size_t i = 0; i < words.size(); ++i) words[i] = set.words[i];
   AtomicFile out(file, existing);

@@ -53,11 +53,11 @@ struct FlightRun {
 
 class ExactFlights {
  public:
-  /// Keeps nothing of `plan`. Throws ContractViolation when the cell is not smaller than the
+  /// Keeps nothing of `plan`. Throws PreconditionViolation when the cell is not smaller than the
   /// turning radius, a number is not finite, or the arrays do not fit the grid.
   explicit ExactFlights(const Plan& plan);
 
-  /// Throws ContractViolation when `start` is not finite.
+  /// Throws PreconditionViolation when `start` is not finite.
   [[nodiscard]] FlightResult fly(const State& start, FlightLimits limits = {}) const;
 
   /// The same, with what it took.

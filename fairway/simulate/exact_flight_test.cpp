@@ -362,7 +362,8 @@ TEST(ExactFlight, gives_the_same_results_on_any_number_of_threads) {
 }
 
 TEST(ExactFlight, refuses_cells_not_smaller_than_the_turning_radius) {
-  EXPECT_THROW(ExactFlights(plan_of(4, 4, 5.0, 5.0, [](Vec2) { return 0.0F; })), ContractViolation);
+  EXPECT_THROW(ExactFlights(plan_of(4, 4, 5.0, 5.0, [](Vec2) { return 0.0F; })),
+               PreconditionViolation);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ struct RegionCounts {
   OutcomeCounts obstacle;
 };
 
-/// `starts` and `results` are of one length; throws ContractViolation otherwise.
+/// `starts` and `results` are of one length; throws PreconditionViolation otherwise.
 [[nodiscard]] RegionCounts count_by_region(const Plan& plan, std::span<const State> starts,
                                            std::span<const FlightResult> results);
 

@@ -81,7 +81,7 @@ struct SampledFlight {
 
 class SampledFlights {
  public:
-  /// `plan` must outlive this. Throws ContractViolation when an option is out of range or the
+  /// `plan` must outlive this. Throws PreconditionViolation when an option is out of range or the
   /// plan's arrays do not fit its grid.
   SampledFlights(const Plan& plan, SampledOptions options);
   SampledFlights(Plan&&, SampledOptions) = delete;

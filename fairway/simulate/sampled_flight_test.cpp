@@ -182,13 +182,13 @@ TEST(SampledFlight, refuses_options_out_of_range) {
   const Plan plan = uniform_plan();
   SampledOptions options;
   options.control_period_s = 0.0;
-  EXPECT_THROW(SampledFlights(plan, options), ContractViolation);
+  EXPECT_THROW(SampledFlights(plan, options), PreconditionViolation);
   options = {};
   options.law = SaturatedProportional{-1.0};
-  EXPECT_THROW(SampledFlights(plan, options), ContractViolation);
+  EXPECT_THROW(SampledFlights(plan, options), PreconditionViolation);
   options = {};
   options.law = CustomLaw{};
-  EXPECT_THROW(SampledFlights(plan, options), ContractViolation);
+  EXPECT_THROW(SampledFlights(plan, options), PreconditionViolation);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ struct Approach {
 
 /// The shortest clear approach among: each of the six words from `from`; and each of them after a
 /// turn to either side by a multiple of 45 degrees, up to a whole loiter circle, or after straight
-/// on by up to four radii. None when all of them touch. Throws ContractViolation unless
+/// on by up to four radii. None when all of them touch. Throws PreconditionViolation unless
 /// can_steer().
 [[nodiscard]] std::optional<Approach> first_clear_approach(const State& from, const State& goal,
                                                            double turn_radius_m,

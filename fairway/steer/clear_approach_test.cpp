@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fairway/base/random.hpp"
-#include "fairway/steer/dubins_oracle.hpp"
+#include "fairway/steer/testing/dubins_oracle.hpp"
 
 namespace fairway {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "fairway/base/random.hpp"
-#include "fairway/steer/dubins_oracle.hpp"
 #include "fairway/steer/steering_flight.hpp"
+#include "fairway/steer/testing/dubins_oracle.hpp"
 
 namespace fairway {
 namespace {

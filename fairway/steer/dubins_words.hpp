@@ -68,7 +68,7 @@ inline constexpr double least_radius_m = 1e-300;
 [[nodiscard]] bool is_within_radii(const State& from, const State& to, double turn_radius_m,
                                    double most_radii);
 
-/// All below throw ContractViolation unless can_steer().
+/// All below throw PreconditionViolation unless can_steer().
 [[nodiscard]] double shortest_length_m(const State& from, const State& to, double turn_radius_m);
 [[nodiscard]] DubinsPath shortest_path(const State& from, const State& to, double turn_radius_m);
 

@@ -9,7 +9,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/random.hpp"
-#include "fairway/steer/dubins_oracle.hpp"
+#include "fairway/steer/testing/dubins_oracle.hpp"
 
 namespace fairway {
 namespace {
@@ -293,11 +293,14 @@ TEST(ShortestPath, RefusesWhatIsNotAPoseOrARadius) {
   const State a = pose(0, 0, 0);
   const double inf = std::numeric_limits<double>::infinity();
   for (const double r : {0.0, -1.0, inf, std::nan(""), 1e-320}) {
-    EXPECT_THROW(static_cast<void>(shortest_length_m(a, pose(1, 2, 3), r)), ContractViolation) << r;
+    EXPECT_THROW(static_cast<void>(shortest_length_m(a, pose(1, 2, 3), r)), PreconditionViolation)
+        << r;
   }
   for (const double x : {inf, -inf, std::nan(""), 1e200}) {
-    EXPECT_THROW(static_cast<void>(shortest_path(a, pose(x, 0, 0), 1.0)), ContractViolation) << x;
-    EXPECT_THROW(static_cast<void>(shortest_path(pose(0, x, 0), a, 1.0)), ContractViolation) << x;
+    EXPECT_THROW(static_cast<void>(shortest_path(a, pose(x, 0, 0), 1.0)), PreconditionViolation)
+        << x;
+    EXPECT_THROW(static_cast<void>(shortest_path(pose(0, x, 0), a, 1.0)), PreconditionViolation)
+        << x;
   }
 }
 

@@ -48,8 +48,8 @@ class ShortestLaw {
   explicit ShortestLaw(const ShortestLawOptions& options) : options_(options) {}
 
   /// The curvature (1/m, left positive, at most 1/turn_radius_m) to hold for the next `step_m`. The
-  /// goal may be another every time. No heap. Throws ContractViolation unless the step is positive,
-  /// the tolerance covers it, and can_steer().
+  /// goal may be another every time. No heap. Throws PreconditionViolation unless the step is
+  /// positive, the tolerance covers it, and can_steer().
   [[nodiscard]] double curvature_per_m(const State& state, const State& goal, double turn_radius_m,
                                        double step_m);
 

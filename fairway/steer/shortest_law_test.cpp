@@ -8,8 +8,8 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/random.hpp"
-#include "fairway/steer/dubins_oracle.hpp"
 #include "fairway/steer/steering_flight.hpp"
+#include "fairway/steer/testing/dubins_oracle.hpp"
 
 namespace fairway {
 namespace {
@@ -161,10 +161,10 @@ TEST(ShortestLaw, RefusesStepsThatItsToleranceDoesNotCover) {
   };
   // step / 2 + step^2 / (2 r) = 0.0525 and step / (2 r) = 0.025
   EXPECT_NO_THROW((void)steer({0.0526, 0.0251}, 0.1));
-  EXPECT_THROW((void)steer({0.0525, 0.0251}, 0.1), ContractViolation);
-  EXPECT_THROW((void)steer({0.0526, 0.025}, 0.1), ContractViolation);
-  EXPECT_THROW((void)steer({0.1, 0.1}, 0.0), ContractViolation);
-  EXPECT_THROW((void)steer({0.1, 0.1}, std::nan("")), ContractViolation);
+  EXPECT_THROW((void)steer({0.0525, 0.0251}, 0.1), PreconditionViolation);
+  EXPECT_THROW((void)steer({0.0526, 0.025}, 0.1), PreconditionViolation);
+  EXPECT_THROW((void)steer({0.1, 0.1}, 0.0), PreconditionViolation);
+  EXPECT_THROW((void)steer({0.1, 0.1}, std::nan("")), PreconditionViolation);
 }
 
 TEST(ShortestLaw, ConvergesWithAToleranceThatJustCoversTheStep) {

@@ -100,7 +100,8 @@ struct WaypointFlight {
 
 /// Drives from `from` along all way-points; a leg is given up after the length that
 /// steering_options() allows it. `disturbed`, when there is one, gives the state that the vehicle
-/// is really in after a step. Throws ContractViolation unless can_steer() from each to the next.
+/// is really in after a step. Throws PreconditionViolation unless can_steer() from each to the
+/// next.
 template <typename Law>
 [[nodiscard]] WaypointFlight follow_waypoints(
     WaypointLaw<Law> law, const State& from, std::span<const State> waypoints, double turn_radius_m,

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "fairway/base/random.hpp"
-#include "fairway/steer/dubins_oracle.hpp"
-#include "fairway/steer/heap_uses.hpp"
+#include "fairway/steer/testing/dubins_oracle.hpp"
+#include "fairway/steer/testing/heap_uses.hpp"
 
 namespace fairway {
 namespace {

@@ -28,6 +28,7 @@
 
 #include "fairway/base/interval.hpp"
 #include "fairway/base/short_list.hpp"
+#include "fairway/vehicle/cell_shape.hpp"
 #include "fairway/vehicle/side.hpp"
 
 namespace fairway {
@@ -70,11 +71,6 @@ struct CellDepartures {
   void add(const CellDeparture& departure) {
     if (!of.add(departure)) too_wide = true;
   }
-};
-
-struct CellSize {
-  double cell_m = 1.0;
-  double turn_radius_m = 2.0;  ///< > cell_m
 };
 
 namespace cell_enclosure {
@@ -122,7 +118,7 @@ struct ArcEvent {
 struct Turn {
   const CellEntry& entry;
   const CellOrder& order;
-  CellSize size;
+  const CellShape& shape;
   int sign;
   bool may_align;   ///< some state may reach the command within 90 degrees
   bool must_align;  ///< every state would
@@ -170,8 +166,8 @@ inline void cut_at_command(const Turn& turn, Side side, ExitHeading& exit) {
 
 /// Where the arc crosses the line of `side` outwards: (b) and (c).
 inline void crossing(const Turn& turn, Side side, ArcEvent& event) {
-  const double d = turn.size.cell_m;
-  const double r = turn.size.turn_radius_m;
+  const double d = turn.shape.cell_m;
+  const double r = turn.shape.turn_radius_m;
   const double k = is_vertical(side) ? turn.sign : -turn.sign;
   const double outwards = is_far(side) ? 1.0 : -1.0;
   const Interval line = line_of(side, d);
@@ -220,9 +216,9 @@ inline void crossing(const Turn& turn, Side side, ArcEvent& event) {
 
 /// Straight on from `from` (a part of the closed cell) along `model.heading` to every side that may
 /// be met first; each departure is `model` but for where it leaves.
-inline void leave_straight(const IntervalVec2& from, const CellDeparture& model, CellSize size,
-                           CellDepartures& departures) {
-  const double d = size.cell_m;
+inline void leave_straight(const IntervalVec2& from, const CellDeparture& model,
+                           const CellShape& shape, CellDepartures& departures) {
+  const double d = shape.cell_m;
   for (const Side side : {Side::right, Side::top, Side::left, Side::bottom}) {
     const Interval speed = outward_part(model.heading, side);
     if (speed.hi < 0.0) continue;
@@ -273,7 +269,7 @@ inline bool keeps_quadrant(const IntervalVec2& u, const IntervalVec2& c) {
 /// Where the turn ends that reaches the command: (a).
 inline IntervalVec2 aligned_at(const Turn& turn) {
   const IntervalVec2& c = turn.order.heading;
-  const double kr = turn.sign * turn.size.turn_radius_m;
+  const double kr = turn.sign * turn.shape.turn_radius_m;
   return {turn.centre_m.x + kr * c.y, turn.centre_m.y - kr * c.x};
 }
 
@@ -283,24 +279,24 @@ inline bool is_inside(const IntervalVec2& p, double cell_m) {
 
 /// The states that have turned to the command at `at`, straight on.
 inline void leave_aligned(const Turn& turn, const IntervalVec2& at, CellDepartures& departures) {
-  const double d = turn.size.cell_m;
+  const double d = turn.shape.cell_m;
   const IntervalVec2 inside{intersection(at.x, {0.0, d}), intersection(at.y, {0.0, d})};
   if (inside.x.empty() || inside.y.empty()) return;
   CellDeparture leave;
   leave.heading = turn.order.heading;
   leave.aligned = true;
   leave.length_m =
-      above(turn.size.turn_radius_m * angle_bound(turn.entry.heading, turn.order.heading));
-  leave_straight(inside, leave, turn.size, departures);
+      above(turn.shape.turn_radius_m * angle_bound(turn.entry.heading, turn.order.heading));
+  leave_straight(inside, leave, turn.shape, departures);
 }
 
 /// All departures of one turn.
 inline void leave_turning(const Turn& turn, CellDepartures& departures) {
-  const double r = turn.size.turn_radius_m;
+  const double r = turn.shape.turn_radius_m;
   if (turn.must_align && keeps_quadrant(turn.entry.heading, turn.order.heading)) {
     // x and y run one way along the arc: it stays inside when its end does.
     const IntervalVec2 at = aligned_at(turn);
-    if (is_inside(at, turn.size.cell_m)) {
+    if (is_inside(at, turn.shape.cell_m)) {
       leave_aligned(turn, at, departures);
       return;
     }
@@ -356,11 +352,11 @@ inline void leave_turning(const Turn& turn, CellDepartures& departures) {
   }
 }
 
-inline void turn_and_leave(const CellEntry& entry, const CellOrder& order, CellSize size, int sign,
-                           bool may_align, bool must_align, CellDepartures& departures) {
-  Turn turn{entry, order, size, sign, may_align, must_align, entry.centre_m};
+inline void turn_and_leave(const CellEntry& entry, const CellOrder& order, const CellShape& shape,
+                           int sign, bool may_align, bool must_align, CellDepartures& departures) {
+  Turn turn{entry, order, shape, sign, may_align, must_align, entry.centre_m};
   if (entry.turn != sign) {
-    const double kr = sign * size.turn_radius_m;
+    const double kr = sign * shape.turn_radius_m;
     turn.centre_m = {entry.position_m.x - kr * entry.heading.y,
                      entry.position_m.y + kr * entry.heading.x};  // (a)
   }
@@ -371,7 +367,7 @@ inline void turn_and_leave(const CellEntry& entry, const CellOrder& order, CellS
 
 /// Every way in which a state of `entry` can leave the cell under `order`.
 inline CellDepartures enclose_departures(const CellEntry& entry, const CellOrder& order,
-                                         CellSize size) {
+                                         const CellShape& shape) {
   CellDepartures departures;
   if (entry.heading.x.width() > 0.5 || entry.heading.y.width() > 0.5) {
     departures.too_wide = true;
@@ -381,7 +377,7 @@ inline CellDepartures enclose_departures(const CellEntry& entry, const CellOrder
     CellDeparture straight;
     straight.heading = entry.heading;
     straight.aligned = order.has_command;
-    cell_enclosure::leave_straight(entry.position_m, straight, size, departures);
+    cell_enclosure::leave_straight(entry.position_m, straight, shape, departures);
     return departures;
   }
   const Interval side = cross(entry.heading, order.heading);
@@ -389,13 +385,13 @@ inline CellDepartures enclose_departures(const CellEntry& entry, const CellOrder
   const bool near = ahead.hi > 0.0;
   const bool sure = ahead.lo > 0.0;
   if (side.positive() || side.negative()) {
-    cell_enclosure::turn_and_leave(entry, order, size, side.positive() ? 1 : -1, near, sure,
+    cell_enclosure::turn_and_leave(entry, order, shape, side.positive() ? 1 : -1, near, sure,
                                    departures);
   } else if (near && !sure) {
     departures.too_wide = true;
   } else {  // aligned, or opposite: each turn for the states that take it
-    cell_enclosure::turn_and_leave(entry, order, size, 1, near, sure, departures);
-    cell_enclosure::turn_and_leave(entry, order, size, -1, near, sure, departures);
+    cell_enclosure::turn_and_leave(entry, order, shape, 1, near, sure, departures);
+    cell_enclosure::turn_and_leave(entry, order, shape, -1, near, sure, departures);
   }
   return departures;
 }

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "fairway/base/random.hpp"
-#include "fairway/vehicle/wide_motion.hpp"
+#include "fairway/vehicle/testing/wide_motion.hpp"
 
 namespace fairway {
 namespace {
@@ -44,7 +44,7 @@ IntervalVec2 headings_between(double low_rad, double high_rad) {
 
 /// A set of states as they may enter a cell, with how to draw one of them.
 struct Draw {
-  CellSize size;
+  CellShape size;
   double command_rad = 0.0;
   bool has_command = true;
   bool already_there = false;

@@ -27,6 +27,7 @@
 
 #include "fairway/base/heading.hpp"
 #include "fairway/base/vec2.hpp"
+#include "fairway/vehicle/cell_shape.hpp"
 #include "fairway/vehicle/chord_angle.hpp"
 #include "fairway/vehicle/side.hpp"
 
@@ -76,12 +77,6 @@ struct CellExit {
     const bool vertical = side == Side::right || side == Side::left;
     return (vertical ? state.heading.unit.x : state.heading.unit.y) == 0.0;
   }
-};
-
-struct CellShape {
-  double cell_m = 1.0;
-  double turn_radius_m = 2.0;  ///< > cell_m
-  double per_radius = 1.0 / turn_radius_m;
 };
 
 /// The side on which the command lies: +1 left, -1 right, 0 aligned or no command. Exactly opposite

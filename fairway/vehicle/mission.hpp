@@ -13,6 +13,7 @@ namespace fairway {
 struct GoalMission {
   Vec2 goal_m;
   std::optional<double> goal_heading_rad;
+  friend bool operator==(const GoalMission&, const GoalMission&) = default;
 };
 
 /// Follow a polyline of at least two distinct vertices, from the first to the last; `closed` joins
@@ -22,6 +23,7 @@ struct PathMission {
   bool closed = false;
   double delta_position_m = 10.0;  ///< delta_x_max = delta_y_max
   double delta_heading_rad = 0.5;  ///< delta_theta_max
+  friend bool operator==(const PathMission&, const PathMission&) = default;
 };
 
 using Mission = std::variant<GoalMission, PathMission>;

@@ -24,8 +24,8 @@ struct PathPiece {
 };
 
 /// Calls visit(PathPiece) in the order of travel, the closing piece of a closed path last; repeated
-/// vertices give none. Throws ContractViolation when the path has fewer than two vertices, as do
-/// the functions below.
+/// vertices give none. Throws PreconditionViolation when the path has fewer than two vertices, as
+/// do the functions below.
 template <typename Visit>
 void for_pieces(const PathMission& path, const Visit& visit) {
   const std::vector<Vec2>& v = path.vertices_m;

@@ -22,16 +22,18 @@ constexpr auto undecided = static_cast<std::uint8_t>(Verdict::undecided);
 std::vector<Place> sampled_states(const Flow& flow, const CertifyOptions& options) {
   std::vector<Place> states;
   std::size_t cells = 0;
-  for (std::size_t c = 0; c < flow.cells(); ++c) cells += flow.kind[c] == CellKind::ordinary;
+  for (std::size_t c = 0; c < flow.grid.size(); ++c) cells += flow.kind[c] == CellKind::ordinary;
   if (cells == 0) return states;
   const std::size_t each = std::max<std::size_t>(1, options.samples / cells);
   states.reserve(each * cells);
-  for (std::size_t c = 0; c < flow.cells(); ++c) {
+  for (std::size_t c = 0; c < flow.grid.size(); ++c) {
     if (flow.kind[c] != CellKind::ordinary) continue;
     Random random = Random::stream(options.seed, c);
-    const double d = flow.size.cell_m;
-    const double x = flow.x0_m + static_cast<double>(c % static_cast<std::size_t>(flow.nx)) * d;
-    const double y = flow.y0_m + static_cast<double>(c / static_cast<std::size_t>(flow.nx)) * d;
+    const double d = flow.grid.cell_m;
+    const double x =
+        flow.grid.x0_m + static_cast<double>(c % static_cast<std::size_t>(flow.grid.nx)) * d;
+    const double y =
+        flow.grid.y0_m + static_cast<double>(c / static_cast<std::size_t>(flow.grid.nx)) * d;
     for (std::size_t k = 0; k < each; ++k) {
       const double turn = (static_cast<double>(k) + random.unit()) / static_cast<double>(each);
       states.push_back(
@@ -72,12 +74,12 @@ class VolumeMeter {
     VolumeFractions volume;
     volume.samples = states_.size();
     const auto cells = static_cast<std::size_t>(
-        std::count(flow_.kind, flow_.kind + flow_.cells(), CellKind::ordinary));
+        std::count(flow_.kind, flow_.kind + flow_.grid.size(), CellKind::ordinary));
     const std::size_t each = cells == 0 ? 0 : states_.size() / cells;
     std::size_t free_count = 0;
     std::size_t commanded_count = 0;
     std::size_t i = 0;  // the states stand cell by cell, as they were drawn
-    for (std::size_t c = 0; c < flow_.cells(); ++c) {
+    for (std::size_t c = 0; c < flow_.grid.size(); ++c) {
       if (flow_.kind[c] != CellKind::ordinary) continue;
       for (std::size_t k = 0; k < each; ++k, ++i) {
         const Verdict verdict = found_[i].only();
@@ -145,16 +147,16 @@ const char* name_of(StoppedBy reason) {
 SectionVerdicts undecided_sections(const Flow& flow, int level) {
   SectionVerdicts sections;
   const std::uint64_t step = std::uint64_t{1} << (32 - level);
-  sections.first.reserve(4 * flow.cells() + 1);
+  sections.first.reserve(4 * flow.grid.size() + 1);
   sections.first.push_back(0);
-  for (int iy = 0; iy < flow.ny; ++iy) {
-    for (int ix = 0; ix < flow.nx; ++ix) {
-      const float command = flow.heading_rad[flow.index(ix, iy)];
-      const bool flown = flow.kind_at(ix, iy) == CellKind::ordinary && !std::isnan(command);
+  for (int iy = 0; iy < flow.grid.ny; ++iy) {
+    for (int ix = 0; ix < flow.grid.nx; ++ix) {
+      const float command = flow.heading_rad[flow.grid.index({ix, iy})];
+      const bool flown = flow.kind_at({ix, iy}) == CellKind::ordinary && !std::isnan(command);
       const IntervalVec2 u = flown ? unit_enclosure(static_cast<double>(command)) : IntervalVec2{};
       for (const Side side : {Side::right, Side::top, Side::left, Side::bottom}) {
         if (flown && cell_enclosure::outward_part(u, side).positive() &&
-            flow.kind_at(ix + section_flight::step_x(side), iy + section_flight::step_y(side)) ==
+            flow.kind_at({ix + section_flight::step_x(side), iy + section_flight::step_y(side)}) ==
                 CellKind::ordinary) {
           for (std::uint32_t k = 0; k < std::uint32_t{1} << level; ++k) {
             sections.begin.push_back(static_cast<std::uint32_t>(k * step));

@@ -14,7 +14,7 @@
 #include "fairway/base/random.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/verify/images.hpp"
-#include "fairway/verify/sample_plans.hpp"
+#include "fairway/verify/testing/plans_to_verify.hpp"
 
 namespace fairway {
 namespace {

@@ -1,11 +1,13 @@
-// The closed loop under proof: a plan's commands and what each cell means for the verdict. A view:
-// it owns nothing, so that it can look into a mapped file.
+// The closed loop under proof: a plan's commands and what each cell means for the verdict. A view
+// of the arrays, so that it can look into a mapped file.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-#include "fairway/vehicle/cell_enclosure.hpp"
+#include "fairway/base/grid.hpp"
+#include "fairway/vehicle/cell_shape.hpp"
+#include "fairway/vehicle/vehicle.hpp"
 
 namespace fairway {
 
@@ -14,23 +16,14 @@ namespace fairway {
 enum class CellKind : std::uint8_t { ordinary = 0, obstacle = 1, target = 2, outside = 3 };
 
 struct Flow {
-  int nx = 0;
-  int ny = 0;
-  double x0_m = 0.0;
-  double y0_m = 0.0;
-  CellSize size;
-  double speed_mps = 1.0;
+  Grid grid;
+  Vehicle vehicle;
   const float* heading_rad = nullptr;  ///< [iy][ix]; NaN: no command, crossed straight
   const CellKind* kind = nullptr;      ///< [iy][ix]; never `outside`
 
-  bool contains(int ix, int iy) const { return ix >= 0 && ix < nx && iy >= 0 && iy < ny; }
-  std::size_t index(int ix, int iy) const {
-    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) +
-           static_cast<std::size_t>(ix);
-  }
-  std::size_t cells() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
-  CellKind kind_at(int ix, int iy) const {
-    return contains(ix, iy) ? kind[index(ix, iy)] : CellKind::outside;
+  CellShape shape() const { return {grid.cell_m, vehicle.turn_radius_m}; }
+  CellKind kind_at(Cell c) const {
+    return grid.contains(c) ? kind[grid.index(c)] : CellKind::outside;
   }
 };
 

@@ -23,10 +23,10 @@ struct Recorder {
   VerdictSet ends;
   bool gave_up = false;
 
-  double seconds(double length_m) const { return above(length_m / flow.speed_mps); }
+  double seconds(double length_m) const { return above(length_m / flow.vehicle.speed_mps); }
 
   void arrive(std::size_t section, Interval along_m, double length_m, bool hop) {
-    const UnitRange range = units_of(along_m, flow.size.cell_m);
+    const UnitRange range = units_of(along_m, flow.grid.cell_m);
     const float flown_s = rounded_up(seconds(length_m));
     for (std::size_t i = begin; i < pieces.size(); ++i) {  // two branches may meet again
       ImagePiece& piece = pieces[i];
@@ -107,7 +107,7 @@ ImageStore leaf_images(const Flow& flow, std::span<const LeafPlace> leaves, int 
   images.fill(
       flow,
       [&](std::size_t i, Recorder& recorder) {
-        const Interval along_m = along_of(leaves[i].range, flow.size.cell_m);
+        const Interval along_m = along_of(leaves[i].range, flow.grid.cell_m);
         follow_to_section(flow, front_of_section(flow, leaves[i].section, along_m),
                           crossings_worth(leaves[i].range, most_crossings), recorder);
       },

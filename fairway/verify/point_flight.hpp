@@ -79,15 +79,15 @@ class Follower {
   Follower(const Flow& flow, Visitor& visitor)
       : flow_(flow),
         visitor_(visitor),
-        d_(flow.size.cell_m),
-        r_(flow.size.turn_radius_m),
+        d_(flow.grid.cell_m),
+        r_(flow.vehicle.turn_radius_m),
         per_r_(1.0 / r_) {}
 
   bool follow(double x_m, double y_m, double heading_rad) {
     if (!(d_ <= largest_cell * r_)) return false;
     Point p{};
-    if (!place(x_m, flow_.x0_m, p.ix, p.x, p.error)) return false;
-    if (!place(y_m, flow_.y0_m, p.iy, p.y, p.error)) return false;
+    if (!place(x_m, flow_.grid.x0_m, p.ix, p.x, p.error)) return false;
+    if (!place(y_m, flow_.grid.y0_m, p.iy, p.y, p.error)) return false;
     p.ux = std::cos(heading_rad);
     p.uy = std::sin(heading_rad);
     p.u_error = rounding;
@@ -122,7 +122,7 @@ class Follower {
 
   /// In a cell that ends the flight.
   bool met_end(const Point& p) {
-    const CellKind kind = flow_.kind_at(p.ix, p.iy);
+    const CellKind kind = flow_.kind_at({p.ix, p.iy});
     if (kind == CellKind::ordinary) return false;
     visitor_.end(kind == CellKind::target     ? Verdict::reach
                  : kind == CellKind::obstacle ? Verdict::collide
@@ -132,7 +132,7 @@ class Follower {
   }
 
   Step cross(Point& p) {
-    const double command = static_cast<double>(flow_.heading_rad[flow_.index(p.ix, p.iy)]);
+    const double command = static_cast<double>(flow_.heading_rad[flow_.grid.index({p.ix, p.iy})]);
     if (std::isnan(command)) return go_straight(p);
     const double cx = std::cos(command);
     const double cy = std::sin(command);
@@ -244,7 +244,7 @@ class Follower {
     const double error = 1.05 * (moved + moved / speed) + rounding * r_ / speed;
     if (!is_between(place) || !(error <= most_error * d_)) return Step::unsure;
     const int side = vertical ? (cx > 0.0 ? 0 : 2) : (cy > 0.0 ? 1 : 3);
-    const std::size_t section = 4 * flow_.index(p.ix, p.iy) + static_cast<std::size_t>(side);
+    const std::size_t section = 4 * flow_.grid.index({p.ix, p.iy}) + static_cast<std::size_t>(side);
     p.length_m += length + 2.0 * error;
     enter(p, side, place);
     if (met_end(p)) return Step::told;
@@ -271,8 +271,8 @@ class Follower {
       p.error = 1.05 * (moved + moved / speed) + rounding * (r_ + 4.0 * length) / speed;
       if (!is_between(place) || !(p.error <= most_error * d_)) return Step::unsure;
       enter(p, vertical ? (p.ux > 0.0 ? 0 : 2) : (p.uy > 0.0 ? 1 : 3), place);
-      const bool ended = flow_.kind_at(p.ix, p.iy) != CellKind::ordinary;
-      if (!ended && std::isnan(flow_.heading_rad[flow_.index(p.ix, p.iy)])) continue;
+      const bool ended = flow_.kind_at({p.ix, p.iy}) != CellKind::ordinary;
+      if (!ended && std::isnan(flow_.heading_rad[flow_.grid.index({p.ix, p.iy})])) continue;
       p.turn = 0;
       p.length_m += length + 2.0 * p.error;
       if (met_end(p)) return Step::told;

@@ -6,9 +6,9 @@
 #include <cstdint>
 
 #include "fairway/base/random.hpp"
-#include "fairway/verify/sample_plans.hpp"
 #include "fairway/verify/state_flight.hpp"
-#include "fairway/verify/told_flights.hpp"
+#include "fairway/verify/testing/plans_to_verify.hpp"
+#include "fairway/verify/testing/told_flights.hpp"
 
 namespace fairway {
 namespace {
@@ -30,14 +30,14 @@ void expect_right(const Flow& flow, const WideCommands<Wide>& commands, Random& 
   ++counts.sure;
   ASSERT_EQ(told.arrivals.size() + told.ends.size(), 1U);
   ASSERT_FALSE(told.gave_up);
-  const int ix = static_cast<int>(std::floor((x_m - flow.x0_m) / flow.size.cell_m));
-  const int iy = static_cast<int>(std::floor((y_m - flow.y0_m) / flow.size.cell_m));
-  const CellKind kind = flow.kind_at(ix, iy);
+  const int ix = static_cast<int>(std::floor((x_m - flow.grid.x0_m) / flow.grid.cell_m));
+  const int iy = static_cast<int>(std::floor((y_m - flow.grid.y0_m) / flow.grid.cell_m));
+  const CellKind kind = flow.kind_at({ix, iy});
   WideMeeting<Wide> met;
   if (kind == CellKind::ordinary) {
-    const Wide d(flow.size.cell_m);
-    const WideVec<Wide> p{Wide(x_m) - (Wide(flow.x0_m) + Wide(ix) * d),
-                          Wide(y_m) - (Wide(flow.y0_m) + Wide(iy) * d)};
+    const Wide d(flow.grid.cell_m);
+    const WideVec<Wide> p{Wide(x_m) - (Wide(flow.grid.x0_m) + Wide(ix) * d),
+                          Wide(y_m) - (Wide(flow.grid.y0_m) + Wide(iy) * d)};
     WideFlight<Wide> flight(commands, ix, iy, p, wide_unit<Wide>(heading_rad),
                             [&](std::size_t n) { return random.below(n); });
     met = flight.fly(300);
@@ -59,8 +59,8 @@ TEST(PointFlight, tells_what_the_exact_flight_meets_wherever_it_is_sure) {
     const Flow flow = plan_flow.flow();
     const WideCommands<Wide> commands(flow);
     for (int i = 0; i < 300; ++i) {
-      const double x = flow.x0_m + random.uniform(-0.2, flow.nx + 0.2) * flow.size.cell_m;
-      const double y = flow.y0_m + random.uniform(-0.2, flow.ny + 0.2) * flow.size.cell_m;
+      const double x = flow.grid.x0_m + random.uniform(-0.2, flow.grid.nx + 0.2) * flow.grid.cell_m;
+      const double y = flow.grid.y0_m + random.uniform(-0.2, flow.grid.ny + 0.2) * flow.grid.cell_m;
       expect_right(flow, commands, random, x, y, random.uniform(-pi, pi),
                    "plan " + std::to_string(number), counts);
       if (::testing::Test::HasFailure()) return;
@@ -119,8 +119,8 @@ TEST(PointFlight, crosses_many_cells_without_a_command_as_straight_as_the_exact_
     const Flow flow = plan_flow.flow();
     const WideCommands<Wide> commands(flow);
     for (int k = 0; k < 100; ++k) {
-      const double x = flow.x0_m + random.uniform(0.0, flow.nx) * flow.size.cell_m;
-      const double y = flow.y0_m + random.uniform(0.0, flow.ny) * flow.size.cell_m;
+      const double x = flow.grid.x0_m + random.uniform(0.0, flow.grid.nx) * flow.grid.cell_m;
+      const double y = flow.grid.y0_m + random.uniform(0.0, flow.grid.ny) * flow.grid.cell_m;
       expect_right(flow, commands, random, x, y, random.uniform(-pi, pi), "silent", counts);
       if (::testing::Test::HasFailure()) return;
     }

@@ -9,8 +9,8 @@
 #include "fairway/base/random.hpp"
 #include "fairway/verify/certify.hpp"
 #include "fairway/verify/images.hpp"
-#include "fairway/verify/sample_plans.hpp"
-#include "fairway/verify/told_flights.hpp"
+#include "fairway/verify/testing/plans_to_verify.hpp"
+#include "fairway/verify/testing/told_flights.hpp"
 
 namespace fairway {
 namespace {
@@ -137,9 +137,9 @@ TEST(Prover, proves_of_places_what_exact_flights_do_and_within_the_time) {
       const double share =
           random.below(3) == 0 ? static_cast<double>(random.below(2)) : random.unit();
       const double at =
-          flow.size.cell_m * 0x1p-32 * (static_cast<double>(place.range.lo) + share * width);
+          flow.grid.cell_m * 0x1p-32 * (static_cast<double>(place.range.lo) + share * width);
       const auto side = static_cast<Side>(place.section % 4);
-      const Wide line(cell_enclosure::is_far(side) ? 0.0 : flow.size.cell_m);
+      const Wide line(cell_enclosure::is_far(side) ? 0.0 : flow.grid.cell_m);
       const WideVec<Wide> p = cell_enclosure::is_vertical(side) ? WideVec<Wide>{line, Wide(at)}
                                                                 : WideVec<Wide>{Wide(at), line};
       const Front front = front_of_section(flow, place.section, 0.0);
@@ -151,7 +151,7 @@ TEST(Prover, proves_of_places_what_exact_flights_do_and_within_the_time) {
       ASSERT_EQ(name_of(end.end), name_of(verdict))
           << "plan " << number << " section " << place.section << " at " << at;
       if (verdict == Verdict::trapped) continue;
-      ASSERT_LE(static_cast<double>(end.length_m) / flow.speed_mps,
+      ASSERT_LE(static_cast<double>(end.length_m) / flow.vehicle.speed_mps,
                 static_cast<double>(sections.time_s[leaf]) * (1 + 1e-9))
           << "plan " << number << " section " << place.section << " at " << at;
     }

@@ -21,7 +21,7 @@ struct Reader {
   VerdictSet found;
 
   void arrive(std::size_t section, Interval along_m, double, bool) {
-    sections.look_up(section, units_of(along_m, flow.size.cell_m), 0.0, found);
+    sections.look_up(section, units_of(along_m, flow.grid.cell_m), 0.0, found);
   }
   void end(Verdict verdict, double) { found.add(verdict, 0.0); }
   void give_up() { found.add(Verdict::undecided, 0.0); }
@@ -82,11 +82,11 @@ VerdictMap verdict_map_of(const Flow& flow, const SectionView& sections,
   require(options.states_per_sample >= 0 && options.states_per_sample <= 65535,
           "0 to 65535 states a sample");
   VerdictMap map;
-  map.grid = {flow.nx, flow.ny, flow.x0_m, flow.y0_m, flow.size.cell_m};
+  map.grid = {flow.grid.nx, flow.grid.ny, flow.grid.x0_m, flow.grid.y0_m, flow.grid.cell_m};
   const int most = options.most_across;
-  map.cells_per_sample = std::max(1, (std::max(flow.nx, flow.ny) + most - 1) / most);
-  map.nx = (flow.nx + map.cells_per_sample - 1) / map.cells_per_sample;
-  map.ny = (flow.ny + map.cells_per_sample - 1) / map.cells_per_sample;
+  map.cells_per_sample = std::max(1, (std::max(flow.grid.nx, flow.grid.ny) + most - 1) / most);
+  map.nx = (flow.grid.nx + map.cells_per_sample - 1) / map.cells_per_sample;
+  map.ny = (flow.grid.ny + map.cells_per_sample - 1) / map.cells_per_sample;
   map.states_per_sample = options.states_per_sample;
   for (int k = 0; k < options.headings; ++k) {
     map.heading_rad.push_back(Heading::from_rad(aside_rad + two_pi * k / options.headings).rad());
@@ -98,7 +98,7 @@ VerdictMap verdict_map_of(const Flow& flow, const SectionView& sections,
   for_ranges(map.samples(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Cell cell = map.cell_of_sample(i);
-      map.kind[i] = flow.kind_at(cell.ix, cell.iy);
+      map.kind[i] = flow.kind_at({cell.ix, cell.iy});
       if (map.kind[i] != CellKind::ordinary) continue;
       for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
         map.verdict[h * map.samples() + i] = sampler.verdict(map.place_m(i), map.heading_rad[h]);

@@ -21,7 +21,7 @@ struct VerdictMapOptions {
   int most_crossings = 3000;   ///< of borders by one flight, else undecided
 };
 
-/// Throws ContractViolation when an option is out of range.
+/// Throws PreconditionViolation when an option is out of range.
 [[nodiscard]] VerdictMap verdict_map_of(const Flow& flow, const SectionView& sections,
                                         const VerdictMapOptions& options);
 

@@ -10,7 +10,7 @@
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/verify/certify.hpp"
 #include "fairway/verify/images.hpp"
-#include "fairway/verify/sample_plans.hpp"
+#include "fairway/verify/testing/plans_to_verify.hpp"
 
 namespace fairway {
 namespace {
@@ -202,9 +202,9 @@ TEST(VerdictMap, OptionsOutOfRangeAreRefused) {
   const Plan plan = empty_plan(3, 3, 8.0, 20.0);
   const PlanFlow pf(plan);
   const SectionVerdicts sections = undecided_sections(pf.flow(), 2);
-  EXPECT_THROW(map_of(pf, sections, {.headings = 0}), ContractViolation);
-  EXPECT_THROW(map_of(pf, sections, {.states_per_sample = 70000}), ContractViolation);
-  EXPECT_THROW(map_of(pf, sections, {.most_across = 0}), ContractViolation);
+  EXPECT_THROW(map_of(pf, sections, {.headings = 0}), PreconditionViolation);
+  EXPECT_THROW(map_of(pf, sections, {.states_per_sample = 70000}), PreconditionViolation);
+  EXPECT_THROW(map_of(pf, sections, {.most_across = 0}), PreconditionViolation);
 }
 
 }  // namespace

@@ -102,10 +102,10 @@ class Follower {
   static constexpr int most_fronts = 16;
 
   void cross(const Front& front) {
-    const std::size_t cell = flow_.index(front.ix, front.iy);
+    const std::size_t cell = flow_.grid.index({front.ix, front.iy});
     const float command = flow_.heading_rad[cell];
     const CellOrder order = order_for(command, front.heading_rad);
-    const CellDepartures departures = enclose_departures(front.entry, order, flow_.size);
+    const CellDepartures departures = enclose_departures(front.entry, order, flow_.shape());
     if (departures.too_wide || departures.count() == 0) {
       gave_up_ = true;
       return;
@@ -138,7 +138,7 @@ class Follower {
     corner(next, leave, front, leave.low_corner, -1);
     corner(next, leave, front, leave.high_corner, +1);
 
-    const CellKind kind = flow_.kind_at(next.ix, next.iy);
+    const CellKind kind = flow_.kind_at({next.ix, next.iy});
     if (kind != CellKind::ordinary) {
       visitor_.end(verdict_of(kind), length_m);
       return;
@@ -158,16 +158,17 @@ class Follower {
       next.circle_began =
           same_circle && front.circle_began != Front::nowhere ? front.circle_began : section;
       next.entry.turn = leave.turn;
-      const double d = flow_.size.cell_m;
+      const double d = flow_.grid.cell_m;
       next.entry.centre_m =
           leave.centre_m - IntervalVec2{step_x(leave.side) * d, step_y(leave.side) * d};
       if (front.came_off != Front::nowhere &&
-          front.came_off == section_of(flow_.index(next.ix, next.iy), opposite(leave.side))) {
+          front.came_off ==
+              section_of(flow_.grid.index({next.ix, next.iy}), opposite(leave.side))) {
         next.mirrored = front.came_off;
       }
     }
     if (leave.grazes) next.grazed = static_cast<int>(opposite(leave.side));
-    const double line = cell_enclosure::is_far(leave.side) ? 0.0 : flow_.size.cell_m;
+    const double line = cell_enclosure::is_far(leave.side) ? 0.0 : flow_.grid.cell_m;
     next.entry.position_m = cell_enclosure::from_parts(line, leave.along_m, leave.side);
     push(next);
   }
@@ -177,7 +178,7 @@ class Follower {
   /// cells (nothing but the place along the border differs). Waves that are sure to are leapt over.
   void wave(const Front& front, std::size_t cell, CellDeparture& leave, bool sole, Front& next) {
     const std::size_t out = section_of(cell, leave.side);
-    const std::size_t back = section_of(flow_.index(next.ix, next.iy), opposite(leave.side));
+    const std::size_t back = section_of(flow_.grid.index({next.ix, next.iy}), opposite(leave.side));
     if (sole && !front.wave_half && front.wave_began == back) {
       next.wave_began = front.wave_began;
       next.wave_along_m = front.wave_along_m;
@@ -186,9 +187,9 @@ class Follower {
       return;
     }
     if (sole && front.wave_half && front.wave_began == out) {
-      const double d = flow_.size.cell_m;
+      const double d = flow_.grid.cell_m;
       const Interval step =
-          (4.0 * flow_.size.turn_radius_m) *
+          (4.0 * flow_.vehicle.turn_radius_m) *
           intersection(cell_enclosure::outward_part(leave.heading, leave.side), {0.0, 1.0});
       const Interval onwards = cell_enclosure::along(leave.heading, leave.side);
       const double room = onwards.positive() ? d - leave.along_m.hi : leave.along_m.lo;
@@ -221,12 +222,12 @@ class Follower {
     next.ix += vertical ? 0 : end;
     next.iy += vertical ? end : 0;
     for (const CellKind kind :
-         {flow_.kind_at(beside_x, beside_y), flow_.kind_at(next.ix, next.iy)}) {
+         {flow_.kind_at({beside_x, beside_y}), flow_.kind_at({next.ix, next.iy})}) {
       if (kind != CellKind::ordinary) visitor_.end(verdict_of(kind), next.length_m);
     }
-    if (flow_.kind_at(next.ix, next.iy) != CellKind::ordinary) return;
+    if (flow_.kind_at({next.ix, next.iy}) != CellKind::ordinary) return;
     if (turns_back(next, leave.heading, towards(vertical, end))) return;
-    const double d = flow_.size.cell_m;
+    const double d = flow_.grid.cell_m;
     const double line = cell_enclosure::is_far(leave.side) ? 0.0 : d;
     next.entry.position_m = cell_enclosure::from_parts(line, end > 0 ? 0.0 : d, leave.side);
     push(next);
@@ -237,7 +238,7 @@ class Follower {
   bool turns_back(const Front& next, const IntervalVec2& heading, Side side) const {
     const Interval into = cell_enclosure::outward_part(heading, side);
     if (into.lo != 0.0 || into.hi != 0.0) return false;
-    const float command = flow_.heading_rad[flow_.index(next.ix, next.iy)];
+    const float command = flow_.heading_rad[flow_.grid.index({next.ix, next.iy})];
     return !std::isnan(command) &&
            cell_enclosure::outward_part(unit_enclosure(static_cast<double>(command)), side)
                .negative();
@@ -275,11 +276,11 @@ inline Front front_of_section(const Flow& flow, std::size_t section, Interval al
   const std::size_t cell = section / 4;
   const Side side = static_cast<Side>(section % 4);
   Front front;
-  front.ix =
-      static_cast<int>(cell % static_cast<std::size_t>(flow.nx)) + section_flight::step_x(side);
-  front.iy =
-      static_cast<int>(cell / static_cast<std::size_t>(flow.nx)) + section_flight::step_y(side);
-  const double line = cell_enclosure::is_far(side) ? 0.0 : flow.size.cell_m;
+  front.ix = static_cast<int>(cell % static_cast<std::size_t>(flow.grid.nx)) +
+             section_flight::step_x(side);
+  front.iy = static_cast<int>(cell / static_cast<std::size_t>(flow.grid.nx)) +
+             section_flight::step_y(side);
+  const double line = cell_enclosure::is_far(side) ? 0.0 : flow.grid.cell_m;
   front.entry.position_m = cell_enclosure::from_parts(line, along_m, side);
   front.heading_rad = flow.heading_rad[cell];
   front.entry.heading = unit_enclosure(static_cast<double>(front.heading_rad));

@@ -11,8 +11,8 @@
 #include "fairway/base/random.hpp"
 #include "fairway/verify/certify.hpp"
 #include "fairway/verify/images.hpp"
-#include "fairway/verify/sample_plans.hpp"
-#include "fairway/verify/told_flights.hpp"
+#include "fairway/verify/testing/plans_to_verify.hpp"
+#include "fairway/verify/testing/told_flights.hpp"
 
 namespace fairway {
 namespace {
@@ -35,7 +35,7 @@ WideMeeting<Wide> fly_from(const WideCommands<Wide>& commands, std::size_t secti
   const Flow& flow = commands.flow;
   const Front start = front_of_section(flow, section, 0.0);
   const auto side = static_cast<Side>(section % 4);
-  const Wide line(cell_enclosure::is_far(side) ? 0.0 : flow.size.cell_m);
+  const Wide line(cell_enclosure::is_far(side) ? 0.0 : flow.grid.cell_m);
   const bool vertical = cell_enclosure::is_vertical(side);
   const WideVec<Wide> p{vertical ? line : along_m, vertical ? along_m : line};
   WideFlight<Wide> flight(commands, start.ix, start.iy, p, commands.unit[section / 4],
@@ -71,7 +71,7 @@ TEST(SectionFlight, meets_one_of_the_things_told_from_every_place_of_the_start) 
     const std::vector<std::size_t> live = live_sections(flow);
     for (int i = 0; i < 24 && !live.empty(); ++i) {
       const std::size_t section = live[random.below(live.size())];
-      const Interval along_m = part_of_side(random, flow.size.cell_m);
+      const Interval along_m = part_of_side(random, flow.grid.cell_m);
       Told told;
       follow_to_section(flow, front_of_section(flow, section, along_m), most_crossings, told);
       ASSERT_FALSE(told.nothing()) << "plan " << number << " section " << section;
@@ -197,7 +197,7 @@ TEST(SectionFlight, recognises_a_circle_and_only_that) {
   EXPECT_TRUE(told.arrivals.empty());
   // A target on the ring ends it.
   std::vector<CellKind> kind = plan_flow.kind;
-  kind[flow.index(1, 4)] = CellKind::target;
+  kind[flow.grid.index({1, 4})] = CellKind::target;
   Flow with_target = flow;
   with_target.kind = kind.data();
   Told other;
@@ -293,7 +293,7 @@ TEST(SectionFlight, gives_up_rather_than_say_half) {
   const Flow flow = plan_flow.flow();
   for (const std::size_t section : live_sections(flow)) {
     Told told;
-    follow_to_section(flow, front_of_section(flow, section, {0.0, flow.size.cell_m}), 0, told);
+    follow_to_section(flow, front_of_section(flow, section, {0.0, flow.grid.cell_m}), 0, told);
     ASSERT_TRUE(told.gave_up);
   }
 }

@@ -9,12 +9,38 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "fairway/base/grid.hpp"
 #include "fairway/base/interval.hpp"
+#include "fairway/vehicle/vehicle.hpp"
 #include "fairway/verify/verdict.hpp"
 
 namespace fairway {
 
 inline constexpr double units_per_side = 0x1p32;
+
+/// The array "geometry" of a certificate's file: the grid's place and the vehicle, by name.
+struct Geometry {
+  double x0_m;
+  double y0_m;
+  double cell_m;
+  double turn_radius_m;
+  double speed_mps;
+  double units;  ///< units_per_side, so that a reader knows what places mean
+
+  bool is_valid() const {
+    return std::isfinite(x0_m) && std::isfinite(y0_m) && std::isfinite(turn_radius_m) &&
+           std::isfinite(speed_mps) && cell_m > 0.0 && turn_radius_m > cell_m && speed_mps > 0.0 &&
+           units == units_per_side;
+  }
+  void put_into(Grid& grid, Vehicle& vehicle) const {
+    grid.x0_m = x0_m;
+    grid.y0_m = y0_m;
+    grid.cell_m = cell_m;
+    vehicle = {speed_mps, turn_radius_m};
+  }
+};
+inline constexpr std::size_t geometry_numbers = 6;
+static_assert(sizeof(Geometry) == geometry_numbers * sizeof(double));
 
 /// A range of places in whole units, both ends included; wide enough for the interval it came from
 /// and one unit more on either side, so that other arithmetic finds the same leaves.

@@ -67,17 +67,17 @@ inline bool belongs(Interval p, Interval u, double cell_m) {
 template <typename Visitor>
 void follow_state_as_set(const Flow& flow, double x_m, double y_m, double heading_rad,
                          int most_crossings, Visitor& visitor) {
-  const double d = flow.size.cell_m;
+  const double d = flow.grid.cell_m;
   const IntervalVec2 u = state_flight::direction(heading_rad);
-  const int cx = static_cast<int>(std::floor((x_m - flow.x0_m) / d));
-  const int cy = static_cast<int>(std::floor((y_m - flow.y0_m) / d));
+  const int cx = static_cast<int>(std::floor((x_m - flow.grid.x0_m) / d));
+  const int cy = static_cast<int>(std::floor((y_m - flow.grid.y0_m) / d));
   for (int iy = cy - 1; iy <= cy + 1; ++iy) {
-    const Interval y = state_flight::local(y_m, flow.y0_m, iy, d);
+    const Interval y = state_flight::local(y_m, flow.grid.y0_m, iy, d);
     if (intersection(y, {0.0, d}).empty()) continue;
     for (int ix = cx - 1; ix <= cx + 1; ++ix) {
-      const Interval x = state_flight::local(x_m, flow.x0_m, ix, d);
+      const Interval x = state_flight::local(x_m, flow.grid.x0_m, ix, d);
       if (intersection(x, {0.0, d}).empty()) continue;
-      const CellKind kind = flow.kind_at(ix, iy);
+      const CellKind kind = flow.kind_at({ix, iy});
       if (kind == CellKind::obstacle) visitor.end(Verdict::collide, 0.0);
       if (!state_flight::belongs(x, u.x, d) || !state_flight::belongs(y, u.y, d)) continue;
       if (kind == CellKind::target) visitor.end(Verdict::reach, 0.0);

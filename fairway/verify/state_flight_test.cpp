@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "fairway/base/random.hpp"
-#include "fairway/verify/sample_plans.hpp"
-#include "fairway/verify/told_flights.hpp"
+#include "fairway/verify/testing/plans_to_verify.hpp"
+#include "fairway/verify/testing/told_flights.hpp"
 
 namespace fairway {
 namespace {
@@ -38,7 +38,7 @@ double coordinate(Random& random, double low, int n, double d) {
 
 double heading(Random& random, const Flow& flow) {
   static constexpr std::array<double, 6> off{0.0, 0.0, 1e-8, -1e-8, 1e-15, -1e-13};
-  const auto command = static_cast<double>(flow.heading_rad[random.below(flow.cells())]);
+  const auto command = static_cast<double>(flow.heading_rad[random.below(flow.grid.size())]);
   const double axis = (static_cast<double>(random.below(4)) - 1.0) * (pi / 2);
   double h = random.uniform(-pi, pi);
   switch (random.below(6)) {
@@ -64,13 +64,13 @@ double heading(Random& random, const Flow& flow) {
 /// that its heading does not point out of at once.
 template <typename Body>
 void for_own_cells(const Flow& flow, const Start& s, const WideVec<Wide>& u, const Body& body) {
-  const Wide d(flow.size.cell_m);
-  const int cx = static_cast<int>(std::floor((s.x_m - flow.x0_m) / flow.size.cell_m));
-  const int cy = static_cast<int>(std::floor((s.y_m - flow.y0_m) / flow.size.cell_m));
+  const Wide d(flow.grid.cell_m);
+  const int cx = static_cast<int>(std::floor((s.x_m - flow.grid.x0_m) / flow.grid.cell_m));
+  const int cy = static_cast<int>(std::floor((s.y_m - flow.grid.y0_m) / flow.grid.cell_m));
   for (int iy = cy - 1; iy <= cy + 1; ++iy) {
     for (int ix = cx - 1; ix <= cx + 1; ++ix) {
-      const WideVec<Wide> p{Wide(s.x_m) - (Wide(flow.x0_m) + Wide(ix) * d),
-                            Wide(s.y_m) - (Wide(flow.y0_m) + Wide(iy) * d)};
+      const WideVec<Wide> p{Wide(s.x_m) - (Wide(flow.grid.x0_m) + Wide(ix) * d),
+                            Wide(s.y_m) - (Wide(flow.grid.y0_m) + Wide(iy) * d)};
       if (p.x < 0 || p.x > d || p.y < 0 || p.y > d) continue;
       const bool heads_out = (p.x == 0 && u.x < 0) || (p.x == d && u.x > 0) ||
                              (p.y == 0 && u.y < 0) || (p.y == d && u.y > 0);
@@ -97,8 +97,8 @@ TEST(StateFlight, meets_one_of_the_things_told_from_every_cell_the_state_belongs
     const Flow flow = plan_flow.flow();
     const WideCommands<Wide> commands(flow);
     for (int i = 0; i < 120; ++i) {
-      const Start s{coordinate(random, flow.x0_m, flow.nx, flow.size.cell_m),
-                    coordinate(random, flow.y0_m, flow.ny, flow.size.cell_m),
+      const Start s{coordinate(random, flow.grid.x0_m, flow.grid.nx, flow.grid.cell_m),
+                    coordinate(random, flow.grid.y0_m, flow.grid.ny, flow.grid.cell_m),
                     heading(random, flow)};
       Told told;
       follow_state_as_set(flow, s.x_m, s.y_m, s.heading_rad, most_crossings, told);
@@ -106,7 +106,7 @@ TEST(StateFlight, meets_one_of_the_things_told_from_every_cell_the_state_belongs
       ASSERT_FALSE(told.nothing());
       const WideVec<Wide> u = wide_unit<Wide>(s.heading_rad);
       for_own_cells(flow, s, u, [&](int ix, int iy, const WideVec<Wide>& p, bool heads_out) {
-        const CellKind kind = flow.kind_at(ix, iy);
+        const CellKind kind = flow.kind_at({ix, iy});
         WideMeeting<Wide> met;
         if (kind == CellKind::obstacle) {
           met.end = Verdict::collide;  // closed
@@ -117,7 +117,7 @@ TEST(StateFlight, meets_one_of_the_things_told_from_every_cell_the_state_belongs
         } else if (kind == CellKind::outside) {
           met.end = Verdict::leave;
         } else {
-          if (turns_out(p, u, commands.unit[flow.index(ix, iy)], flow.size.cell_m)) return;
+          if (turns_out(p, u, commands.unit[flow.grid.index({ix, iy})], flow.grid.cell_m)) return;
           WideFlight<Wide> flight(commands, ix, iy, p, u,
                                   [&](std::size_t n) { return random.below(n); });
           met = flight.fly(300);
@@ -174,9 +174,10 @@ TEST(StateFlight, takes_places_and_headings_computed_in_doubles_for_what_they_st
     const Flow flow = plan_flow.flow();
     const double d = plan.grid.cell_m;
     const double y = 0.7 * d;
-    ASSERT_TRUE(tells(told_of(flow, flow.x0_m + 2 * d, y, 3.0), Verdict::collide)) << d;
-    ASSERT_TRUE(tells(told_of(flow, flow.x0_m + 3 * d, y, 0.1), Verdict::collide)) << d;
-    ASSERT_TRUE(tells(told_of(flow, flow.x0_m + flow.nx * d, y, 0.1), Verdict::leave)) << d;
+    ASSERT_TRUE(tells(told_of(flow, flow.grid.x0_m + 2 * d, y, 3.0), Verdict::collide)) << d;
+    ASSERT_TRUE(tells(told_of(flow, flow.grid.x0_m + 3 * d, y, 0.1), Verdict::collide)) << d;
+    ASSERT_TRUE(tells(told_of(flow, flow.grid.x0_m + flow.grid.nx * d, y, 0.1), Verdict::leave))
+        << d;
   }
   // A heading opposite to the command in doubles: both turns. Left leaves by the left, right by the
   // right half.

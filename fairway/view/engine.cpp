@@ -53,42 +53,22 @@ std::vector<FlightSegment> segments_of(const DubinsPath& path) {
   return segments;
 }
 
-Vec2 point_of(const json& value) { return {value.at(0).get<double>(), value.at(1).get<double>()}; }
+Mission mission_in(const Plan& plan, const std::string& where) {
+  if (plan.record.mission) return *plan.record.mission;
+  throw InputError(where, "its record names no mission: expected a plan made by fairway");
+}
 
 }  // namespace
 
-Mission mission_of_record(const std::string& record_json, const std::string& where) {
-  try {
-    const json mission = json::parse(record_json).at("mission");
-    if (mission.at("kind") == "goal") {
-      GoalMission goal{point_of(mission.at("goal_m")), {}};
-      if (!mission.at("goal_heading_rad").is_null()) {
-        goal.goal_heading_rad = mission.at("goal_heading_rad").get<double>();
-      }
-      return goal;
-    }
-    PathMission path;
-    path.closed = mission.at("closed").get<bool>();
-    for (const json& vertex : mission.at("vertices_m")) path.vertices_m.push_back(point_of(vertex));
-    return path;
-  } catch (const json::exception&) {
-    throw InputError(where, "its record names no mission: expected a plan made by fairway");
-  }
-}
-
 LiveEngine::LiveEngine(const fs::path& folder)
     : plan_(read_plan(folder / "plan.safetensors")),
-      mission_(mission_of_record(plan_.record_json, (folder / "plan.safetensors").string())),
+      mission_(mission_in(plan_, (folder / "plan.safetensors").string())),
       flights_(plan_) {
-  if (const auto* goal = std::get_if<GoalMission>(&mission_); goal && goal->goal_heading_rad) {
-    final_legs_.emplace(plan_, State{goal->goal_m, Heading::from_rad(*goal->goal_heading_rad)});
-  }
+  if (const auto goal = goal_pose_of(plan_)) final_legs_.emplace(plan_, *goal);
   const fs::path file = folder / "certificate.safetensors";
   if (!fs::exists(file)) return;
   // Once as a whole, which checks digests; the answers then come from the mapped file.
-  const json record = json::parse(read_certificate(file).record_json, nullptr, false);
-  if (!record.is_object() ||
-      record.value("plan_sha256", json()) != json::parse(plan_digests_json(plan_))) {
+  if (read_certificate(file).plan != plan_digests(plan_)) {
     throw InputError(file.string(), "is the certificate of another plan than plan.safetensors");
   }
   file_ = std::make_unique<MappedFile>(file);
@@ -101,7 +81,7 @@ json LiveEngine::info() const {
   return {{"live", true},
           {"program", program_version},
           {"verdicts", file_ != nullptr},
-          {"plan_sha256", json::parse(plan_digests_json(plan_))}};
+          {"plan_sha256", json::parse(json_text(plan_digests(plan_)))}};
 }
 
 json LiveEngine::state(const State& start) const {

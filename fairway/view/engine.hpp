@@ -51,7 +51,4 @@ class LiveEngine {
   runtime::Certificate certificate_;
 };
 
-/// The mission that a plan's record tells. Throws InputError{where, ...} when it tells none.
-[[nodiscard]] Mission mission_of_record(const std::string& record_json, const std::string& where);
-
 }  // namespace fairway

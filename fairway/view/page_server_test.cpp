@@ -21,9 +21,9 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/certificate/certificate_file.hpp"
-#include "fairway/map/scratch_folder.hpp"
+#include "fairway/map/testing/scratch_folder.hpp"
 #include "fairway/plan/plan_file.hpp"
-#include "fairway/report/sample_plans.hpp"
+#include "fairway/report/testing/plans_to_draw.hpp"
 #include "fairway/run/stage_clock.hpp"
 #include "fairway/run/verification.hpp"
 #include "fairway/simulate/exact_flight.hpp"
@@ -38,7 +38,7 @@ namespace fs = std::filesystem;
 Plan island() {
   Plan plan = testing::island_plan({30, 24, -8.0, 4.0, 4.0}, {80.0, 60.0}, {10, 12});
   plan.vehicle = {10.0, 9.0};
-  plan.record_json = R"({"mission":{"kind":"goal","goal_m":[80.0,60.0],"goal_heading_rad":null}})";
+  plan.record.mission = GoalMission{{80.0, 60.0}, {}};
   return plan;
 }
 
@@ -293,7 +293,7 @@ TEST_F(Served, InfoSaysWhichPlanThisIs) {
   const json info = answer("/api/info", 200);
   EXPECT_EQ(info["live"], true);
   EXPECT_EQ(info["verdicts"], true);
-  EXPECT_EQ(info["plan_sha256"], json::parse(plan_digests_json(plan_)));
+  EXPECT_EQ(info["plan_sha256"], json::parse(json_text(plan_digests(plan_))));
 }
 
 TEST(LiveEngine, RefusesACertificateOfAnotherPlan) {
@@ -310,7 +310,7 @@ TEST(LiveEngine, GivesFlightsWithoutVerdictsWhereNothingWasProved) {
   const ScratchFolder folder;
   const fs::path place(folder.file(""));
   Plan plan = island();
-  plan.record_json = R"({"mission":{"kind":"goal","goal_m":[80.0,60.0],"goal_heading_rad":0.5}})";
+  plan.record.mission = GoalMission{{80.0, 60.0}, 0.5};
   write_plan(plan, place / "plan.safetensors", Existing::keep);
   const LiveEngine engine(place);
   EXPECT_EQ(engine.info()["verdicts"], false);
@@ -321,13 +321,12 @@ TEST(LiveEngine, GivesFlightsWithoutVerdictsWhereNothingWasProved) {
 }
 
 TEST(LiveEngine, RefusesAPlanWithoutAMission) {
-  for (const char* record : {"{}", R"({"mission":1})", R"({"mission":{"kind":"goal"}})",
-                             R"({"mission":{"kind":"path","closed":1}})"}) {
-    EXPECT_THROW((void)mission_of_record(record, "p"), InputError) << record;
-  }
-  const Mission path = mission_of_record(
-      R"({"mission":{"kind":"path","closed":true,"vertices_m":[[1,2],[3,4]]}})", "p");
-  EXPECT_EQ(std::get<PathMission>(path).vertices_m.size(), 2U);
+  const ScratchFolder folder;
+  const fs::path place(folder.file(""));
+  Plan plan = island();
+  plan.record.mission.reset();
+  write_plan(plan, place / "plan.safetensors", Existing::keep);
+  EXPECT_THROW(LiveEngine{place}, InputError);
 }
 
 }  // namespace

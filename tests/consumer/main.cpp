@@ -1,9 +1,11 @@
 // Plans on a small map and flies the plan, with the installed library alone.
 #include <cstdio>
+#include <utility>
 #include <variant>
 
 #include <fairway/field/compute_field.hpp>
 #include <fairway/plan/plan_file.hpp>
+#include <fairway/plan/plan_of_field.hpp>
 #include <fairway/simulate/exact_flight.hpp>
 
 int main(int, char** argv) {
@@ -17,8 +19,7 @@ int main(int, char** argv) {
   auto* field = std::get_if<fairway::Field>(&result);
   if (field == nullptr) return 1;
 
-  const fairway::Plan plan{field->grid,   vehicle,       field->heading_rad,
-                           field->region, field->cost_m, "{}"};
+  const fairway::Plan plan = fairway::plan_of_field(std::move(*field), vehicle);
   fairway::write_plan(plan, argv[1], fairway::Existing::replace);
   const fairway::Plan back = fairway::read_plan(argv[1]);
   const auto flight =

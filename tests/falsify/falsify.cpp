@@ -25,9 +25,9 @@
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/verify/certify.hpp"
 #include "fairway/verify/images.hpp"
-#include "fairway/verify/sample_plans.hpp"
 #include "fairway/verify/state_flight.hpp"
-#include "fairway/verify/wide_flight.hpp"
+#include "fairway/verify/testing/plans_to_verify.hpp"
+#include "fairway/verify/testing/wide_flight.hpp"
 
 namespace fairway {
 namespace {
@@ -79,13 +79,13 @@ class Falsifier {
         flights_(plan),
         random_(Random::stream(settings.seed, 77)) {
     CertifyOptions options = settings.certify;
-    options.samples = std::min<std::size_t>(200000, 20 * flow_.cells());
+    options.samples = std::min<std::size_t>(200000, 20 * flow_.grid.size());
     certified_ = certify(flow_, plan_flow_.is_free, options);
   }
 
   Totals run() {
     fmt::print("{}: {} x {} cells, cell / radius {:.6g}, undecided {:.5f}, {} leaves\n", name_,
-               flow_.nx, flow_.ny, flow_.size.cell_m / flow_.size.turn_radius_m,
+               flow_.grid.nx, flow_.grid.ny, flow_.grid.cell_m / flow_.vehicle.turn_radius_m,
                certified_.volume.all[0], certified_.sections.leaves());
     constexpr std::size_t batch = 20000;
     while (totals_.states < settings_.states) {
@@ -125,7 +125,7 @@ class Falsifier {
         h = command(cell) + pi;
         break;
       case 3:
-        h = command(random_.below(flow_.cells()));
+        h = command(random_.below(flow_.grid.size()));
         break;
       default:
         return free;
@@ -133,14 +133,14 @@ class Falsifier {
     return Heading::from_rad(h + near[random_.below(near.size())]).rad();
   }
   Place random_state() {
-    const double d = flow_.size.cell_m;
+    const double d = flow_.grid.cell_m;
     for (;;) {
-      const std::size_t cell = random_.below(flow_.cells());
+      const std::size_t cell = random_.below(flow_.grid.size());
       if (flow_.kind[cell] != CellKind::ordinary && random_.below(50) != 0) continue;
       const double x =
-          flow_.x0_m + d * static_cast<double>(cell % static_cast<std::size_t>(flow_.nx));
+          flow_.grid.x0_m + d * static_cast<double>(cell % static_cast<std::size_t>(flow_.grid.nx));
       const double y =
-          flow_.y0_m + d * static_cast<double>(cell / static_cast<std::size_t>(flow_.nx));
+          flow_.grid.y0_m + d * static_cast<double>(cell / static_cast<std::size_t>(flow_.grid.nx));
       if (random_.below(4) != 0) {
         return {x + d * random_.unit(), y + d * random_.unit(), random_.uniform(-pi, pi)};
       }
@@ -150,12 +150,12 @@ class Falsifier {
   }
   Place near(const Place& s) {
     const double scale = std::exp(-12.0 * random_.unit());
-    const double d = flow_.size.cell_m;
+    const double d = flow_.grid.cell_m;
     Place t{s.x_m + scale * d * random_.uniform(-1.0, 1.0),
             s.y_m + scale * d * random_.uniform(-1.0, 1.0),
             Heading::from_rad(s.heading_rad + scale * pi * random_.uniform(-1.0, 1.0)).rad()};
-    t.x_m = std::clamp(t.x_m, flow_.x0_m, flow_.x0_m + flow_.nx * d);
-    t.y_m = std::clamp(t.y_m, flow_.y0_m, flow_.y0_m + flow_.ny * d);
+    t.x_m = std::clamp(t.x_m, flow_.grid.x0_m, flow_.grid.x0_m + flow_.grid.nx * d);
+    t.y_m = std::clamp(t.y_m, flow_.grid.y0_m, flow_.grid.y0_m + flow_.grid.ny * d);
     return t;
   }
 
@@ -289,17 +289,17 @@ class Falsifier {
   /// In 237 bits, from every cell the state belongs to, with several draws of the choices.
   void judge(const Place& s, Verdict verdict, const FlightResult& flown, double bound_s, int by) {
     if (!commands_) commands_ = std::make_unique<WideCommands<Wide>>(flow_);
-    const double d = flow_.size.cell_m;
+    const double d = flow_.grid.cell_m;
     bool contradicted = false;
     bool late = false;
     bool unknown = false;
     std::string ends;
     const auto fly_from = [&](int ix, int iy) {
-      const WideVec<Wide> p{Wide(s.x_m) - (Wide(flow_.x0_m) + Wide(ix) * Wide(d)),
-                            Wide(s.y_m) - (Wide(flow_.y0_m) + Wide(iy) * Wide(d))};
+      const WideVec<Wide> p{Wide(s.x_m) - (Wide(flow_.grid.x0_m) + Wide(ix) * Wide(d)),
+                            Wide(s.y_m) - (Wide(flow_.grid.y0_m) + Wide(iy) * Wide(d))};
       const WideVec<Wide> u = wide_unit<Wide>(s.heading_rad);
       if (p.x < 0 || p.x > d || p.y < 0 || p.y > d) return;
-      const CellKind kind = flow_.kind_at(ix, iy);
+      const CellKind kind = flow_.kind_at({ix, iy});
       ends += fmt::format(" [{},{}:{} at {:.17g},{:.17g}]", ix, iy, static_cast<int>(kind),
                           static_cast<double>(p.x / d), static_cast<double>(p.y / d));
       if (kind == CellKind::obstacle) contradicted = contradicted || verdict != Verdict::collide;
@@ -318,18 +318,18 @@ class Falsifier {
         });
         const auto end = flight.fly_to_end(40000);
         ends += fmt::format(" {}@{:.9g}s", name_of(end.end),
-                            static_cast<double>(end.length_m) / flow_.speed_mps);
+                            static_cast<double>(end.length_m) / flow_.vehicle.speed_mps);
         if (end.end == Verdict::undecided) {
           unknown = true;
         } else if (end.end != verdict) {
           contradicted = true;
-        } else if (static_cast<double>(end.length_m) / flow_.speed_mps > bound_s) {
+        } else if (static_cast<double>(end.length_m) / flow_.vehicle.speed_mps > bound_s) {
           late = true;
         }
       }
     };
-    const int cx = static_cast<int>(std::floor((s.x_m - flow_.x0_m) / d));
-    const int cy = static_cast<int>(std::floor((s.y_m - flow_.y0_m) / d));
+    const int cx = static_cast<int>(std::floor((s.x_m - flow_.grid.x0_m) / d));
+    const int cy = static_cast<int>(std::floor((s.y_m - flow_.grid.y0_m) / d));
     for (int iy = cy - 1; iy <= cy + 1; ++iy) {
       for (int ix = cx - 1; ix <= cx + 1; ++ix) fly_from(ix, iy);
     }

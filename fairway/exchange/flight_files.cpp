@@ -1,0 +1,193 @@
+#include "fairway/exchange/flight_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "fairway/base/error.hpp"
+
+namespace fairway {
+
+namespace {
+
+void append(std::string& text, double value) {
+  std::array<char, 32> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  text.append(buffer.data(), end.ptr);
+}
+
+void append_fixed(std::string& text, double value, int decimals) {
+  std::array<char, 400> buffer;  // the longest double has 309 digits before the point
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                 std::chars_format::fixed, decimals);
+  text.append(buffer.data(), end.ptr);
+}
+
+void append_state(std::string& text, const State& state) {
+  append(text, state.position_m.x);
+  text += ',';
+  append(text, state.position_m.y);
+  text += ',';
+  append(text, state.heading.rad());
+}
+
+/// Calls visit(piece, along_m) at both ends of the piece and between, at most `step_m` apart.
+template <typename Visit>
+void for_steps(const FlightSegment& piece, double step_m, const Visit& visit) {
+  const double steps = std::max(1.0, std::ceil(piece.length_m / step_m));
+  for (double i = 0.0; i < steps; i += 1.0) visit(piece, piece.length_m * i / steps);
+  visit(piece, piece.length_m);
+}
+
+void append_position(std::string& text, Vec2 p, const LonLatOf& lon_lat_of) {
+  text += '[';
+  if (lon_lat_of) {
+    const LonLat place = lon_lat_of(p);
+    append_fixed(text, place.longitude_deg, 9);  // 0.1 mm
+    text += ',';
+    append_fixed(text, place.latitude_deg, 9);
+  } else {
+    append_fixed(text, p.x, 4);
+    text += ',';
+    append_fixed(text, p.y, 4);
+  }
+  text += ']';
+}
+
+/// A LineString along the pieces, or a Point when there are none.
+void append_geometry(std::string& text, const State& start, std::span<const FlightSegment> segments,
+                     double step_m, const LonLatOf& lon_lat_of) {
+  if (segments.empty()) {
+    text += "{\"type\":\"Point\",\"coordinates\":";
+    append_position(text, start.position_m, lon_lat_of);
+    text += '}';
+    return;
+  }
+  text += "{\"type\":\"LineString\",\"coordinates\":[";
+  append_position(text, segments.front().start.position_m, lon_lat_of);
+  for (const FlightSegment& piece : segments) {
+    // A straight line needs its end alone.
+    const double chord_m = piece.curvature_per_m == 0.0 ? piece.length_m : step_m;
+    for_steps(piece, chord_m, [&](const FlightSegment& p, double along_m) {
+      if (along_m == 0.0) return;
+      text += ',';
+      append_position(text, state_at(p, along_m).position_m, lon_lat_of);
+    });
+  }
+  text += "]}";
+}
+
+void append_or_null(std::string& text, double value) {
+  if (std::isfinite(value)) {
+    append(text, value);
+  } else {
+    text += "null";
+  }
+}
+
+}  // namespace
+
+std::string outcomes_csv(std::span<const State> starts, std::span<const FlightResult> results) {
+  require(starts.size() == results.size(), "one result per start");
+  std::string text = "x_m,y_m,heading_rad,outcome,time_s,length_m\n";
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    append_state(text, starts[i]);
+    text += ',';
+    text += name_of(results[i].outcome);
+    text += ',';
+    append(text, results[i].time_s);
+    text += ',';
+    append(text, results[i].length_m);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string trajectories_csv(std::span<const Flight> flights, double speed_mps, double step_m) {
+  require(speed_mps > 0.0 && step_m > 0.0, "speed and step are positive");
+  std::string text = "flight,time_s,x_m,y_m,heading_rad,curvature_per_m,final_leg\n";
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    const std::string number = std::to_string(i) + ',';
+    const auto add = [&](std::span<const FlightSegment> segments, const char* final_leg) {
+      for (const FlightSegment& piece : segments) {
+        for_steps(piece, step_m, [&](const FlightSegment& p, double along_m) {
+          text += number;
+          append(text, p.time_s + along_m / speed_mps);
+          text += ',';
+          append_state(text, state_at(p, along_m));
+          text += ',';
+          append(text, p.curvature_per_m);
+          text += final_leg;
+        });
+      }
+    };
+    add(flights[i].segments, ",0\n");
+    add(flights[i].final_leg.segments, ",1\n");
+  }
+  return text;
+}
+
+namespace {
+
+void append_flight(std::string& text, std::size_t number, const Flight& flight, double step_m,
+                   const LonLatOf& lon_lat_of) {
+  text += "{\"type\":\"Feature\",\"properties\":{\"flight\":" + std::to_string(number);
+  text += ",\"outcome\":\"";
+  text += name_of(flight.result.outcome);
+  text += "\",\"time_s\":";
+  append_or_null(text, flight.result.time_s);
+  text += ",\"length_m\":";
+  append_or_null(text, flight.result.length_m);
+  if (flight.final_leg.state != FinalLegState::not_asked) {
+    text += ",\"final_leg\":\"";
+    text += name_of(flight.final_leg.state);
+    text += '"';
+  }
+  text += "},\"geometry\":";
+  append_geometry(text, flight.start, flight.segments, step_m, lon_lat_of);
+  text += '}';
+}
+
+void append_final_leg(std::string& text, std::size_t number, const Flight& flight, double step_m,
+                      const LonLatOf& lon_lat_of) {
+  const FinalLeg& leg = flight.final_leg;
+  text += "{\"type\":\"Feature\",\"properties\":{\"flight\":" + std::to_string(number);
+  text += ",\"final_leg\":\"";
+  text += name_of(leg.state);
+  text += "\",\"word\":\"" + leg.word + "\",\"time_s\":";
+  append(text, leg.time_s);
+  text += ",\"length_m\":";
+  append(text, leg.length_m);
+  text += "},\"geometry\":";
+  append_geometry(text, leg.entry, leg.segments, step_m, lon_lat_of);
+  text += '}';
+}
+
+}  // namespace
+
+std::string flights_geojson(std::span<const Flight> flights, double step_m,
+                            const LonLatOf& lon_lat_of) {
+  require(step_m > 0.0, "a step is positive");
+  std::string text = "{\"type\":\"FeatureCollection\",";
+  if (!lon_lat_of) {
+    text += "\"note\":\"coordinates are metres in the map's frame, not longitude and latitude\",";
+  }
+  text += "\"features\":[";
+  const char* before = "\n";
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    text += std::exchange(before, ",\n");
+    append_flight(text, i, flights[i], step_m, lon_lat_of);
+  }
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    if (flights[i].final_leg.segments.empty()) continue;
+    text += std::exchange(before, ",\n");
+    append_final_leg(text, i, flights[i], step_m, lon_lat_of);
+  }
+  text += "\n]}\n";
+  return text;
+}
+
+}  // namespace fairway

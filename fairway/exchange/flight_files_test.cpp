@@ -1,0 +1,162 @@
+#include "fairway/exchange/flight_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "fairway/base/random.hpp"
+#include "fairway/simulate/state_files.hpp"
+
+namespace fairway {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A quarter circle to the left of radius 10 from (1, 2) heading east, then 5 m north.
+Flight quarter_and_straight() {
+  Flight flight;
+  flight.start = {{1.0, 2.0}, Heading::from_rad(0.0)};
+  const double arc_m = 10.0 * pi / 2;
+  flight.result = {Outcome::reach, (arc_m + 5.0) / 4.0, arc_m + 5.0};
+  flight.segments = {{flight.start, 0.0, arc_m, 0.1},
+                     {{{11.0, 12.0}, Heading::from_rad(pi / 2)}, arc_m / 4.0, 5.0, 0.0}};
+  return flight;
+}
+
+TEST(FlightFiles, writes_a_line_per_start_that_reads_back_as_the_same_doubles) {
+  Random random(3);
+  std::vector<State> starts;
+  std::vector<FlightResult> results;
+  for (int i = 0; i < 200; ++i) {
+    starts.push_back(
+        {{random.uniform(-1e6, 1e6), random.normal()}, Heading::from_rad(random.uniform(-pi, pi))});
+    results.push_back({static_cast<Outcome>(i % 4), i % 4 == 3 ? infinity : random.unit(), 0.1});
+  }
+  const std::string text = outcomes_csv(starts, results);
+  EXPECT_EQ(text.substr(0, text.find('\n')), "x_m,y_m,heading_rad,outcome,time_s,length_m");
+  EXPECT_EQ(states_of_csv(text, "outcomes"), starts);
+  EXPECT_NE(text.find(",trapped,inf,0.1\n"), std::string::npos);
+}
+
+TEST(FlightFiles, samples_trajectories_no_farther_apart_than_asked) {
+  const std::vector<Flight> flights{quarter_and_straight()};
+  std::istringstream lines(trajectories_csv(flights, 4.0, 1.0));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "flight,time_s,x_m,y_m,heading_rad,curvature_per_m,final_leg");
+  double last_s = 0.0;
+  double x = 0.0;
+  double y = 0.0;
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    double flight = 0.0;
+    double time_s = 0.0;
+    double heading_rad = 0.0;
+    double curvature = 0.0;
+    char comma = 0;
+    fields >> flight >> comma >> time_s >> comma >> x >> comma >> y >> comma >> heading_rad >>
+        comma >> curvature;
+    EXPECT_LE(time_s - last_s, 0.25 + 1e-12);
+    last_s = time_s;
+    if (curvature != 0.0) {
+      EXPECT_NEAR(std::hypot(x - 1.0, y - 12.0), 10.0, 1e-12);  // on its circle
+      EXPECT_NEAR(heading_rad, time_s * 0.4, 1e-12);
+    }
+  }
+  EXPECT_NEAR(x, 11.0, 1e-12);
+  EXPECT_NEAR(y, 17.0, 1e-12);
+  EXPECT_NEAR(last_s, flights[0].result.time_s, 1e-12);
+}
+
+/// The same, and then straight on for 4 m.
+Flight with_final_leg() {
+  Flight flight = quarter_and_straight();
+  flight.final_leg.state = FinalLegState::other;
+  flight.final_leg.entry = end_of(flight);
+  flight.final_leg.word = "S+LSL";
+  flight.final_leg.time_s = 1.0;
+  flight.final_leg.length_m = 4.0;
+  flight.final_leg.segments = {{end_of(flight), flight.result.time_s, 4.0, 0.0}};
+  return flight;
+}
+
+TEST(FlightFiles, marks_the_final_leg_that_follows_a_flight) {
+  const Flight flight = with_final_leg();
+  std::istringstream lines(trajectories_csv(std::vector{flight}, 4.0, 1.0));
+  std::string line;
+  std::getline(lines, line);
+  int before = 0;
+  int after = 0;
+  std::string last;
+  while (std::getline(lines, line)) {
+    (line.ends_with(",1") ? after : before) += 1;
+    EXPECT_TRUE(line.ends_with(after > 0 ? ",1" : ",0")) << line;  // it comes last
+    last = line;
+  }
+  EXPECT_EQ(before, 17 + 6);
+  EXPECT_EQ(after, 5);
+  std::istringstream fields(last);
+  double value = 0.0;
+  char comma = 0;
+  std::vector<double> row;
+  while (fields >> value) {
+    row.push_back(value);
+    fields >> comma;
+  }
+  EXPECT_NEAR(row[1], flight.result.time_s + 1.0, 1e-12);
+  EXPECT_NEAR(row[3], 21.0, 1e-12);
+}
+
+TEST(FlightFiles, geojson_has_the_final_legs_after_all_flights) {
+  Flight refused = quarter_and_straight();
+  refused.final_leg.state = FinalLegState::none_clear;
+  const auto json = nlohmann::json::parse(
+      flights_geojson(std::vector{with_final_leg(), refused, quarter_and_straight()}, 1.0));
+  const auto& features = json["features"];
+  ASSERT_EQ(features.size(), 4U);
+  EXPECT_EQ(features[0]["properties"]["final_leg"], "other");
+  EXPECT_EQ(features[1]["properties"]["final_leg"], "none_clear");
+  EXPECT_FALSE(features[2]["properties"].contains("final_leg"));
+  EXPECT_EQ(features[3]["properties"], (nlohmann::json{{"flight", 0},
+                                                       {"final_leg", "other"},
+                                                       {"word", "S+LSL"},
+                                                       {"time_s", 1.0},
+                                                       {"length_m", 4.0}}));
+  EXPECT_EQ(features[3]["geometry"]["coordinates"], (nlohmann::json{{11.0, 17.0}, {11.0, 21.0}}));
+}
+
+TEST(FlightFiles, writes_geojson_that_parses_in_metres_and_in_degrees) {
+  Flight trapped = quarter_and_straight();
+  trapped.result = {Outcome::trapped, infinity, infinity};
+  Flight at_once;
+  at_once.start = {{7.0, 8.0}, Heading::from_rad(0.0)};
+  at_once.result = {Outcome::collide, 0.0, 0.0};
+  const std::vector<Flight> flights{quarter_and_straight(), trapped, at_once};
+
+  const auto metres = nlohmann::json::parse(flights_geojson(flights, 1.0));
+  EXPECT_EQ(metres["type"], "FeatureCollection");
+  EXPECT_TRUE(metres.contains("note"));
+  ASSERT_EQ(metres["features"].size(), 3U);
+  const auto& first = metres["features"][0];
+  EXPECT_EQ(first["properties"]["outcome"], "reach");
+  EXPECT_EQ(first["properties"]["length_m"], flights[0].result.length_m);
+  EXPECT_EQ(first["geometry"]["type"], "LineString");
+  EXPECT_EQ(first["geometry"]["coordinates"].front(), (nlohmann::json{1.0, 2.0}));
+  EXPECT_EQ(first["geometry"]["coordinates"].back(), (nlohmann::json{11.0, 17.0}));
+  EXPECT_EQ(first["geometry"]["coordinates"].size(), 1U + 16U + 1U);
+  EXPECT_TRUE(metres["features"][1]["properties"]["time_s"].is_null());
+  EXPECT_EQ(metres["features"][2]["geometry"]["type"], "Point");
+
+  const auto degrees = nlohmann::json::parse(flights_geojson(flights, 1.0, [](Vec2 p) {
+    return LonLat{8.0 + p.x * 1e-5, 50.0 + p.y * 1e-5};
+  }));
+  EXPECT_FALSE(degrees.contains("note"));
+  EXPECT_EQ(degrees["features"][0]["geometry"]["coordinates"].back(),
+            (nlohmann::json{8.00011, 50.00017}));
+}
+
+}  // namespace
+}  // namespace fairway

@@ -1,0 +1,58 @@
+#include "fairway/exchange/plan_rasters.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "fairway/base/error.hpp"
+#include "fairway/exchange/write_geotiff.hpp"
+
+namespace fairway {
+
+void write_plan_raster(const Plan& plan, const std::filesystem::path& path, Existing existing) {
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  std::vector<float> cost_m = plan.cost_m;
+  for (float& cost : cost_m) {
+    if (!std::isfinite(cost)) cost = none;
+  }
+  std::vector<float> region(plan.region.size());
+  for (std::size_t i = 0; i < region.size(); ++i) region[i] = static_cast<float>(plan.region[i]);
+  constexpr const char* heading_meaning =
+      "heading to steer, radians counter-clockwise from the grid's x axis (east unless the grid is "
+      "turned); no value: no command";
+  const std::vector<RasterBand> bands{
+      {"heading_rad", "rad", heading_meaning, plan.heading_rad},
+      {"cost_m", "m", "cost to go, metres; no value: the goal cannot be reached", cost_m},
+      {"region", "", "0 free (safe start), 1 obstacle, -1 buffer, 2 goal", region}};
+  write_geotiff(plan.grid, frame_in(plan.record), bands, path, existing);
+}
+
+void write_verdict_raster(const Grid& grid, const Frame& frame,
+                          std::span<const VerdictLayer> layers, const std::filesystem::path& path,
+                          Existing existing) {
+  require(!layers.empty(), "a raster of verdicts has a heading");
+  std::string codes;
+  for (int v = 0; v < verdict_count; ++v) {
+    codes += fmt::format("{}{} {}", v == 0 ? "" : ", ", v, name_of(static_cast<Verdict>(v)));
+  }
+  std::vector<RasterBand> bands;
+  for (const VerdictLayer& layer : layers) {
+    const auto* codes_of_cells = reinterpret_cast<const std::uint8_t*>(layer.verdict.data());
+    bands.push_back({fmt::format("verdict at heading {:.6g} rad", layer.heading.rad()), "",
+                     "what is proved of the vehicle there: " + codes,
+                     std::span(codes_of_cells, layer.verdict.size())});
+  }
+  write_geotiff(grid, frame, bands, path, existing);
+}
+
+std::vector<Heading> even_headings(int count) {
+  std::vector<Heading> headings;
+  for (int k = 0; k < count; ++k) headings.push_back(Heading::from_rad(two_pi * k / count));
+  return headings;
+}
+
+}  // namespace fairway

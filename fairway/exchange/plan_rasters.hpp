@@ -1,0 +1,35 @@
+// Plans and verdicts as GeoTIFF: what GIS programs open.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "fairway/base/atomic_file.hpp"
+#include "fairway/base/frame.hpp"
+#include "fairway/base/grid.hpp"
+#include "fairway/base/heading.hpp"
+#include "fairway/plan/plan.hpp"
+#include "fairway/verify/verdict.hpp"
+
+namespace fairway {
+
+/// Bands heading (rad), cost (m), region (code), as floats. No command, no way to the goal: no
+/// value.
+void write_plan_raster(const Plan& plan, const std::filesystem::path& path, Existing existing);
+
+/// The verdicts of a grid at one heading, [iy][ix].
+struct VerdictLayer {
+  Heading heading;
+  std::vector<Verdict> verdict;
+};
+
+/// A band of bytes for each layer, at least one: the verdicts by code.
+void write_verdict_raster(const Grid& grid, const Frame& frame,
+                          std::span<const VerdictLayer> layers, const std::filesystem::path& path,
+                          Existing existing);
+
+/// `count` headings, evenly spaced, the first east.
+[[nodiscard]] std::vector<Heading> even_headings(int count);
+
+}  // namespace fairway

@@ -1,0 +1,38 @@
+// A flight as a mission for autopilots: QGroundControl's .plan, or QGC WPL 110, which Mission
+// Planner, MAVProxy and QGroundControl read.
+//
+// The mission is a line through waypoints: the points of the thinned track (track.hpp), no farther
+// from the flight than the tolerance. An autopilot has its own guidance between them: what is
+// proved of the plan is not proved of such a mission.
+// Properties that always hold:
+//   1. The first waypoint is where the flight starts, the last where it ends, its last leg
+//      included.
+//   2. Heights are above the home position, which is the start, on the ground.
+//   3. map/ reads both files back to the same points, within 1e-9 degrees (0.1 mm).
+#pragma once
+
+#include <string>
+
+#include "fairway/base/frame.hpp"
+#include "fairway/simulate/flight.hpp"
+#include "fairway/vehicle/vehicle.hpp"
+
+namespace fairway {
+
+struct QgcMissionOptions {
+  double altitude_m = 50.0;  ///< above home, >= 0
+  double tolerance_m = 1.0;  ///< > 0
+};
+
+/// QGroundControl's .plan, version 1. Throws PreconditionViolation when an option is out of range
+/// or `lon_lat_of` is empty.
+[[nodiscard]] std::string qgc_plan_text(const Flight& flight, double speed_mps,
+                                        const LonLatOf& lon_lat_of,
+                                        const QgcMissionOptions& options);
+
+/// The same as QGC WPL 110.
+[[nodiscard]] std::string qgc_waypoints_text(const Flight& flight, double speed_mps,
+                                             const LonLatOf& lon_lat_of,
+                                             const QgcMissionOptions& options);
+
+}  // namespace fairway

@@ -1,0 +1,22 @@
+#include "fairway/plan/plan_digests.hpp"
+
+#include <span>
+
+#include <nlohmann/json.hpp>
+
+#include "fairway/base/digest.hpp"
+
+namespace fairway {
+
+PlanDigests plan_digests(const Plan& plan) {
+  const auto digest = [](const auto& array) { return sha256_hex(std::as_bytes(std::span(array))); };
+  return {digest(plan.heading_rad), digest(plan.cost_m), digest(plan.region)};
+}
+
+std::string json_text(const PlanDigests& digests) {
+  return nlohmann::json{
+      {"heading_rad", digests.heading_rad}, {"cost_m", digests.cost_m}, {"region", digests.region}}
+      .dump();
+}
+
+}  // namespace fairway

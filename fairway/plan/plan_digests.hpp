@@ -1,0 +1,24 @@
+// Which plan something belongs to: the SHA-256 of its arrays, as plan files and certificates keep
+// them.
+#pragma once
+
+#include <string>
+
+#include "fairway/plan/plan.hpp"
+
+namespace fairway {
+
+/// In lower-case hex.
+struct PlanDigests {
+  std::string heading_rad;
+  std::string cost_m;
+  std::string region;
+  friend bool operator==(const PlanDigests&, const PlanDigests&) = default;
+};
+
+/// {"cost_m":"...","heading_rad":"...","region":"..."}
+[[nodiscard]] std::string json_text(const PlanDigests& digests);
+
+[[nodiscard]] PlanDigests plan_digests(const Plan& plan);
+
+}  // namespace fairway

@@ -1,0 +1,12 @@
+// field -> plan.
+#pragma once
+
+#include "fairway/field/field.hpp"
+#include "fairway/plan/plan.hpp"
+
+namespace fairway {
+
+/// The field becomes a plan; its arrays move.
+[[nodiscard]] Plan plan_of_field(Field&& field, const Vehicle& vehicle, PlanRecord record = {});
+
+}  // namespace fairway

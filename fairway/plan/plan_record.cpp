@@ -1,0 +1,84 @@
+#include "fairway/plan/plan_record.hpp"
+
+#include "fairway/base/error.hpp"
+#include "fairway/base/frame_json.hpp"
+#include "fairway/base/strict_json.hpp"
+#include "fairway/plan/plan_record_json.hpp"
+#include "fairway/vehicle/mission_json.hpp"
+
+namespace fairway {
+namespace {
+
+using nlohmann::json;
+
+json object_of(const std::string& text, const char* promise) {
+  if (text.empty()) return json::object();
+  json value = json::parse(text, nullptr, false);
+  require(value.is_object(), promise);
+  return value;
+}
+
+std::vector<InputFile> inputs_of(const json& value, const std::string& where) {
+  if (!value.is_array()) throw InputError(where, "expected a list of files, found " + shown(value));
+  std::vector<InputFile> inputs;
+  for (const json& file : value) {
+    inputs.push_back({text_member(file, "path", where), text_member(file, "sha256", where)});
+  }
+  return inputs;
+}
+
+}  // namespace
+
+json json_of(const PlanRecord& record) {
+  json value = object_of(record.more_json, "more_json is one JSON object");
+  for (const char* key : {"program", "mission", "options", "inputs", "frame"}) {
+    require(!value.contains(key), "more_json leaves out what the record holds");
+  }
+  if (record.program) value["program"] = *record.program;
+  if (record.mission) value["mission"] = json_of(*record.mission);
+  if (!record.options_json.empty()) {
+    value["options"] = object_of(record.options_json, "options_json is one JSON object");
+  }
+  if (record.inputs) {
+    json& inputs = value["inputs"] = json::array();
+    for (const InputFile& file : *record.inputs) {
+      inputs.push_back({{"path", file.path}, {"sha256", file.sha256}});
+    }
+  }
+  if (record.frame) value["frame"] = json_of(*record.frame);
+  return value;
+}
+
+PlanRecord plan_record_of(json value, const std::string& where) {
+  PlanRecord record;
+  const auto take = [&](const char* key, const auto& read) {
+    const auto found = value.find(key);
+    if (found == value.end()) return;
+    if (!found->is_null()) read(*found, where + "." + key);
+    value.erase(found);
+  };
+  take("program", [&](const json& found, const std::string& place) {
+    if (!found.is_string()) throw InputError(place, "expected a text, found " + shown(found));
+    record.program = found.get<std::string>();
+  });
+  take("mission", [&](const json& found, const std::string& place) {
+    record.mission = mission_of(found, place);
+  });
+  take("options", [&](const json& found, const std::string& place) {
+    if (!found.is_object()) throw InputError(place, "expected an object, found " + shown(found));
+    record.options_json = found.dump();
+  });
+  take("inputs", [&](const json& found, const std::string& place) {
+    record.inputs = inputs_of(found, place);
+  });
+  take("frame",
+       [&](const json& found, const std::string& place) { record.frame = frame_of(found, place); });
+  if (!value.empty()) record.more_json = value.dump();
+  return record;
+}
+
+std::string json_text(const PlanRecord& record) {
+  return json_of(record).dump(-1, ' ', true, json::error_handler_t::replace);
+}
+
+}  // namespace fairway

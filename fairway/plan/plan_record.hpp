@@ -1,0 +1,34 @@
+// How a plan came about: what its file says beside the arrays (docs/formats.md).
+//
+// A plan that Fairway made has every member. One of other origin may lack any of them, and may
+// have members that Fairway does not know: they are kept, so that a file is written as it was read.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fairway/base/frame.hpp"
+#include "fairway/map/obstacle_map.hpp"
+#include "fairway/vehicle/mission.hpp"
+
+namespace fairway {
+
+struct PlanRecord {
+  std::optional<std::string> program;  ///< name and version
+  std::optional<Mission> mission;
+  std::optional<Frame> frame;
+  std::optional<std::vector<InputFile>> inputs;
+  std::string options_json;  ///< every effective option, one JSON object; empty: none
+  std::string more_json;     ///< members of other programs, one JSON object; empty: none
+};
+
+/// The record as one JSON object, as the plan's file holds it, with sorted keys.
+[[nodiscard]] std::string json_text(const PlanRecord& record);
+
+/// The grid's frame; that of no other place than the grid's own when the record has none.
+[[nodiscard]] inline Frame frame_in(const PlanRecord& record) {
+  return record.frame.value_or(Frame{});
+}
+
+}  // namespace fairway

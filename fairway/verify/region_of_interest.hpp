@@ -1,0 +1,32 @@
+// The question: what flights are to reach.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "fairway/base/grid.hpp"
+#include "fairway/map/region.hpp"
+#include "fairway/verify/flow.hpp"
+
+namespace fairway {
+
+/// It takes the goal's place: with another region, goal cells are ordinary cells; with obstacles,
+/// touching one is to reach.
+struct RegionOfInterest {
+  enum class Kind { goal, obstacle, rectangle };
+  Kind kind = Kind::goal;
+  std::array<double, 4> rectangle_m{};  ///< x0, y0, x1, y1; cells wholly inside
+  friend bool operator==(const RegionOfInterest&, const RegionOfInterest&) = default;
+};
+
+/// What each cell means for flights to `interest`, [iy][ix].
+[[nodiscard]] std::vector<CellKind> cell_kinds(const Grid& grid, const std::vector<Region>& region,
+                                               const RegionOfInterest& interest);
+
+/// 1 for the cells to be reached, [iy][ix].
+[[nodiscard]] std::vector<std::uint8_t> target_cells(const Grid& grid,
+                                                     const std::vector<Region>& region,
+                                                     const RegionOfInterest& interest);
+
+}  // namespace fairway

@@ -1,0 +1,104 @@
+// Plans for tests and falsification: random ones, made to be as hard as plans can be.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "fairway/base/heading.hpp"
+#include "fairway/base/random.hpp"
+#include "fairway/plan/plan.hpp"
+#include "fairway/verify/flow.hpp"
+
+namespace fairway {
+
+/// A plan as the certified method sees it; owns what the flow looks at.
+struct PlanFlow {
+  const Plan& plan;
+  std::vector<CellKind> kind;
+  std::vector<bool> is_free;
+
+  explicit PlanFlow(const Plan& plan_) : plan(plan_) {
+    for (const Region region : plan.region) {
+      kind.push_back(region == Region::obstacle ? CellKind::obstacle
+                     : region == Region::goal   ? CellKind::target
+                                                : CellKind::ordinary);
+      is_free.push_back(region == Region::free);
+    }
+  }
+  Flow flow() const { return {plan.grid, plan.vehicle, plan.heading_rad.data(), kind.data()}; }
+};
+
+inline Plan empty_plan(int nx, int ny, double cell_m, double turn_radius_m) {
+  Plan plan;
+  plan.grid = {nx, ny, 0.0, 0.0, cell_m};
+  plan.vehicle = {10.0, turn_radius_m};
+  plan.heading_rad.assign(plan.grid.size(), 0.0F);
+  plan.region.assign(plan.grid.size(), Region::free);
+  plan.cost_m.assign(plan.grid.size(), 1.0F);
+  return plan;
+}
+
+enum class FieldStyle { rough, smooth, axes, quarters, weaving, goalward };
+inline constexpr int field_styles = 6;
+
+/// The command of one cell in the styles that need no memory.
+inline double sample_heading(FieldStyle style, Random& random, Vec2 p, Vec2 goal, double twist) {
+  static constexpr std::array<double, 9> axes{0.0,  1.5707963, -1.5707963, 3.1415925, -3.1415925,
+                                              1e-8, -1e-8,     0.78539816, 1e-4};
+  switch (style) {
+    case FieldStyle::rough:
+      return random.uniform(-pi, pi);
+    case FieldStyle::smooth:
+      return 2.5 * std::sin(p.x * 0.9 + twist) + 2.0 * std::cos(p.y * 0.7 - twist);
+    case FieldStyle::axes:
+      return axes[random.below(axes.size())];
+    case FieldStyle::quarters:
+      return static_cast<double>(random.below(8)) * (pi / 4);
+    case FieldStyle::weaving:  // towards a line, from both sides
+      return (p.y > goal.y ? -1.0 : 1.0) * std::exp(-10.0 * random.unit()) +
+             (random.below(4) == 0 ? pi : 0.0);
+    case FieldStyle::goalward:
+      return std::atan2(goal.y - p.y, goal.x - p.x) + 0.9 * std::sin(p.x * 0.5 + twist);
+  }
+  return 0.0;
+}
+
+/// Random plan number `seed`: size, ratio of cell to turning radius, field, obstacles, goal cells
+/// and cells without a command all vary.
+inline Plan random_plan(std::uint64_t seed) {
+  Random random = Random::stream(0x5eed, seed);
+  static constexpr std::array<double, 6> ratios{0.99, 0.9, 0.5, 0.4, 0.1, 0.999999};
+  const int nx = 3 + static_cast<int>(random.below(10));
+  const int ny = 3 + static_cast<int>(random.below(10));
+  const double cell_m = random.below(2) == 0 ? 1.0 : random.uniform(0.3, 40.0);
+  Plan plan = empty_plan(nx, ny, cell_m, cell_m / ratios[random.below(ratios.size())]);
+  if (random.below(2) == 0) {
+    plan.grid.x0_m = random.uniform(-1e4, 1e4);
+    plan.grid.y0_m = random.uniform(-1e4, 1e4);
+  }
+  const auto style = static_cast<FieldStyle>(seed % field_styles);
+  const double twist = random.uniform(-pi, pi);
+  const Vec2 goal{random.uniform(0.0, nx), random.uniform(0.0, ny)};
+  const double goal_radius = random.uniform(0.8, 3.0);
+  const double blocked = random.below(3) == 0 ? 0.0 : 0.12 * random.unit();
+  const double silent = random.below(3) == 0 ? 0.1 : 0.0;
+  const bool ring = random.below(3) == 0;
+  for (std::size_t i = 0; i < plan.grid.size(); ++i) {
+    const Cell c = plan.grid.cell_at(i);
+    const Vec2 p{c.ix + 0.5, c.iy + 0.5};
+    plan.heading_rad[i] = Heading::stored(sample_heading(style, random, p, goal, twist));
+    if (random.unit() < silent) plan.heading_rad[i] = std::numeric_limits<float>::quiet_NaN();
+    if (norm(p - goal) < goal_radius) plan.region[i] = Region::goal;
+    if (random.below(4) == 0 && plan.region[i] == Region::free) plan.region[i] = Region::buffer;
+    const bool edge = c.ix == 0 || c.iy == 0 || c.ix == nx - 1 || c.iy == ny - 1;
+    if (random.unit() < blocked || (ring && edge)) plan.region[i] = Region::obstacle;
+  }
+  return plan;
+}
+
+}  // namespace fairway
