@@ -149,22 +149,13 @@ SectionVerdicts undecided_sections(const Flow& flow, int level) {
   const std::uint64_t step = std::uint64_t{1} << (32 - level);
   sections.first.reserve(4 * flow.grid.size() + 1);
   sections.first.push_back(0);
-  for (int iy = 0; iy < flow.grid.ny; ++iy) {
-    for (int ix = 0; ix < flow.grid.nx; ++ix) {
-      const float command = flow.heading_rad[flow.grid.index({ix, iy})];
-      const bool flown = flow.kind_at({ix, iy}) == CellKind::ordinary && !std::isnan(command);
-      const IntervalVec2 u = flown ? unit_enclosure(static_cast<double>(command)) : IntervalVec2{};
-      for (const Side side : {Side::right, Side::top, Side::left, Side::bottom}) {
-        if (flown && cell_enclosure::outward_part(u, side).positive() &&
-            flow.kind_at({ix + section_flight::step_x(side), iy + section_flight::step_y(side)}) ==
-                CellKind::ordinary) {
-          for (std::uint32_t k = 0; k < std::uint32_t{1} << level; ++k) {
-            sections.begin.push_back(static_cast<std::uint32_t>(k * step));
-          }
-        }
-        sections.first.push_back(static_cast<std::uint32_t>(sections.begin.size()));
+  for (std::size_t s = 0; s < 4 * flow.grid.size(); ++s) {
+    if (is_section(flow, s)) {
+      for (std::uint32_t k = 0; k < std::uint32_t{1} << level; ++k) {
+        sections.begin.push_back(static_cast<std::uint32_t>(k * step));
       }
     }
+    sections.first.push_back(static_cast<std::uint32_t>(sections.begin.size()));
   }
   sections.rank.assign(sections.leaves(), 0);
   sections.verdict.assign(sections.leaves(), undecided);
@@ -187,7 +178,8 @@ Certified certify(const Flow& flow, const std::vector<bool>& is_free, const Cert
     const double least_units = std::ldexp(1.0, 32 - level);
     const bool settled = prover.settle(least_units);
     answer.volume = meter.measure(prover);
-    answer.levels.push_back({level, prover.leaves(), prover.undecided(), answer.volume.all[0]});
+    answer.levels.push_back(
+        {level, prover.graph().leaves(), prover.graph().undecided(), answer.volume.all[0]});
     if (progress) progress(answer.levels.back());
     if (answer.volume.all[0] <= options.undecided_max) {
       answer.stopped_by = StoppedBy::undecided_max;
@@ -203,7 +195,7 @@ Certified certify(const Flow& flow, const std::vector<bool>& is_free, const Cert
     } else {
       continue;
     }
-    answer.sections = prover.sections();
+    answer.sections = prover.graph().sections();
     return answer;
   }
 }

@@ -5,125 +5,53 @@
 #include <limits>
 #include <utility>
 
-#include "fairway/base/parallel.hpp"
-
 namespace fairway {
 namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-double width_of(UnitRange range) {
-  return static_cast<double>(range.hi) - static_cast<double>(range.lo);
-}
-bool overlap(UnitRange a, UnitRange b) { return a.lo <= b.hi && b.lo <= a.hi; }
-
 }  // namespace
 
 Prover::Prover(const Flow& flow, const SectionVerdicts& start, int most_crossings,
-               std::function<bool()> go_on)
+               std::function<bool()> go_on, LeafGraph::Keep keep)
     : flow_(flow),
       most_crossings_(most_crossings),
       go_on_(std::move(go_on)),
-      on_section_(start.first.size() - 1),
-      dependents_(start.first.size() - 1) {
-  leaf_.reserve(start.leaves());
+      graph_(start, keep),
+      rank_(graph_.highest_rank()) {
   std::vector<Id> open;
-  for (std::size_t s = 0; s + 1 < start.first.size(); ++s) {
-    for (std::size_t i = start.first[s]; i < start.first[s + 1]; ++i) {
-      Leaf leaf;
-      leaf.place = {static_cast<std::uint32_t>(s), start.range_of(s, i)};
-      leaf.rank = start.rank[i];
-      leaf.time_s = start.time_s[i];
-      leaf.verdict = static_cast<Verdict>(start.verdict[i]);
-      rank_ = std::max(rank_, leaf.rank);
-      const Id id = static_cast<Id>(leaf_.size());
-      on_section_[s].push_back(id);
-      if (leaf.verdict == Verdict::undecided) open.push_back(id);
-      leaf_.push_back(leaf);
-    }
+  for (Id id = 0; id < graph_.ids(); ++id) {
+    if (graph_.is_open(id)) open.push_back(id);
   }
-  leaf_count_ = leaf_.size();
-  is_awake_.assign(leaf_.size(), 0);
   fly(open);
-}
-
-std::span<const ImagePiece> Prover::pieces_of(const Leaf& leaf) const {
-  return std::span(piece_).subspan(leaf.first_piece, leaf.pieces);
-}
-
-template <typename Body>
-void Prover::for_leaves(std::size_t section, UnitRange range, const Body& body) const {
-  const std::vector<Id>& ids = on_section_[section];
-  auto at = std::lower_bound(ids.begin(), ids.end(), range.lo, [&](Id id, std::uint32_t lo) {
-    return leaf_[id].place.range.hi < lo;
-  });
-  for (; at != ids.end() && leaf_[*at].place.range.lo <= range.hi; ++at) body(*at);
 }
 
 void Prover::look_up(std::size_t section, UnitRange range, double flown_s,
                      VerdictSet& found) const {
-  if (on_section_[section].empty()) found.add(Verdict::undecided, 0.0);
-  for_leaves(section, range, [&](Id id) {
-    found.add(leaf_[id].verdict, above(flown_s + static_cast<double>(leaf_[id].time_s)));
+  if (!graph_.has_leaves(section)) found.add(Verdict::undecided, 0.0);
+  graph_.for_leaves(section, range, [&](Id id) {
+    found.add(graph_.verdict(id), above(flown_s + static_cast<double>(graph_.time_s(id))));
   });
 }
 
-/// Images for leaves that have none yet; they wake.
+/// Images for leaves that have none yet; they wait to be looked at.
 void Prover::fly(const std::vector<Id>& ids) {
   std::vector<LeafPlace> places(ids.size());
-  for (std::size_t i = 0; i < ids.size(); ++i) places[i] = leaf_[ids[i]].place;
+  for (std::size_t i = 0; i < ids.size(); ++i) places[i] = graph_.place(ids[i]);
   const ImageStore images = leaf_images(flow_, places, most_crossings_, go_on_);
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    Leaf& leaf = leaf_[ids[i]];
-    const Image image = images[i];
-    leaf.flown = true;
-    leaf.gave_up = image.gave_up;
-    leaf.ends = image.ends;
-    leaf.first_piece = piece_.size();
-    leaf.pieces = static_cast<std::uint32_t>(image.pieces.size());
-    for (const ImagePiece& piece : image.pieces) {
-      piece_.push_back(piece);
-      dependents_[piece.section].push_back({ids[i], piece.range});
-    }
-    wake(ids[i]);
+    graph_.set_image(ids[i], images[i]);
+    waiting_.add(ids[i]);
   }
 }
 
-/// A weave that moves every state of the leaf one way along the border leaves the leaf after
-/// finitely many hops, at that end: its hop may touch the leaf itself. Whatever else a state does,
-/// it may have done all those hops before: the bound of the time counts them with everything.
-VerdictSet Prover::verdicts_of(Id id) const {
-  const Leaf& leaf = leaf_[id];
-  VerdictSet found = leaf.ends;
-  if (leaf.gave_up) found.add(Verdict::undecided, 0.0);
-  double hops_s = 0.0;
-  for (const ImagePiece& piece : pieces_of(leaf)) {
-    const auto flown_s = static_cast<double>(piece.flown_s);
-    const double move = piece.hop && piece.section == leaf.place.section
-                            ? least_move(piece, leaf.place.range)
-                            : 0.0;
-    if (on_section_[piece.section].empty()) found.add(Verdict::undecided, 0.0);
-    for_leaves(piece.section, piece.range, [&](Id other) {
-      if (other == id && move > 0.0) {
-        const double hops = std::floor(width_of(leaf.place.range) / move);
-        hops_s = std::max(hops_s, above(hops * flown_s));
-        return;
-      }
-      found.add(leaf_[other].verdict, above(flown_s + static_cast<double>(leaf_[other].time_s)));
-    });
-  }
-  found.time_s = above(found.time_s + hops_s);
-  return found;
-}
-
-bool Prover::is_worth_cutting(const Leaf& leaf, Id id) const {
-  if (leaf.gave_up || leaf.ends.bits != 0) return true;
-  for (const ImagePiece& piece : pieces_of(leaf)) {
-    bool worth = false;
-    const bool moves_on = piece.hop && piece.section == leaf.place.section &&
-                          least_move(piece, leaf.place.range) > 0.0;
-    for_leaves(piece.section, piece.range, [&](Id other) {
-      worth = worth || (other == id && !moves_on) || leaf_[other].verdict != Verdict::undecided;
+bool Prover::is_worth_cutting(Id id) const {
+  if (graph_.gave_up(id) || graph_.ends(id).bits != 0) return true;
+  bool worth = false;
+  for (const LeafGraph::Link& link : graph_.links(id)) {
+    graph_.for_leaves(link.section, link.range, [&](Id other) {
+      worth = worth || (other == id && link.own_move == 0) ||
+              graph_.verdict(other) != Verdict::undecided;
     });
     if (worth) return true;
   }
@@ -131,171 +59,74 @@ bool Prover::is_worth_cutting(const Leaf& leaf, Id id) const {
 }
 
 Prover::Finding Prover::examine(Id id, double least_units) const {
-  Finding finding{verdicts_of(id)};
-  const Leaf& leaf = leaf_[id];
+  Finding finding{image_verdicts(graph_, id, [this](Id other) { return graph_.verdict(other); })};
   // What cannot be told keeps all that leads there waiting: it is cut finer, ahead of the rest.
   constexpr double ahead = 1.0 / 64.0;
-  const double least = leaf.gave_up ? std::max(ahead * least_units, 64.0) : least_units;
+  const double least = graph_.gave_up(id) ? std::max(ahead * least_units, 64.0) : least_units;
   finding.cut = finding.found.only() == Verdict::undecided &&
-                width_of(leaf.place.range) >= 2.0 * least && is_worth_cutting(leaf, id);
+                width_of(graph_.place(id).range) >= 2.0 * least && is_worth_cutting(id);
   return finding;
 }
 
-void Prover::wake(Id id) {
-  if (is_awake_[id] != 0 || leaf_[id].verdict != Verdict::undecided || leaf_[id].cut) return;
-  is_awake_[id] = 1;
-  awake_.push_back(id);
-}
-
-void Prover::wake_dependents(const Leaf& leaf) {
-  std::vector<Dependent>& all = dependents_[leaf.place.section];
-  std::erase_if(all, [&](const Dependent& d) {
-    return leaf_[d.leaf].cut || leaf_[d.leaf].verdict != Verdict::undecided;
-  });
-  for (const Dependent& d : all) {
-    if (overlap(d.range, leaf.place.range)) wake(d.leaf);
+void Prover::conclude(const std::vector<Id>& round, const std::vector<Finding>& findings) {
+  ++rank_;
+  std::vector<Id> halves;
+  for (std::size_t k = 0; k < round.size(); ++k) {
+    const Verdict verdict = findings[k].found.only();
+    if (findings[k].cut) {
+      const Id low = graph_.cut(round[k]);
+      halves.insert(halves.end(), {low, low + 1});
+    } else if (verdict != Verdict::undecided && verdict != Verdict::trapped) {
+      const float time_s = std::nextafter(static_cast<float>(findings[k].found.time_s), infinite);
+      graph_.decide(round[k], verdict, rank_, time_s);
+    }
   }
+  for (const Id id : round) {
+    if (graph_.verdict(id) != Verdict::undecided) wake_dependents(id);
+  }
+  fly(halves);
 }
 
-void Prover::cut(Id id, std::vector<Id>& halves) {
-  const LeafPlace place = leaf_[id].place;
-  const auto half = static_cast<std::uint32_t>(std::ceil(0.5 * width_of(place.range)));
-  const std::uint32_t middle = place.range.lo + half;
-  const auto low = static_cast<Id>(leaf_.size());
-  leaf_[id].cut = true;
-  Leaf part;
-  part.place = {place.section, {place.range.lo, middle}};
-  leaf_.push_back(part);
-  part.place.range = {middle, place.range.hi};
-  leaf_.push_back(part);
-  is_awake_.resize(leaf_.size(), 0);
-  std::vector<Id>& ids = on_section_[place.section];
-  const auto at = std::find(ids.begin(), ids.end(), id);
-  *at = low;
-  ids.insert(at + 1, low + 1);
-  ++leaf_count_;
-  halves.push_back(low);
-  halves.push_back(low + 1);
+void Prover::wake_dependents(Id id) {
+  const LeafPlace place = graph_.place(id);
+  graph_.for_dependents(place.section, place.range, [&](Id other) {
+    if (graph_.is_open(other)) waiting_.add(other);
+  });
 }
 
 bool Prover::settle(double least_units) {
-  for (Id id = 0; id < leaf_.size(); ++id) wake(id);
-  std::vector<Finding> findings;
-  std::vector<Id> halves;
+  for (Id id = 0; id < graph_.ids(); ++id) {
+    if (graph_.is_open(id)) waiting_.add(id);
+  }
   do {
-    while (!awake_.empty()) {
-      if (!go_on_()) return false;
-      const std::vector<Id> round = std::exchange(awake_, {});
-      findings.assign(round.size(), {});
-      const auto look = [&](std::size_t a, std::size_t b) {
-        for (std::size_t k = a; k < b; ++k) findings[k] = examine(round[k], least_units);
-      };
-      if (round.size() < 256) {
-        look(0, round.size());
-      } else {
-        for_ranges(round.size(), 64, look);
-      }
-      ++rank_;
-      for (const Id id : round) is_awake_[id] = 0;
-      halves.clear();
-      for (std::size_t k = 0; k < round.size(); ++k) {
-        const Verdict verdict = findings[k].found.only();
-        Leaf& leaf = leaf_[round[k]];
-        if (findings[k].cut) {
-          cut(round[k], halves);
-        } else if (verdict != Verdict::undecided && verdict != Verdict::trapped) {
-          leaf.verdict = verdict;
-          leaf.rank = rank_;
-          leaf.time_s = std::nextafter(static_cast<float>(findings[k].found.time_s), infinite);
-        }
-      }
-      for (const Id id : round) {
-        if (leaf_[id].verdict != Verdict::undecided) wake_dependents(leaf_[id]);
-      }
-      fly(halves);
-    }
+    const bool settled = least_by_rounds(
+        waiting_, go_on_, [&](Id id) { return examine(id, least_units); },
+        [this](const auto& round, const auto& findings) { conclude(round, findings); });
+    if (!settled) return false;
     prove_trapped();
-  } while (!awake_.empty());
+  } while (!waiting_.empty());
   return true;
 }
 
 /// All that is undecided, less what may get out. What is left wakes those that lead there.
 void Prover::prove_trapped() {
-  std::vector<Id> work;
-  for (Id id = 0; id < leaf_.size(); ++id) {
-    Leaf& leaf = leaf_[id];
-    if (leaf.verdict != Verdict::undecided || leaf.cut) continue;
-    leaf.verdict = Verdict::trapped;  // until something speaks against it
-    work.push_back(id);
+  std::vector<Id> open;
+  for (Id id = 0; id < graph_.ids(); ++id) {
+    if (graph_.is_open(id)) open.push_back(id);
   }
-  const std::vector<Id> suspects = work;
-  std::vector<std::uint8_t> queued(leaf_.size(), 0);
-  for (const Id id : work) queued[id] = 1;
-  while (!work.empty()) {
-    const Id id = work.back();
-    work.pop_back();
-    queued[id] = 0;
-    Leaf& leaf = leaf_[id];
-    if (leaf.verdict != Verdict::trapped || verdicts_of(id).only() == Verdict::trapped) continue;
-    leaf.verdict = Verdict::undecided;
-    for (const Dependent& d : dependents_[leaf.place.section]) {
-      if (queued[d.leaf] != 0 || leaf_[d.leaf].cut || leaf_[d.leaf].verdict != Verdict::trapped ||
-          !overlap(d.range, leaf.place.range)) {
-        continue;
-      }
-      queued[d.leaf] = 1;
-      work.push_back(d.leaf);
-    }
-  }
-  for (const Id id : suspects) {
-    Leaf& leaf = leaf_[id];
-    if (leaf.verdict != Verdict::trapped) continue;
-    leaf.rank = 0;
-    leaf.time_s = infinite;
-  }
-  for (const Id id : suspects) {
-    if (leaf_[id].verdict == Verdict::trapped) wake_dependents(leaf_[id]);
-  }
+  const std::vector<Id> trapped =
+      greatest_by_removal(graph_, std::move(open), [this](Id id, const auto& is_in) {
+        const auto verdict_at = [&](Id other) {
+          return is_in(other) ? Verdict::trapped : graph_.verdict(other);
+        };
+        return image_verdicts(graph_, id, verdict_at).only() == Verdict::trapped;
+      });
+  for (const Id id : trapped) graph_.decide(id, Verdict::trapped, 0, infinite);
+  for (const Id id : trapped) wake_dependents(id);
 }
 
-SectionVerdicts Prover::sections() const {
-  SectionVerdicts out;
-  out.first.reserve(on_section_.size() + 1);
-  out.first.push_back(0);
-  for (const std::vector<Id>& ids : on_section_) {
-    for (const Id id : ids) {
-      const Leaf& leaf = leaf_[id];
-      out.begin.push_back(leaf.place.range.lo);
-      out.rank.push_back(leaf.rank);
-      out.verdict.push_back(static_cast<std::uint8_t>(leaf.verdict));
-      out.time_s.push_back(leaf.time_s);
-    }
-    out.first.push_back(static_cast<std::uint32_t>(out.begin.size()));
-  }
-  return out;
-}
-
-std::size_t Prover::undecided() const {
-  std::size_t count = 0;
-  for (const Leaf& leaf : leaf_) count += !leaf.cut && leaf.verdict == Verdict::undecided;
-  return count;
-}
-
-std::size_t Prover::bytes() const {
-  std::size_t total = leaf_.capacity() * sizeof(Leaf) + piece_.capacity() * sizeof(ImagePiece) +
-                      is_awake_.capacity();
-  for (const auto& ids : on_section_)
-    total += sizeof(std::vector<Id>) + ids.capacity() * sizeof(Id);
-  for (const auto& all : dependents_)
-    total += sizeof(std::vector<Dependent>) + all.capacity() * sizeof(Dependent);
-  return total;
-}
-
-bool Prover::can_refine(double least_units) const {
-  return std::any_of(leaf_.begin(), leaf_.end(), [&](const Leaf& leaf) {
-    return !leaf.cut && leaf.verdict == Verdict::undecided &&
-           width_of(leaf.place.range) >= 2.0 * least_units;
-  });
+void Prover::invalidate(const std::vector<bool>& changed_cells) {
+  fly(graph_.invalidate(flow_, changed_cells));
 }
 
 }  // namespace fairway

@@ -1,11 +1,11 @@
-// The section under proof: leaves that are proved or cut in halves, round by round, until no round
-// changes anything.
+// The proof of the section: which leaves are looked at, decided and cut, round by round, until no
+// round changes anything.
 //
 // reach, collide and leave are least fixpoints: in round k a leaf is proved when its whole image
 // lies in leaves proved with one verdict before round k (or ends so). trapped is a greatest one:
-// the largest set of leaves whose images lie in the set again. A leaf is cut only where that may
-// help: when its image meets something decided, or itself, or could not be told; one whose image
-// lies on undecided leaves alone waits for them.
+// the largest set of leaves whose images lie in the set again (fixpoints.hpp). A leaf is cut only
+// where that may help: when its image meets something decided, or itself, or could not be told; one
+// whose image lies on undecided leaves alone waits for them.
 //
 // Properties that always hold: those of section_verdicts.hpp; and the answer does not depend on the
 // number of threads (a round reads what the rounds before it wrote).
@@ -16,77 +16,51 @@
 #include <functional>
 #include <vector>
 
-#include "fairway/verify/images.hpp"
+#include "fairway/verify/fixpoints.hpp"
+#include "fairway/verify/leaf_graph.hpp"
 #include "fairway/verify/section_verdicts.hpp"
 
 namespace fairway {
 
 class Prover {
  public:
-  /// Keeps a reference to nothing but what `flow` looks at. `start`: leaves as they are known.
+  /// Refers to the arrays that `flow` looks at. `start`: leaves as they are known.
   Prover(const Flow& flow, const SectionVerdicts& start, int most_crossings,
-         std::function<bool()> go_on);
+         std::function<bool()> go_on, LeafGraph::Keep keep = LeafGraph::Keep::links_of_open_leaves);
 
   /// Rounds until nothing changes, with no leaf narrower than `least_units`. False: stopped.
   bool settle(double least_units);
 
-  /// The leaves as they are now, in order.
-  [[nodiscard]] SectionVerdicts sections() const;
+  /// The commands or meanings of some cells were changed in the arrays of the flow: what may rest
+  /// on them is undecided until `settle` is called again. Wants Keep::all_links.
+  void invalidate(const std::vector<bool>& changed_cells);
+
+  const LeafGraph& graph() const { return graph_; }
 
   /// Adds what the leaves that `range` touches say.
   void look_up(std::size_t section, UnitRange range, double flown_s, VerdictSet& found) const;
 
-  std::size_t leaves() const { return leaf_count_; }
-  std::size_t undecided() const;
-  std::size_t bytes() const;
-  /// Whether some undecided leaf is wide enough to be cut again.
-  bool can_refine(double least_units) const;
+  std::size_t bytes() const { return graph_.bytes() + waiting_.bytes(); }
 
  private:
-  using Id = std::uint32_t;
-  struct Leaf {
-    LeafPlace place;
-    std::uint32_t rank = 0;
-    float time_s = 0.0F;
-    Verdict verdict = Verdict::undecided;
-    bool cut = false;    // replaced by its halves
-    bool flown = false;  // its image is known
-    bool gave_up = false;
-    VerdictSet ends;
-    std::size_t first_piece = 0;
-    std::uint32_t pieces = 0;
-  };
-  struct Dependent {
-    Id leaf;
-    UnitRange range;
-  };
+  using Id = LeafGraph::Id;
   struct Finding {
     VerdictSet found;
     bool cut = false;
   };
 
-  template <typename Body>
-  void for_leaves(std::size_t section, UnitRange range, const Body& body) const;
-  std::span<const ImagePiece> pieces_of(const Leaf& leaf) const;
   void fly(const std::vector<Id>& ids);
-  VerdictSet verdicts_of(Id id) const;
-  bool is_worth_cutting(const Leaf& leaf, Id id) const;
+  bool is_worth_cutting(Id id) const;
   Finding examine(Id id, double least_units) const;
-  void wake_dependents(const Leaf& leaf);
-  void wake(Id id);
-  void cut(Id id, std::vector<Id>& halves);
+  void conclude(const std::vector<Id>& round, const std::vector<Finding>& findings);
+  void wake_dependents(Id id);
   void prove_trapped();
 
-  const Flow& flow_;
+  Flow flow_;
   int most_crossings_;
   std::function<bool()> go_on_;
-  std::vector<Leaf> leaf_;
-  std::vector<ImagePiece> piece_;
-  std::vector<std::vector<Id>> on_section_;         // in order of their begins
-  std::vector<std::vector<Dependent>> dependents_;  // of a section
-  std::vector<Id> awake_;
-  std::vector<std::uint8_t> is_awake_;
-  std::size_t leaf_count_ = 0;
+  LeafGraph graph_;
+  Worklist waiting_;
   std::uint32_t rank_ = 0;
 };
 

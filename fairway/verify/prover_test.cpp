@@ -21,7 +21,7 @@ bool always() { return true; }
 SectionVerdicts proved(const Flow& flow, int level) {
   Prover prover(flow, undecided_sections(flow, 2), most_crossings, always);
   for (int l = 2; l <= level; ++l) prover.settle(std::ldexp(1.0, 32 - l));
-  return prover.sections();
+  return prover.graph().sections();
 }
 
 std::vector<LeafPlace> places_of(const SectionVerdicts& sections) {
@@ -214,7 +214,7 @@ TEST(Prover, stopped_says_undecided_and_nothing_else) {
   const Flow flow = plan_flow.flow();
   Prover prover(flow, undecided_sections(flow, 3), most_crossings, [] { return false; });
   EXPECT_FALSE(prover.settle(0x1p20));
-  EXPECT_EQ(prover.undecided(), prover.leaves());
+  EXPECT_EQ(prover.graph().undecided(), prover.graph().leaves());
 }
 
 TEST(LeastMove, is_the_move_of_the_end_that_was_not_cut) {

@@ -40,27 +40,58 @@ inline std::size_t section_of(std::size_t cell, Side side) {
   return 4 * cell + static_cast<std::size_t>(side);
 }
 
+/// What a flight remembers, so that more can be concluded than from where it is: a struct and a
+/// rule for each of the lemmas of docs/trust.md that want it. Every state of the set did the same.
+namespace flight_memory {
+
+inline constexpr std::size_t nowhere = ~std::size_t{0};
+
+/// Lemma 5, the chord rule: a heading that is a command, or its mirror image in the border.
+struct Hop {
+  std::size_t came_off = nowhere;  ///< came off this section in the step before, ...
+  std::size_t mirrored = nowhere;  ///< ... or came back over the same border on one arc
+};
+
+/// Lemma 5, several waves at once.
+struct Wave {
+  std::size_t began = nowhere;  ///< the border left at its start
+  double length_m = 0.0;        ///< flown until there
+  bool half = false;            ///< the border was crossed back since
+};
+
+/// Lemma 6.
+struct Circle {
+  std::size_t began = nowhere;  ///< the first border met on the present circle
+};
+
+/// The mirror image of the command in the border, turned back to the border on one arc, is the
+/// command again, exactly there.
+inline bool comes_back_as_the_command(const Hop& hop, std::size_t border) {
+  return hop.mirrored == border;
+}
+/// `back`: the border just crossed, turning, as it is named from beyond.
+inline Hop after_turning_over(const Hop& hop, std::size_t back) {
+  return {nowhere, hop.came_off == back ? back : nowhere};
+}
+
+/// The same border met twice on one circle, in the same direction: the same state again.
+inline bool is_closed(const Circle& circle, std::size_t border) { return circle.began == border; }
+inline Circle after_turning_over(const Circle& circle, std::size_t border) {
+  return {circle.began == nowhere ? border : circle.began};
+}
+
+}  // namespace flight_memory
+
 /// A set of states in one cell, with what its flight so far allows to conclude.
 struct Front {
-  static constexpr std::size_t nowhere = ~std::size_t{0};
-
   int ix = 0;
   int iy = 0;
   CellEntry entry;
   float heading_rad = NAN;  ///< the exact heading, when it is some cell's command
   double length_m = 0.0;
-  /// Came off this section in the step before, ...
-  std::size_t came_off = nowhere;
-  /// ... or came back over the same border: the heading is its command, mirrored in the border.
-  std::size_t mirrored = nowhere;
-  /// The first border met on the present circle.
-  std::size_t circle_began = nowhere;
-  /// A wave over a border: the border left at its start, the place there, the length until there;
-  /// and whether the border was crossed back since. Every state of the set did the same.
-  std::size_t wave_began = nowhere;
-  Interval wave_along_m;
-  double wave_length_m = 0.0;
-  bool wave_half = false;
+  flight_memory::Hop hop;
+  flight_memory::Wave wave;
+  flight_memory::Circle circle;
   /// Runs along this side, straight, and so does the same set in the cell beyond it.
   int grazed = -1;
 };
@@ -84,7 +115,7 @@ template <typename Visitor>
 class Follower {
  public:
   Follower(const Flow& flow, int most_crossings, Visitor& visitor)
-      : flow_(flow), most_crossings_(most_crossings), visitor_(visitor) {}
+      : flow_(flow), shape_(flow.shape()), most_crossings_(most_crossings), visitor_(visitor) {}
 
   void push(const Front& front) {
     if (!fronts_.add(front)) gave_up_ = true;
@@ -105,109 +136,116 @@ class Follower {
     const std::size_t cell = flow_.grid.index({front.ix, front.iy});
     const float command = flow_.heading_rad[cell];
     const CellOrder order = order_for(command, front.heading_rad);
-    const CellDepartures departures = enclose_departures(front.entry, order, flow_.shape());
+    const CellDepartures departures = enclose_departures(front.entry, order, shape_);
     if (departures.too_wide || departures.count() == 0) {
       gave_up_ = true;
       return;
     }
     for (const CellDeparture& leave : departures) {
       if (leave.grazes && static_cast<int>(leave.side) == front.grazed) continue;
-      depart(front, cell, order.has_command ? (leave.aligned ? command : NAN) : front.heading_rad,
-             leave, departures.count() == 1);
+      depart({front, cell, section_of(cell, leave.side), leave, departures.count() == 1},
+             order.has_command ? (leave.aligned ? command : NAN) : front.heading_rad);
     }
   }
 
-  void depart(const Front& front, std::size_t cell, float tag, CellDeparture leave, bool sole) {
-    const std::size_t section = section_of(cell, leave.side);
-    // The mirror image of the command in the border, turned back to the border on a circle, is the
-    // command again, exactly there: to align and to leave are one event, told once.
-    if (front.mirrored == section && leave.aligned) return;
-    const bool hop = front.mirrored == section;
+  /// A set on its way out of a cell.
+  struct Crossing {
+    const Front& from;
+    std::size_t cell;    // left
+    std::size_t border;  // crossed, as a section of that cell
+    CellDeparture leave;
+    bool sole;  // all states of the front leave so
+  };
+
+  void depart(Crossing crossing, float tag) {
+    const Front& from = crossing.from;
+    CellDeparture& leave = crossing.leave;
+    const bool hop = flight_memory::comes_back_as_the_command(from.hop, crossing.border);
+    if (hop && leave.aligned) return;  // to align and to leave are one event, told once
     if (hop) {
-      tag = flow_.heading_rad[cell];
+      tag = flow_.heading_rad[crossing.cell];
       leave.aligned = true;
       leave.turn = 0;
     }
-    const double length_m = above(front.length_m + leave.length_m);
     Front next;
-    next.ix = front.ix + step_x(leave.side);
-    next.iy = front.iy + step_y(leave.side);
+    next.ix = from.ix + step_x(leave.side);
+    next.iy = from.iy + step_y(leave.side);
     next.entry.heading = leave.heading;
     next.heading_rad = tag;
-    next.length_m = length_m;
-    corner(next, leave, front, leave.low_corner, -1);
-    corner(next, leave, front, leave.high_corner, +1);
+    next.length_m = above(from.length_m + leave.length_m);
+    corner(next, leave, from, leave.low_corner, -1);
+    corner(next, leave, from, leave.high_corner, +1);
 
     const CellKind kind = flow_.kind_at({next.ix, next.iy});
     if (kind != CellKind::ordinary) {
-      visitor_.end(verdict_of(kind), length_m);
+      visitor_.end(verdict_of(kind), next.length_m);
       return;
     }
     if (leave.grazes && turns_back(next, leave.heading, leave.side)) return;
     if (leave.aligned && !leave.grazes) {
-      visitor_.arrive(section, leave.along_m, length_m, hop);
+      visitor_.arrive(crossing.border, leave.along_m, next.length_m, hop);
       return;
     }
-    if (leave.turn != 0) {
-      wave(front, cell, leave, sole, next);
-      const bool same_circle = front.entry.turn == leave.turn;
-      if (same_circle && front.circle_began == section) {
-        visitor_.end(Verdict::trapped, length_m);
-        return;
-      }
-      next.circle_began =
-          same_circle && front.circle_began != Front::nowhere ? front.circle_began : section;
-      next.entry.turn = leave.turn;
-      const double d = flow_.grid.cell_m;
-      next.entry.centre_m =
-          leave.centre_m - IntervalVec2{step_x(leave.side) * d, step_y(leave.side) * d};
-      if (front.came_off != Front::nowhere &&
-          front.came_off ==
-              section_of(flow_.grid.index({next.ix, next.iy}), opposite(leave.side))) {
-        next.mirrored = front.came_off;
-      }
-    }
+    if (leave.turn != 0 && !turns_on(crossing, next)) return;
     if (leave.grazes) next.grazed = static_cast<int>(opposite(leave.side));
-    const double line = cell_enclosure::is_far(leave.side) ? 0.0 : flow_.grid.cell_m;
+    const double line = cell_enclosure::is_far(leave.side) ? 0.0 : shape_.cell_m;
     next.entry.position_m = cell_enclosure::from_parts(line, leave.along_m, leave.side);
     push(next);
   }
 
+  /// Over the border on an arc: what is remembered of arcs. False when the circle is closed, which
+  /// is told.
+  bool turns_on(Crossing& crossing, Front& next) {
+    const Front& from = crossing.from;
+    CellDeparture& leave = crossing.leave;
+    const std::size_t back = section_of(flow_.grid.index({next.ix, next.iy}), opposite(leave.side));
+    const double until_here_m = next.length_m;
+    ride_waves(crossing, back, next);
+    const flight_memory::Circle circle =
+        from.entry.turn == leave.turn ? from.circle : flight_memory::Circle{};
+    if (flight_memory::is_closed(circle, crossing.border)) {
+      visitor_.end(Verdict::trapped, until_here_m);
+      return false;
+    }
+    next.circle = flight_memory::after_turning_over(circle, crossing.border);
+    next.hop = flight_memory::after_turning_over(from.hop, back);
+    next.entry.turn = leave.turn;
+    next.entry.centre_m = leave.centre_m - IntervalVec2{step_x(leave.side) * shape_.cell_m,
+                                                        step_y(leave.side) * shape_.cell_m};
+    return true;
+  }
+
   /// A weave over one border with two arcs a wave keeps its angle n to the border; each wave moves
   /// every state on by 4 r sin n, and so will the next, as long as it lands between the same two
-  /// cells (nothing but the place along the border differs). Waves that are sure to are leapt over.
-  void wave(const Front& front, std::size_t cell, CellDeparture& leave, bool sole, Front& next) {
-    const std::size_t out = section_of(cell, leave.side);
-    const std::size_t back = section_of(flow_.grid.index({next.ix, next.iy}), opposite(leave.side));
-    if (sole && !front.wave_half && front.wave_began == back) {
-      next.wave_began = front.wave_began;
-      next.wave_along_m = front.wave_along_m;
-      next.wave_length_m = front.wave_length_m;
-      next.wave_half = true;
+  /// cells (nothing but the place along the border differs). Waves that certainly do are skipped in
+  /// one step.
+  void ride_waves(Crossing& crossing, std::size_t back, Front& next) {
+    const flight_memory::Wave& wave = crossing.from.wave;
+    CellDeparture& leave = crossing.leave;
+    if (crossing.sole && !wave.half && wave.began == back) {
+      next.wave = wave;
+      next.wave.half = true;
       return;
     }
-    if (sole && front.wave_half && front.wave_began == out) {
-      const double d = flow_.grid.cell_m;
-      const Interval step =
-          (4.0 * flow_.vehicle.turn_radius_m) *
-          intersection(cell_enclosure::outward_part(leave.heading, leave.side), {0.0, 1.0});
-      const Interval onwards = cell_enclosure::along(leave.heading, leave.side);
-      const double room = onwards.positive() ? d - leave.along_m.hi : leave.along_m.lo;
-      const double waves = std::floor(room / step.hi) - 2.0;
-      if ((onwards.positive() || onwards.negative()) && waves >= 1.0 && waves < 0x1p40) {
-        const Interval move = (onwards.positive() ? waves : -waves) * step;
-        leave.along_m = intersection(leave.along_m + move, {0.0, d});
-        const Side side = leave.side;
-        leave.centre_m =
-            cell_enclosure::from_parts(cell_enclosure::across(leave.centre_m, side),
-                                       cell_enclosure::along(leave.centre_m, side) + move, side);
-        next.length_m = above(next.length_m + above(waves * (next.length_m - front.wave_length_m)));
-      }
+    if (!crossing.sole || !wave.half || wave.began != crossing.border) {
+      next.wave = {crossing.border, next.length_m, false};
       return;
     }
-    next.wave_began = out;
-    next.wave_along_m = leave.along_m;
-    next.wave_length_m = next.length_m;
+    const Side side = leave.side;
+    const double d = shape_.cell_m;
+    const Interval step =
+        (4.0 * shape_.turn_radius_m) *
+        intersection(cell_enclosure::outward_part(leave.heading, side), {0.0, 1.0});
+    const Interval onwards = cell_enclosure::along(leave.heading, side);
+    const double room = onwards.positive() ? d - leave.along_m.hi : leave.along_m.lo;
+    const double waves = std::floor(room / step.hi) - 2.0;
+    if ((!onwards.positive() && !onwards.negative()) || !(waves >= 1.0) || waves >= 0x1p40) return;
+    const Interval move = (onwards.positive() ? waves : -waves) * step;
+    leave.along_m = intersection(leave.along_m + move, {0.0, d});
+    leave.centre_m =
+        cell_enclosure::from_parts(cell_enclosure::across(leave.centre_m, side),
+                                   cell_enclosure::along(leave.centre_m, side) + move, side);
+    next.length_m = above(next.length_m + above(waves * (next.length_m - wave.length_m)));
   }
 
   /// The states that leave through the corner at the low (-1) or high (+1) end of the side touch
@@ -227,7 +265,7 @@ class Follower {
     }
     if (flow_.kind_at({next.ix, next.iy}) != CellKind::ordinary) return;
     if (turns_back(next, leave.heading, towards(vertical, end))) return;
-    const double d = flow_.grid.cell_m;
+    const double d = shape_.cell_m;
     const double line = cell_enclosure::is_far(leave.side) ? 0.0 : d;
     next.entry.position_m = cell_enclosure::from_parts(line, end > 0 ? 0.0 : d, leave.side);
     push(next);
@@ -254,6 +292,7 @@ class Follower {
   }
 
   const Flow& flow_;
+  CellShape shape_;
   int most_crossings_;
   Visitor& visitor_;
   ShortList<Front, most_fronts> fronts_;
@@ -261,6 +300,19 @@ class Follower {
 };
 
 }  // namespace section_flight
+
+/// Whether a side of a cell has states of the section: an ordinary cell, a command that points out
+/// of that side, and an ordinary cell beyond it.
+inline bool is_section(const Flow& flow, std::size_t section) {
+  const Side side = static_cast<Side>(section % 4);
+  const Cell cell = flow.grid.cell_at(section / 4);
+  const Cell beyond{cell.ix + section_flight::step_x(side), cell.iy + section_flight::step_y(side)};
+  const float command = flow.heading_rad[section / 4];
+  return flow.kind_at(cell) == CellKind::ordinary && !std::isnan(command) &&
+         flow.kind_at(beyond) == CellKind::ordinary &&
+         cell_enclosure::outward_part(unit_enclosure(static_cast<double>(command)), side)
+             .positive();
+}
 
 /// Follows `start` in an ordinary cell through at most `most_crossings` cells, branches counted.
 template <typename Visitor>
@@ -284,7 +336,7 @@ inline Front front_of_section(const Flow& flow, std::size_t section, Interval al
   front.entry.position_m = cell_enclosure::from_parts(line, along_m, side);
   front.heading_rad = flow.heading_rad[cell];
   front.entry.heading = unit_enclosure(static_cast<double>(front.heading_rad));
-  front.came_off = section;
+  front.hop.came_off = section;
   return front;
 }
 

@@ -1,0 +1,242 @@
+#include "fairway/verify/leaf_graph.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "fairway/base/error.hpp"
+#include "fairway/base/random.hpp"
+#include "fairway/verify/certify.hpp"
+#include "fairway/verify/prover.hpp"
+#include "fairway/verify/testing/plans_to_verify.hpp"
+
+namespace fairway {
+namespace {
+
+using Id = LeafGraph::Id;
+constexpr UnitRange whole{0, 0xffffffffU};
+constexpr int most_crossings = 1000;
+bool always() { return true; }
+
+/// `sections` sections of `each` equal leaves.
+SectionVerdicts even_sections(std::size_t sections, std::uint32_t each) {
+  SectionVerdicts start;
+  start.first.push_back(0);
+  for (std::size_t s = 0; s < sections; ++s) {
+    for (std::uint32_t k = 0; k < each; ++k) {
+      start.begin.push_back(static_cast<std::uint32_t>((std::uint64_t{1} << 32) / each * k));
+    }
+    start.first.push_back(static_cast<std::uint32_t>(start.begin.size()));
+  }
+  start.rank.assign(start.leaves(), 0);
+  start.verdict.assign(start.leaves(), 0);
+  start.time_s.assign(start.leaves(), 0.0F);
+  return start;
+}
+
+/// The same with vectors and searches through all of them: what the graph must agree with.
+struct PlainGraph {
+  struct Piece {
+    Id from;
+    ImagePiece piece;
+  };
+  std::map<Id, LeafPlace> leaf;  // not cut
+  std::vector<Piece> links;
+
+  std::vector<Id> on(std::size_t section, UnitRange range) const {
+    std::vector<std::pair<std::uint32_t, Id>> found;
+    for (const auto& [id, place] : leaf) {
+      if (place.section == section && overlap(place.range, range)) {
+        found.emplace_back(place.range.lo, id);
+      }
+    }
+    std::sort(found.begin(), found.end());
+    std::vector<Id> ids;
+    for (const auto& [lo, id] : found) ids.push_back(id);
+    return ids;
+  }
+  std::multiset<Id> into(std::size_t section, UnitRange range) const {
+    std::multiset<Id> from;
+    for (const Piece& link : links) {
+      if (link.piece.section == section && overlap(link.piece.range, range)) from.insert(link.from);
+    }
+    return from;
+  }
+  void forget(Id id) {
+    std::erase_if(links, [id](const Piece& link) { return link.from == id; });
+  }
+};
+
+UnitRange random_range(Random& random) {
+  const auto a = static_cast<std::uint32_t>(random.below(0x100000000U));
+  const auto width = static_cast<std::uint32_t>(std::exp(22.0 * random.unit()));
+  return {a, a > 0xffffffffU - width ? 0xffffffffU : a + width};
+}
+
+TEST(LeafGraph, AgreesWithAPlainOneWhateverIsCutLinkedAndDecided) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    Random random(seed);
+    constexpr std::size_t sections = 5;
+    LeafGraph graph(even_sections(sections, 1U << random.below(4)));
+    PlainGraph plain;
+    for (Id id = 0; id < graph.ids(); ++id) plain.leaf[id] = graph.place(id);
+    std::size_t decided = 0;
+    for (int step = 0; step < 300; ++step) {
+      const Id id = static_cast<Id>(random.below(graph.ids()));
+      if (!graph.is_open(id)) continue;
+      const std::uint64_t act = random.below(5);
+      if (act == 0 && width_of(graph.place(id).range) > 4.0) {
+        const Id low = graph.cut(id);
+        plain.leaf.erase(id);
+        plain.forget(id);
+        plain.leaf[low] = graph.place(low);
+        plain.leaf[low + 1] = graph.place(low + 1);
+      } else if (act == 1) {
+        graph.decide(id, Verdict::reach, 7, 1.5F);
+        plain.forget(id);
+        ++decided;
+      } else {
+        std::vector<ImagePiece> pieces(random.below(4));
+        for (ImagePiece& piece : pieces) {
+          piece = {static_cast<std::uint32_t>(random.below(sections)), random_range(random),
+                   static_cast<float>(random.unit()), false};
+        }
+        Image image;
+        image.pieces = pieces;
+        graph.set_image(id, image);
+        plain.forget(id);
+        for (const ImagePiece& piece : pieces) plain.links.push_back({id, piece});
+        ASSERT_EQ(graph.links(id).size(), pieces.size());
+        for (std::size_t k = 0; k < pieces.size(); ++k) {
+          ASSERT_EQ(graph.links(id)[k].section, pieces[k].section);
+          ASSERT_EQ(graph.links(id)[k].from, id);
+        }
+      }
+      ASSERT_EQ(graph.leaves(), plain.leaf.size());
+      ASSERT_EQ(graph.undecided(), plain.leaf.size() - decided);
+      const std::size_t section = random.below(sections);
+      const UnitRange range = random.below(4) == 0 ? whole : random_range(random);
+      std::vector<Id> found;
+      graph.for_leaves(section, range, [&](Id leaf) { found.push_back(leaf); });
+      ASSERT_EQ(found, plain.on(section, range)) << "seed " << seed << " step " << step;
+      std::multiset<Id> from;
+      graph.for_dependents(section, range, [&](Id leaf) { from.insert(leaf); });
+      ASSERT_EQ(from, plain.into(section, range)) << "seed " << seed << " step " << step;
+    }
+  }
+}
+
+TEST(LeafGraph, GivesBackTheLeavesItBeganWith) {
+  SectionVerdicts start = even_sections(3, 4);
+  start.verdict[5] = static_cast<std::uint8_t>(Verdict::leave);
+  start.rank[5] = 3;
+  start.time_s[5] = 2.5F;
+  const LeafGraph graph(start);
+  const SectionVerdicts back = graph.sections();
+  EXPECT_EQ(back.first, start.first);
+  EXPECT_EQ(back.begin, start.begin);
+  EXPECT_EQ(back.rank, start.rank);
+  EXPECT_EQ(back.verdict, start.verdict);
+  EXPECT_EQ(back.time_s, start.time_s);
+  EXPECT_EQ(graph.highest_rank(), 3U);
+  EXPECT_EQ(graph.undecided(), 11U);
+}
+
+TEST(LeafGraph, FreesWhatDecidedLeavesHeldAndUsesItAgain) {
+  LeafGraph graph(even_sections(1, 8));
+  const ImagePiece pieces[3]{{0, {0, 9}, 1.0F, false}, {0, {5, 70}, 1.0F, false}, {}};
+  Image image;
+  image.pieces = pieces;
+  for (Id id = 0; id < 4; ++id) graph.set_image(id, image);
+  const std::size_t before = graph.bytes();
+  for (Id id = 0; id < 4; ++id) graph.decide(id, Verdict::reach, 1, 1.0F);
+  for (Id id = 4; id < 8; ++id) graph.set_image(id, image);
+  EXPECT_LE(graph.bytes(), before + 200);  // the list of what is free
+}
+
+TEST(LeafGraph, KnowsAHopOntoItsOwnSectionByHowFarItMoves) {
+  LeafGraph graph(even_sections(2, 1));
+  const Id id = graph.cut(0);
+  const UnitRange own = graph.place(id).range;
+  const ImagePiece pieces[3]{{0, {own.lo + 1000, own.hi + 1000}, 1.0F, true},
+                             {0, {own.lo + 1000, own.hi + 1000}, 1.0F, false},
+                             {1, {own.lo + 1000, own.hi + 1000}, 1.0F, true}};
+  Image image;
+  image.pieces = pieces;
+  graph.set_image(id, image);
+  EXPECT_EQ(graph.links(id)[0].own_move, 1000U);
+  EXPECT_EQ(graph.links(id)[1].own_move, 0U);
+  EXPECT_EQ(graph.links(id)[2].own_move, 0U);
+}
+
+TEST(LeafGraph, ThatDoesNotKeepLinksCannotBeInvalidated) {
+  const Plan plan = empty_plan(3, 3, 1.0, 2.0);
+  const PlanFlow owner(plan);
+  LeafGraph graph(undecided_sections(owner.flow(), 2));
+  EXPECT_THROW((void)graph.invalidate(owner.flow(), std::vector<bool>(9, true)),
+               PreconditionViolation);
+}
+
+/// Every leaf proved after commands were changed has a verdict that a proof from nothing does not
+/// contradict, and what is undecided is not more than a proof from nothing leaves.
+TEST(LeafGraph, AfterAnInvalidationProvesWhatAProofFromNothingProves) {
+  std::size_t changed_verdicts = 0;
+  std::size_t kept = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    Random random(1000 + seed);
+    Plan plan = random_plan(seed);
+    PlanFlow owner(plan);
+    const Flow flow = owner.flow();
+    Prover prover(flow, undecided_sections(flow, 2), most_crossings, always,
+                  LeafGraph::Keep::all_links);
+    const auto settle = [](Prover& p) {
+      for (int level = 2; level <= 7; ++level) p.settle(std::ldexp(1.0, 32 - level));
+    };
+    settle(prover);
+    const SectionVerdicts before = prover.graph().sections();
+    for (int change = 0; change < 3; ++change) {
+      std::vector<bool> changed(plan.grid.size(), false);
+      for (int k = 0; k < 2; ++k) {
+        const std::size_t cell = random.below(plan.grid.size());
+        changed[cell] = true;
+        plan.heading_rad[cell] = random.below(6) == 0 ? std::numeric_limits<float>::quiet_NaN()
+                                                      : Heading::stored(random.uniform(-pi, pi));
+        if (random.below(4) == 0) {
+          owner.kind[cell] = static_cast<CellKind>(random.below(3));
+        }
+      }
+      prover.invalidate(changed);
+      settle(prover);
+      Prover fresh(flow, undecided_sections(flow, 2), most_crossings, always);
+      settle(fresh);
+      const SectionVerdicts now = prover.graph().sections();
+      ASSERT_EQ(now.first.size(), before.first.size());
+      for (std::size_t s = 0; s + 1 < now.first.size(); ++s) {
+        ASSERT_EQ(now.first[s] < now.first[s + 1], is_section(flow, s)) << seed << " " << s;
+      }
+      for (std::size_t s = 0; s + 1 < now.first.size(); ++s) {
+        for (std::size_t i = now.first[s]; i < now.first[s + 1]; ++i) {
+          const auto verdict = static_cast<Verdict>(now.verdict[i]);
+          if (verdict == Verdict::undecided) continue;
+          const UnitRange inner{now.range_of(s, i).lo + 1, now.range_of(s, i).hi - 1};
+          fresh.graph().for_leaves(s, inner, [&](Id id) {
+            const Verdict other = fresh.graph().verdict(id);
+            EXPECT_TRUE(other == Verdict::undecided || other == verdict)
+                << "seed " << seed << " section " << s;
+            ++kept;
+          });
+        }
+      }
+      changed_verdicts += now.verdict != before.verdict;
+    }
+    if (::testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(changed_verdicts, 20U);
+  EXPECT_GT(kept, 5000U);
+}
+
+}  // namespace
+}  // namespace fairway
