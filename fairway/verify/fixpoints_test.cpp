@@ -185,14 +185,15 @@ TEST(LeastByRounds, DecidesInTheRoundOfTheLongestWay) {
 
 TEST(ImageVerdicts, CountTheHopsOnTheLeafItself) {
   LeafGraph graph = drawn_graph({{1}, {}});
-  const Id own = graph.cut(0);
+  const Id own = 0;
+  const Id upper = graph.cut(own);
   const UnitRange range = graph.place(own).range;
   const ImagePiece pieces[2]{{0, {range.lo + 1000, range.hi + 1000}, 0.5F, true},
                              {1, whole, 2.0F, false}};
   Image image;
   image.pieces = pieces;
   graph.set_image(own, image);
-  graph.decide(own + 1, Verdict::reach, 1, 3.0F);
+  graph.decide(upper, Verdict::reach, 1, 3.0F);
   graph.decide(1, Verdict::reach, 1, 4.0F);
   const auto verdict_at = [&](Id id) { return graph.verdict(id); };
   const VerdictSet found = image_verdicts(graph, own, verdict_at);

@@ -47,22 +47,28 @@ class ChangedCells {
 }  // namespace
 
 LeafGraph::LeafGraph(const SectionVerdicts& start, Keep keep)
-    : keep_(keep), roots_(start.first.size() - 1), list_(start.first.size() - 1, none) {
+    : keep_(keep), on_section_(start.first.size() - 1), dependents_(start.first.size() - 1) {
   leaf_.reserve(start.leaves());
-  for (std::size_t s = 0; s < roots_.size(); ++s) {
-    roots_[s] = {ids(), start.first[s + 1] - start.first[s]};
+  for (std::size_t s = 0; s + 1 < start.first.size(); ++s) {
     for (std::size_t i = start.first[s]; i < start.first[s + 1]; ++i) {
-      Leaf leaf;
-      leaf.section = static_cast<std::uint32_t>(s);
-      leaf.range = start.range_of(s, i);
-      leaf.rank = start.rank[i];
-      leaf.time_s = start.time_s[i];
-      leaf.verdict = static_cast<Verdict>(start.verdict[i]);
-      open_count_ += leaf.verdict == Verdict::undecided;
-      leaf_.push_back(leaf);
+      const UnitRange range = start.range_of(s, i);
+      const Id id = add_leaf(s, range);
+      on_section_.add(s, {range.lo, id});
+      if (start.verdict[i] != static_cast<std::uint8_t>(Verdict::undecided)) {
+        decide(id, static_cast<Verdict>(start.verdict[i]), start.rank[i], start.time_s[i]);
+      }
     }
   }
-  leaf_count_ = leaf_.size();
+}
+
+LeafGraph::Id LeafGraph::add_leaf(std::size_t section, UnitRange range) {
+  Leaf leaf;
+  leaf.section = static_cast<std::uint32_t>(section);
+  leaf.range = range;
+  leaf_.push_back(leaf);
+  ++leaf_count_;
+  ++open_count_;
+  return ids() - 1;
 }
 
 std::uint32_t LeafGraph::highest_rank() const {
@@ -82,40 +88,37 @@ std::uint32_t LeafGraph::room_for(std::uint32_t count) {
   return first;
 }
 
-void LeafGraph::free_links(Leaf& leaf) {
+void LeafGraph::free_links(Id id) {
+  Leaf& leaf = leaf_[id];
   if (leaf.link_count == 0) return;
-  for (std::uint32_t i = leaf.first_link; i < leaf.first_link + leaf.link_count; ++i) {
-    const Link& link = link_[i];
-    (link.before == none ? list_[link.section] : link_[link.before].next) = link.next;
-    if (link.next != none) link_[link.next].before = link.before;
+  for (const Link& link : links(id)) {
+    const std::span<const Dependent> all = dependents_[link.section];
+    std::size_t at = all.size();  // from the end: what was linked last goes first, mostly
+    while (all[--at].from != id) {
+    }
+    dependents_.remove(link.section, at);
   }
-  if (free_.size() <= leaf.link_count) free_.resize(leaf.link_count + 1);
+  if (free_.size() <= leaf.link_count) free_.resize(leaf.link_count + std::size_t{1});
   free_[leaf.link_count].push_back(leaf.first_link);
   leaf.link_count = 0;
 }
 
 void LeafGraph::set_image(Id id, const Image& image) {
+  free_links(id);
+  const auto count = static_cast<std::uint32_t>(image.pieces.size());
+  const std::uint32_t first = room_for(count);
   Leaf& leaf = leaf_[id];
-  free_links(leaf);
   leaf.gave_up = image.gave_up;
   leaf.end_bits = image.ends.bits;
   leaf.end_time_s = image.ends.time_s;
-  const auto count = static_cast<std::uint32_t>(image.pieces.size());
-  leaf.first_link = room_for(count);
+  leaf.first_link = first;
   leaf.link_count = count;
   for (std::uint32_t k = 0; k < count; ++k) {
     const ImagePiece& piece = image.pieces[k];
     const bool own = piece.hop && piece.section == leaf.section;
-    Link& link = link_[leaf.first_link + k];
-    link.section = piece.section;
-    link.range = piece.range;
-    link.flown_s = piece.flown_s;
-    link.from = id;
-    link.own_move = own ? static_cast<std::uint32_t>(least_move(piece, leaf.range)) : 0;
-    link.next = list_[piece.section];
-    link.before = none;
-    if (link.next != none) link_[link.next].before = leaf.first_link + k;
-    list_[piece.section] = leaf.first_link + k;
+    link_[first + k] = {piece.section, piece.range, piece.flown_s,
+                        own ? static_cast<std::uint32_t>(least_move(piece, leaf.range)) : 0};
+    dependents_.add(piece.section, {piece.range, id});
   }
 }
 
@@ -125,25 +128,25 @@ void LeafGraph::decide(Id id, Verdict verdict, std::uint32_t rank, float time_s)
   leaf.rank = rank;
   leaf.time_s = time_s;
   --open_count_;
-  if (keep_ == Keep::links_of_open_leaves) free_links(leaf);
+  if (keep_ == Keep::links_of_open_leaves) free_links(id);
 }
 
 LeafGraph::Id LeafGraph::cut(Id id) {
+  free_links(id);
   const UnitRange range = leaf_[id].range;
   const auto half = static_cast<std::uint32_t>(std::ceil(0.5 * width_of(range)));
   const std::uint32_t middle = range.lo + half;
-  const Id low = ids();
-  free_links(leaf_[id]);
-  leaf_[id].halves = low;
-  Leaf part;
-  part.section = leaf_[id].section;
-  part.range = {range.lo, middle};
-  leaf_.push_back(part);
-  part.range = {middle, range.hi};
-  leaf_.push_back(part);
-  ++leaf_count_;
-  ++open_count_;
-  return low;
+  const std::uint32_t section = leaf_[id].section;
+  const Id high = add_leaf(section, {middle, range.hi});
+  Leaf& low = leaf_[id];
+  low = Leaf{};
+  low.section = section;
+  low.range = {range.lo, middle};
+  const std::span<const Place> places = on_section_[section];
+  std::size_t at = 0;
+  while (places[at].id != id) ++at;
+  on_section_.insert(section, at + 1, {middle, high});
+  return high;
 }
 
 void LeafGraph::make_undecided(Id id) {
@@ -165,7 +168,7 @@ std::vector<bool> LeafGraph::may_have_flown_through(const Flow& flow,
   std::vector<bool> may(leaf_.size(), false);
   for (Id id = 0; id < ids(); ++id) {
     const Leaf& leaf = leaf_[id];
-    if (leaf.halves != none) continue;
+    if (leaf.section == none) continue;
     double longest_s = leaf.gave_up ? std::numeric_limits<double>::infinity() : leaf.end_time_s;
     for (const Link& link : links(id)) {
       longest_s = std::max(longest_s, static_cast<double>(link.flown_s));
@@ -176,18 +179,24 @@ std::vector<bool> LeafGraph::may_have_flown_through(const Flow& flow,
   return may;
 }
 
-void LeafGraph::add_roots(std::size_t section, std::uint32_t count) {
-  roots_[section] = {ids(), count};
-  const std::uint64_t step = (std::uint64_t{1} << 32) / count;
-  for (std::uint32_t k = 0; k < count; ++k) {
-    Leaf leaf;
-    leaf.section = static_cast<std::uint32_t>(section);
-    leaf.range = {static_cast<std::uint32_t>(k * step),
-                  k + 1 == count ? whole_side.hi : static_cast<std::uint32_t>((k + 1) * step)};
-    leaf_.push_back(leaf);
+/// Gives a section its first leaves, or takes away those it had.
+void LeafGraph::renew_section(std::size_t section, bool there) {
+  if (there) {
+    constexpr std::uint32_t count = 4;
+    constexpr std::uint32_t step = 0x40000000U;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t end = k + 1 == count ? whole_side.hi : (k + 1) * step;
+      on_section_.add(section, {k * step, add_leaf(section, {k * step, end})});
+    }
+    return;
   }
-  leaf_count_ += count;
-  open_count_ += count;
+  for (const Place& place : on_section_[section]) {
+    open_count_ -= leaf_[place.id].verdict == Verdict::undecided ? 1 : 0;
+    --leaf_count_;
+    free_links(place.id);
+    leaf_[place.id].section = none;
+  }
+  on_section_.clear(section);
 }
 
 std::vector<LeafGraph::Id> LeafGraph::invalidate(const Flow& flow,
@@ -197,66 +206,56 @@ std::vector<LeafGraph::Id> LeafGraph::invalidate(const Flow& flow,
   const std::vector<bool> stale = may_have_flown_through(flow, changed_cells);
   std::vector<Id> work;  // undecided since, and what depends on them not yet
   for (Id id = 0; id < stale.size(); ++id) {
-    Leaf& leaf = leaf_[id];
     if (!stale[id]) continue;
-    if (leaf.verdict != Verdict::undecided) make_undecided(id);
-    free_links(leaf);
+    if (leaf_[id].verdict != Verdict::undecided) make_undecided(id);
+    free_links(id);
+    Leaf& leaf = leaf_[id];
     leaf.end_bits = 0;
     leaf.end_time_s = 0.0;
     leaf.gave_up = true;  // until it has an image
     work.push_back(id);
   }
-  std::vector<Id> to_fly;
-  constexpr std::uint32_t new_roots = 4;
-  for (std::size_t s = 0; s < roots_.size(); ++s) {
-    const bool there = is_section(flow, s);
-    if (there && roots_[s].count == 0) {
-      add_roots(s, new_roots);
-    } else if (!there &&
-               roots_[s].count > 0) {  // its leaves are stale: a changed cell is beside it
-      for_leaves(s, whole_side, [&](Id id) {
-        leaf_[id].halves = id;  // no leaf any more
-        --leaf_count_;
-        --open_count_;
-      });
-      roots_[s].count = 0;
-    }
-  }
-  for (Id id = 0; id < ids(); ++id) {
-    if (is_open(id) && (id >= stale.size() || stale[id])) to_fly.push_back(id);
-  }
   while (!work.empty()) {
-    const Leaf leaf = leaf_[work.back()];
+    const LeafPlace changed = place(work.back());
     work.pop_back();
-    for_dependents(leaf.section, leaf.range, [&](Id other) {
+    for_dependents(changed.section, changed.range, [&](Id other) {
       if (leaf_[other].verdict == Verdict::undecided) return;
       make_undecided(other);
       work.push_back(other);
     });
+  }
+  // A section that begins or ends to be lies beside a changed cell: its leaves are stale.
+  for (std::size_t s = 0; s < 4 * flow.grid.size(); ++s) {
+    if (is_section(flow, s) != has_leaves(s)) renew_section(s, is_section(flow, s));
+  }
+  std::vector<Id> to_fly;
+  for (Id id = 0; id < ids(); ++id) {
+    if (is_open(id) && (id >= stale.size() || stale[id])) to_fly.push_back(id);
   }
   return to_fly;
 }
 
 SectionVerdicts LeafGraph::sections() const {
   SectionVerdicts out;
-  out.first.reserve(roots_.size() + 1);
+  const std::size_t sections = on_section_.size();
+  out.first.reserve(sections + 1);
   out.first.push_back(0);
-  for (std::size_t s = 0; s < roots_.size(); ++s) {
-    for_leaves(s, whole_side, [&](Id id) {
-      const Leaf& leaf = leaf_[id];
+  for (std::size_t s = 0; s < sections; ++s) {
+    for (const Place& place : on_section_[s]) {
+      const Leaf& leaf = leaf_[place.id];
       out.begin.push_back(leaf.range.lo);
       out.rank.push_back(leaf.rank);
       out.verdict.push_back(static_cast<std::uint8_t>(leaf.verdict));
       out.time_s.push_back(leaf.time_s);
-    });
+    }
     out.first.push_back(static_cast<std::uint32_t>(out.begin.size()));
   }
   return out;
 }
 
 std::size_t LeafGraph::bytes() const {
-  std::size_t total = leaf_.capacity() * sizeof(Leaf) + roots_.capacity() * sizeof(Roots) +
-                      link_.capacity() * sizeof(Link) + list_.capacity() * sizeof(std::uint32_t);
+  std::size_t total = leaf_.capacity() * sizeof(Leaf) + link_.capacity() * sizeof(Link) +
+                      on_section_.bytes() + dependents_.bytes();
   for (const auto& unused : free_) total += unused.capacity() * sizeof(std::uint32_t);
   return total;
 }

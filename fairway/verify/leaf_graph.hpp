@@ -1,20 +1,18 @@
 // The section under proof as a graph: leaves, each with what is known of it, and links from each to
 // the parts of the section where its flights arrive next.
 //
-// A section begins as leaves side by side. A leaf that is cut stays as the root of its halves, so
-// that a section is a row of binary trees, and its leaves are the ends of the branches. Everything
-// lies in flat arrays; the links of a leaf lie side by side, and the links that lead to one section
-// are on a list, so that what a leaf leads to and what leads to a leaf are both at hand. Links are
-// freed with their leaf's decision, unless all are to be kept.
+// Everything lies in flat arrays. The leaves of a section are on a list by their begins, and so is
+// all that leads to the section: what a leaf leads to and what leads to a leaf are both at hand.
+// The links of a leaf lie side by side; they are freed with its decision, unless all are to be
+// kept.
 //
 // Properties that always hold:
 //   1. The leaves of a section, in order, cover what its first leaves covered.
-//   2. A leaf is open (undecided, not cut), decided, or cut. Links lead from open leaves alone,
-//      unless all are kept; from cut leaves never.
+//   2. A leaf is open (undecided) or decided. Links lead from open leaves alone, unless all are
+//      kept.
 //   3. Reading changes nothing: any number of threads may read while none writes.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,6 +20,7 @@
 
 #include "fairway/verify/flow.hpp"
 #include "fairway/verify/images.hpp"
+#include "fairway/verify/section_lists.hpp"
 #include "fairway/verify/section_verdicts.hpp"
 
 namespace fairway {
@@ -39,32 +38,26 @@ class LeafGraph {
     std::uint32_t section;
     UnitRange range;
     float flown_s;  ///< upper bound
-    Id from;
     /// The leaf's own section alone: how far, at least, it moves every state of the leaf along the
     /// section, in units, all of them the same way and equally far. 0: nothing of the kind.
     std::uint32_t own_move;
-
-   private:
-    friend class LeafGraph;
-    std::uint32_t next = none;  // on the list of the section it leads to
-    std::uint32_t before = none;
   };
 
   explicit LeafGraph(const SectionVerdicts& start, Keep keep = Keep::links_of_open_leaves);
 
-  // Leaves.
-  Id ids() const { return static_cast<Id>(leaf_.size()); }  ///< all ever made, 0 to this
+  // Leaves. Ids run from 0 to ids(); one may be of no leaf any more after an invalidation.
+  Id ids() const { return static_cast<Id>(leaf_.size()); }
   std::size_t leaves() const { return leaf_count_; }
   std::size_t undecided() const { return open_count_; }
   bool is_open(Id id) const {
-    return leaf_[id].verdict == Verdict::undecided && leaf_[id].halves == none;
+    return leaf_[id].verdict == Verdict::undecided && leaf_[id].section != none;
   }
   LeafPlace place(Id id) const { return {leaf_[id].section, leaf_[id].range}; }
   Verdict verdict(Id id) const { return leaf_[id].verdict; }
   float time_s(Id id) const { return leaf_[id].time_s; }
   std::uint32_t rank(Id id) const { return leaf_[id].rank; }
   std::uint32_t highest_rank() const;
-  bool has_leaves(std::size_t section) const { return roots_[section].count > 0; }
+  bool has_leaves(std::size_t section) const { return !on_section_[section].empty(); }
   /// Calls with each leaf of the section that touches `range`, in order.
   template <typename Body>
   void for_leaves(std::size_t section, UnitRange range, const Body& body) const;
@@ -82,7 +75,8 @@ class LeafGraph {
   // Changes.
   void set_image(Id id, const Image& image);
   void decide(Id id, Verdict verdict, std::uint32_t rank, float time_s);
-  /// Cuts an open leaf. Returns the lower half; the upper is the next id. Neither has an image.
+  /// Cuts an open leaf: it is its own lower half from now on, the upper is the id returned. Neither
+  /// has an image.
   Id cut(Id id);
   /// The commands or meanings of some cells are other ones now, and `flow` has them already. Every
   /// leaf whose verdict may rest on them is undecided again; returned are the open leaves whose
@@ -99,32 +93,35 @@ class LeafGraph {
     UnitRange range;
     std::uint32_t rank = 0;
     float time_s = 0.0F;
-    Id halves = none;  // the lower half of a leaf that was cut
     std::uint32_t first_link = 0;
     std::uint32_t link_count = 0;
-    double end_time_s = 0.0;
     Verdict verdict = Verdict::undecided;
     std::uint8_t end_bits = 0;
     bool gave_up = false;
+    double end_time_s = 0.0;
   };
-  /// The first leaves of a section: ids side by side.
-  struct Roots {
-    Id first = 0;
-    std::uint32_t count = 0;
+  struct Place {
+    std::uint32_t begin;
+    Id id;
+  };
+  struct Dependent {
+    UnitRange range;  // that a link leads to
+    Id from;
   };
 
-  void add_roots(std::size_t section, std::uint32_t count);
-  void free_links(Leaf& leaf);
+  Id add_leaf(std::size_t section, UnitRange range);
+  void free_links(Id id);
   std::uint32_t room_for(std::uint32_t count);
   std::vector<bool> may_have_flown_through(const Flow& flow,
                                            const std::vector<bool>& changed_cells) const;
   void make_undecided(Id id);
+  void renew_section(std::size_t section, bool there);
 
   Keep keep_;
   std::vector<Leaf> leaf_;
-  std::vector<Roots> roots_;                      // [sections]
-  std::vector<Link> link_;                        // links of a leaf side by side
-  std::vector<std::uint32_t> list_;               // [sections] first link on the section's list
+  SectionLists<Place> on_section_;
+  std::vector<Link> link_;  // links of a leaf side by side
+  SectionLists<Dependent> dependents_;
   std::vector<std::vector<std::uint32_t>> free_;  // [count] first of `count` unused links
   std::size_t leaf_count_ = 0;
   std::size_t open_count_ = 0;
@@ -137,41 +134,20 @@ inline double width_of(UnitRange range) {
 
 template <typename Body>
 void LeafGraph::for_leaves(std::size_t section, UnitRange range, const Body& body) const {
-  const Roots roots = roots_[section];
-  Id low = roots.first;  // the first root that does not end before the range
-  for (std::uint32_t count = roots.count; count > 0;) {
-    const std::uint32_t half = count / 2;
-    if (leaf_[low + half].range.hi < range.lo) {
-      low += half + 1;
-      count -= half + 1;
-    } else {
-      count = half;
-    }
+  const std::span<const Place> places = on_section_[section];
+  std::size_t low = 0;  // becomes the last leaf that begins before the range, or the first
+  for (std::size_t count = places.size(); count > 1;) {
+    const std::size_t half = count / 2;
+    if (places[low + half].begin < range.lo) low += half;
+    count -= half;
   }
-  constexpr std::size_t deepest = 40;  // a leaf is halved at most 32 times
-  std::array<Id, deepest> waiting;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled below
-  for (const Id end = roots.first + roots.count; low < end; ++low) {
-    if (leaf_[low].range.lo > range.hi) return;
-    std::size_t count = 0;
-    waiting[count++] = low;
-    while (count > 0) {
-      const Id id = waiting[--count];
-      const Leaf& leaf = leaf_[id];
-      if (!overlap(leaf.range, range)) continue;
-      if (leaf.halves == none) {
-        body(id);
-      } else {
-        waiting[count++] = leaf.halves + 1;
-        waiting[count++] = leaf.halves;
-      }
-    }
-  }
+  for (; low < places.size() && places[low].begin <= range.hi; ++low) body(places[low].id);
 }
 
 template <typename Body>
 void LeafGraph::for_dependents(std::size_t section, UnitRange range, const Body& body) const {
-  for (std::uint32_t i = list_[section]; i != none; i = link_[i].next) {
-    if (overlap(link_[i].range, range)) body(link_[i].from);
+  for (const Dependent& dependent : dependents_[section]) {
+    if (overlap(dependent.range, range)) body(dependent.from);
   }
 }
 

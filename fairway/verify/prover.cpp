@@ -74,8 +74,7 @@ void Prover::conclude(const std::vector<Id>& round, const std::vector<Finding>& 
   for (std::size_t k = 0; k < round.size(); ++k) {
     const Verdict verdict = findings[k].found.only();
     if (findings[k].cut) {
-      const Id low = graph_.cut(round[k]);
-      halves.insert(halves.end(), {low, low + 1});
+      halves.insert(halves.end(), {round[k], graph_.cut(round[k])});
     } else if (verdict != Verdict::undecided && verdict != Verdict::trapped) {
       const float time_s = std::nextafter(static_cast<float>(findings[k].found.time_s), infinite);
       graph_.decide(round[k], verdict, rank_, time_s);

@@ -143,8 +143,8 @@ class Follower {
     }
     for (const CellDeparture& leave : departures) {
       if (leave.grazes && static_cast<int>(leave.side) == front.grazed) continue;
-      depart({front, cell, section_of(cell, leave.side), leave, departures.count() == 1},
-             order.has_command ? (leave.aligned ? command : NAN) : front.heading_rad);
+      Crossing crossing{front, cell, section_of(cell, leave.side), leave, departures.count() == 1};
+      depart(crossing, order.has_command ? (leave.aligned ? command : NAN) : front.heading_rad);
     }
   }
 
@@ -157,7 +157,7 @@ class Follower {
     bool sole;  // all states of the front leave so
   };
 
-  void depart(Crossing crossing, float tag) {
+  void depart(Crossing& crossing, float tag) {
     const Front& from = crossing.from;
     CellDeparture& leave = crossing.leave;
     const bool hop = flight_memory::comes_back_as_the_command(from.hop, crossing.border);
