@@ -3,7 +3,7 @@
 # whose own dependencies are development packages, nor a module that is bound to one version of
 # Python.
 #   fairway          the programs, their manual pages and completions, the docs, the demonstration
-#   libfairway-dev   headers, the library, find_package(fairway)
+#   libfairway-dev   headers, the library, find_package(fairway), pkg-config
 #   python3-fairway  import fairway
 set(FAIRWAY_MAINTAINER "Fairway maintainers <maintainers@fairway.invalid>" CACHE STRING
   "Name and address in the packages; a packager puts in their own")
