@@ -1,9 +1,6 @@
 // Three kinds of error, kept apart:
-//   InputError             bad input from outside, thrown by readers only; the command exits with
-//                          65.
-//   PreconditionViolation  the caller broke what a function asks of its arguments; always checked.
-//                          A bug: of the program that calls the library, or, in the command
-//                          (exit 70), of Fairway itself.
+//   InputError             bad input from outside, thrown by readers only; the command exits 65.
+//   PreconditionViolation  the caller broke what a function asks of it: a bug (exit 70).
 //   the domain's answer (goal unreachable, undecided) is a value, never an exception.
 #pragma once
 
@@ -24,7 +21,6 @@ class InputError : public std::runtime_error {
   std::string where_;
 };
 
-/// `what()` is the promise that was broken.
 class PreconditionViolation : public std::logic_error {
  public:
   using std::logic_error::logic_error;
