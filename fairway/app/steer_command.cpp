@@ -183,7 +183,7 @@ Action declare_steer(CLI::App& options) {
   options.final_callback([&a] { check_arguments(a); });
   options.footer(
       "Prints CSV length_m,word,converged,end_x_m,end_y_m,end_heading_rad, a line for each\n"
-      "pair or way-point. Obstacles are not considered. With the law clf a step is R / 100,\n"
+      "pair or waypoint. Obstacles are not considered. With the law clf a step is R / 100,\n"
       "and a vehicle has converged within R / 50 and 0.02 rad; its word is what it drove.\n"
       "Example: fairway steer --from 0,0,0 --to 100,50,90deg --turn-radius 20 --picture path.svg");
   return [arguments](const Session& session) { return steer_command(*arguments, session); };
