@@ -1,5 +1,5 @@
-// How a set of states may leave a cell: an enclosure of the contract's motion, one arc of the
-// turning radius towards the command, then straight.
+// How a set of states may leave a cell: an enclosure of the motion of docs/model.md, one arc of
+// the turning radius towards the command, then straight.
 //
 // Lengths are in cells, and a cell is the square [-1/2, 1/2]^2 about its own middle, so that all
 // four sides look alike in their frames (interval.hpp): the side is x = 1/2, and a vehicle that

@@ -1,7 +1,12 @@
-# Install and export: find_package(fairway) gives fairway::fairway, the core library with the
-# headers of its nouns and verbs, and the command.
+# Install and export. find_package(fairway) gives two targets, pkg-config two modules:
+#   fairway::fairway, fairway          the core library with the headers of its nouns and verbs
+#   fairway::runtime, fairway-runtime  headers alone, for the vehicle: fairway/runtime.hpp and what
+#                                      it includes; find_package(fairway COMPONENTS runtime) looks
+#                                      for no other package
 include(CMakePackageConfigHelpers)
 
+install(TARGETS fairway_runtime EXPORT fairway_runtime_targets
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 install(TARGETS fairway EXPORT fairway_targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
@@ -9,8 +14,9 @@ install(TARGETS fairway EXPORT fairway_targets
 install(TARGETS fairway_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
 set(fairway_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/fairway)
-install(EXPORT fairway_targets NAMESPACE fairway:: DESTINATION ${fairway_package_dir}
-  COMPONENT development)
+foreach(set fairway_targets fairway_runtime_targets)
+  install(EXPORT ${set} NAMESPACE fairway:: DESTINATION ${fairway_package_dir} COMPONENT development)
+endforeach()
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/fairway-config.cmake.in
   ${PROJECT_BINARY_DIR}/fairway-config.cmake INSTALL_DESTINATION ${fairway_package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/fairway-config-version.cmake
@@ -18,6 +24,22 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/fairway-config-version.cm
 install(FILES ${PROJECT_BINARY_DIR}/fairway-config.cmake
   ${PROJECT_BINARY_DIR}/fairway-config-version.cmake DESTINATION ${fairway_package_dir}
   COMPONENT development)
+
+# For pkg-config. The prefix is found from where the file lies, so any PREFIX will do.
+set(fairway_pkgconfig_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH fairway_up /prefix/${fairway_pkgconfig_dir} /prefix)  # ../..
+string(REGEX REPLACE "/$" "" fairway_up ${fairway_up})
+set(fairway_requires "tbb")
+set(fairway_requires_private "fmt libcrypto")
+if(NOT BUILD_SHARED_LIBS)  # a static library hands its own dependencies on to the linker
+  string(APPEND fairway_requires " ${fairway_requires_private}")
+  set(fairway_requires_private "")
+endif()
+foreach(module fairway fairway-runtime)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/${module}.pc.in ${PROJECT_BINARY_DIR}/${module}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${module}.pc DESTINATION ${fairway_pkgconfig_dir}
+    COMPONENT development)
+endforeach()
 
 # The docs, as they stand here, and the demonstration. Debian keeps licences elsewhere.
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

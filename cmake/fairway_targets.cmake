@@ -37,6 +37,25 @@ function(fairway_sources target)
     PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
 endfunction()
 
+# fairway_headers_behind(RESULT HEADER): HEADER and every header of the project that it includes,
+# directly or not, as absolute paths. Configures again when one of them changes.
+function(fairway_headers_behind result header)
+  set(found "")
+  set(waiting ${header})
+  while(waiting)
+    list(POP_FRONT waiting name)
+    set(path ${PROJECT_SOURCE_DIR}/${name})
+    if(NOT path IN_LIST found)
+      list(APPEND found ${path})
+      set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
+      file(STRINGS ${path} includes REGEX "^#include \"fairway/")
+      list(TRANSFORM includes REPLACE "^#include \"([^\"]+)\".*" "\\1")
+      list(APPEND waiting ${includes})
+    endif()
+  endwhile()
+  set(${result} ${found} PARENT_SCOPE)
+endfunction()
+
 # fairway_tests(NAME SOURCES a_test.cpp ... LINK fairway ...): one GoogleTest program, one CTest.
 function(fairway_tests name)
   if(NOT FAIRWAY_BUILD_TESTS)

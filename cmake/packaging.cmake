@@ -1,9 +1,8 @@
 # Debian packages by CPack: `make package`, or the target `package` of the preset `package`. Three,
 # as Debian parts such projects: who runs the command needs neither the headers of a static library,
-# whose own dependencies are development packages, nor a module that is bound to one version of
-# Python.
+# whose own dependencies are development packages, nor a module that is bound to one Python version.
 #   fairway          the programs, their manual pages and completions, the docs, the demonstration
-#   libfairway-dev   headers, the library, find_package(fairway)
+#   libfairway-dev   headers, the library, find_package(fairway), pkg-config
 #   python3-fairway  import fairway
 set(FAIRWAY_MAINTAINER "Fairway maintainers <maintainers@fairway.invalid>" CACHE STRING
   "Name and address in the packages; a packager puts in their own")

@@ -216,8 +216,7 @@ undecided: for Plan.fly and a look at its tracks.)")
       .def("save_geotiff", &save_geotiff, "path"_a, "headings_rad"_a = py::none(), py::kw_only(),
            "force"_a = false,
            "verdict_map() of each heading (default: eight, evenly spaced) as the bands of a "
-           "GeoTIFF, "
-           "laid on Earth where the map was (docs/exchange.md).")
+           "GeoTIFF, laid on Earth where the map was (docs/exchange.md).")
       .def("_repr_png_",
            [](const HeldCertificate& held) {
              return py::bytes(picture(held, VerdictMapOptions{}.headings, "").png);

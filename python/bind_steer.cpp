@@ -202,7 +202,7 @@ WaypointFlight follow(const py::object& start, const py::object& waypoints, doub
 }
 
 void bind_waypoints(py::module_& m) {
-  py::class_<WaypointLeg>(m, "WaypointLeg", "The way to one way-point.")
+  py::class_<WaypointLeg>(m, "WaypointLeg", "The way to one waypoint.")
       .def_readonly("length_m", &WaypointLeg::length_m, "Metres driven.")
       .def_readonly("shortest_m", &WaypointLeg::shortest_m,
                     "Metres of the shortest path from where the leg began.")
@@ -224,11 +224,11 @@ void bind_waypoints(py::module_& m) {
                            : leg.converged ? "passed"
                                            : "given up");
       });
-  py::class_<WaypointFlight>(m, "WaypointFlight", "What a law drove along way-points.")
-      .def_readonly("converged", &WaypointFlight::converged, "To every way-point.")
+  py::class_<WaypointFlight>(m, "WaypointFlight", "What a law drove along waypoints.")
+      .def_readonly("converged", &WaypointFlight::converged, "To every waypoint.")
       .def_readonly("length_m", &WaypointFlight::length_m, "Metres driven.")
       .def_readonly("legs", &WaypointFlight::legs,
-                    "A WaypointLeg for each way-point, up to the first that is given up.")
+                    "A WaypointLeg for each waypoint, up to the first that is given up.")
       .def("__repr__", [](const WaypointFlight& f) {
         return fmt::format("<fairway.WaypointFlight: {} legs, {:g} m, {}>", f.legs.size(),
                            f.length_m, f.converged ? "converged" : "not converged");
@@ -238,12 +238,12 @@ void bind_waypoints(py::module_& m) {
         "heading_rad"_a = steering_options({}, {}, 1.0).tolerance.heading_rad,
         "passed_place_m"_a = 0.0, "passed_heading_rad"_a = 0.0,
         "tie_m"_a = ShortestLawOptions{}.tie_m, "step_m"_a = py::none(),
-        R"(Drives along way-points with headings, one by one, where nothing is in the way.
+        R"(Drives along waypoints with headings, one by one, where nothing is in the way.
 
 start               x_m, y_m, heading_rad
 waypoints           float64 [n, 3]: x_m, y_m, heading_rad
 law                 "shortest" or "clf"
-place_m, heading_rad                a way-point is reached within these; default: a fiftieth of the
+place_m, heading_rad                a waypoint is reached within these; default: a fiftieth of the
                                     radius
 passed_place_m, passed_heading_rad  and passed when the line across it is crossed within these
 tie_m               "shortest": a word is kept while it is at most so much longer

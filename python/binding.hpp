@@ -80,6 +80,8 @@ template <typename T>
 py::array view(const T* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
                const py::handle& owner) {
   py::array array(py::dtype::of<T>(), std::move(shape), std::move(strides), data, owner);
+  // pybind11 has no call for this, and numpy's own, `array.flags.writeable = False`, would go
+  // through the interpreter for every array.
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }

@@ -10,6 +10,7 @@ import sys
 STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "verify", "certificate", "cellular",
           "bitmap", "steer", "exchange", "report", "run", "view", "app"]
 TOOLBOXES = {"base", "vehicle"}
+ON_TOOLBOXES_ALONE = {"cellular", "steer"}
 JOINERS = {"run", "view", "app"}
 NOUNS = {
     "map": {"obstacle_map.hpp", "region.hpp", "gdal_session.hpp"},
@@ -61,6 +62,8 @@ def violation(stage, is_test, is_header, quoted, target):
         return f"{other} comes after {stage}"
     if other in TOOLBOXES or stage in JOINERS or is_test:
         return None
+    if stage in ON_TOOLBOXES_ALONE:
+        return f"{stage} is built on the toolboxes alone, not on {target}"
     if name not in NOUNS.get(other, set()):
         return f"{target} is a verb of {other}; a stage includes the nouns of earlier stages"
     return None

@@ -144,7 +144,7 @@ class Steer(unittest.TestCase):
         for leg, goal in zip(legs, rows[1:]):
             self.assertAlmostEqual(float(leg["end_x_m"]), goal[0], places=8)
             self.assertAlmostEqual(float(leg["end_y_m"]), goal[1], places=8)
-        # A start of one's own is one leg more, and one way-point is then enough.
+        # A start of one's own is one leg more, and one waypoint is then enough.
         more = self.rows(self.steer("--turn-radius", 20, "--waypoints", "-", "--from", "5,5,1",
                                     text=text))
         self.assertEqual(more[1:], legs)
@@ -213,7 +213,7 @@ class Steer(unittest.TestCase):
                 self.assertIn(f">{text}<", svg.read_text())
             self.steer("--turn-radius", 20, "--waypoints", "-", "--picture", svg, "--force",
                        text=self.waypoints([[0, 0, 0], [90, 9, 1], [50, 50, 2]]))
-            self.assertIn(">way-points<", svg.read_text())
+            self.assertIn(">waypoints<", svg.read_text())
             self.assertEqual(sorted(Path(folder).iterdir()), [png, svg])
 
     def test_wrong_usage_is_64(self):
@@ -260,7 +260,7 @@ class Steer(unittest.TestCase):
                             ("0,0,0\n\nnan,1,1\n", ":3: x_m is 'nan'"),
                             ("0,0,0\n1e200,1,1\n", ":2: the poses are more than"),
                             ("x_m,y_m\n0,0\n", ":1: no column heading_rad"),
-                            (header, ": no way-points"), ("0,0,0\n", ": one way-point")):
+                            (header, ": no waypoints"), ("0,0,0\n", ": one waypoint")):
             with tempfile.TemporaryDirectory() as folder:
                 path = Path(folder) / "w.csv"
                 path.write_text(text)

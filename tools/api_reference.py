@@ -150,7 +150,8 @@ def cpp_reference(folder):
              "`find_package(fairway)` gives `fairway::fairway`; everything is in the namespace `fairway`, headers are "
              "included as `<fairway/STAGE/NAME.hpp>`. Made from the headers' own words by `tools/api_reference.py`. "
              "What is not here is behind it, and no promise. The vehicle's own header, `fairway/runtime.hpp`, has neither "
-             "heap nor exceptions. `tests/consumer/main.cpp` is a whole program.", ""]
+             "heap nor exceptions, and a target of its own, `fairway::runtime`, that needs no other package. "
+             "`tests/consumer` has a whole program for each.", ""]
     for stage, names in HEADERS.items():
         lines += [f"## {stage}", ""]
         for name in names:

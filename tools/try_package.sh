@@ -68,8 +68,16 @@ print(plan.fly(plan.random_starts(1000, seed=1)).counts)"'
 strangers_project() {
   cp -r tests/consumer "$root/home/someone/consumer"
   inside chown -R someone: /home/someone/consumer
-  as_user 'cmake -S consumer -B consumer/build -DCMAKE_BUILD_TYPE=Release >/dev/null &&
-    cmake --build consumer/build >/dev/null && consumer/build/consumer plan.safetensors'
+  as_user 'cmake -S consumer/library -B library -DCMAKE_BUILD_TYPE=Release >/dev/null &&
+    cmake --build library >/dev/null && library/consumer plan.safetensors'
+  as_user 'cmake -S consumer/on_board -B on_board -DCMAKE_BUILD_TYPE=Release >/dev/null &&
+    cmake --build on_board >/dev/null &&
+    fairway verify plan.safetensors --undecided-max 0.05 --quiet -o proved.safetensors &&
+    on_board/on_board proved.safetensors'
+  as_user 'g++ -std=c++20 -O2 consumer/library/main.cpp $(pkg-config --cflags --libs fairway) \
+    -o by_hand && ./by_hand plan.safetensors'
+  as_user 'g++ -std=c++20 -O2 consumer/on_board/main.cpp $(pkg-config --cflags fairway-runtime) \
+    -o by_hand && ./by_hand proved.safetensors'
 }
 docs() {  # what the docs say to type, with what is installed alone
   mkdir -p "$root/home/someone/source/python"
@@ -94,8 +102,8 @@ step "the demonstration, as an ordinary user" demonstration
 step "certificate, query, manual page, completion" asked
 step "apt-get install python3-fairway" install '/debs/python3-fairway_*.deb'
 step "import fairway" from_python
-step "apt-get install libfairway-dev, and a compiler" install '/debs/libfairway-dev_*.deb' g++ cmake make
-step "find_package(fairway)" strangers_project
+step "apt-get install libfairway-dev, and a compiler" install '/debs/libfairway-dev_*.deb' g++ cmake make pkgconf
+step "find_package(fairway), pkg-config" strangers_project
 step "apt-get install python3-pytest" install python3-pytest
 step "every page of the docs" docs
 step "apt-get purge leaves nothing" gone

@@ -106,11 +106,10 @@ Action declare_export(CLI::App& options) {
       ->check(heading_argument())
       ->allow_extra_args(false);
   options.footer(
-      "A plan becomes the bands heading_rad, cost_m and region; a certificate a band of verdicts "
-      "for "
-      "each\nheading: 0 undecided, 1 reach, 2 collide, 3 leave, 4 trapped. QGIS opens both where "
-      "the "
-      "map was.\nExample: fairway export out/demo/plan.safetensors -o demo.tif");
+      "A plan becomes the bands heading_rad, cost_m and region; a certificate a band of\n"
+      "verdicts for each heading: 0 undecided, 1 reach, 2 collide, 3 leave, 4 trapped.\n"
+      "QGIS opens both where the map was.\n"
+      "Example: fairway export out/demo/plan.safetensors -o demo.tif");
   return [arguments](const Session& session) { return export_command(*arguments, session); };
 }
 

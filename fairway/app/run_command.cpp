@@ -41,9 +41,8 @@ Action declare_run(CLI::App& options) {
                   "folder for every product (default: the scenario's name with -out, here)")
       ->type_name("DIR");
   options.footer(
-      "Leaves plan.safetensors, flights.csv, flights.geojson, outcomes.csv, pictures (SVG and "
-      "PNG)\n"
-      "and summary.json in the folder, which appears whole or not at all.\n"
+      "Leaves plan.safetensors, flights.csv, flights.geojson, outcomes.csv, pictures (SVG\n"
+      "and PNG) and summary.json in the folder, which appears whole or not at all.\n"
       "Example: fairway run demo/demo.toml -o out/demo");
   return [arguments](const Session& session) { return run_command(*arguments, session); };
 }

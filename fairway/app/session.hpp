@@ -11,7 +11,7 @@
 
 namespace fairway {
 
-/// Exit codes of the contract.
+/// Exit codes, as `fairway --help` lists them.
 enum ExitCode : int {
   exit_done = 0,
   exit_no = 1,

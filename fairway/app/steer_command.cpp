@@ -164,8 +164,8 @@ Action declare_steer(CLI::App& options) {
       ->capture_default_str();
   options
       .add_option("--pairs", a.pairs_file,
-                  "many at once, from a CSV file x0_m,y0_m,h0_rad,x1_m,y1_m,h1_rad; - for standard "
-                  "input")
+                  "many at once, from a CSV file x0_m,y0_m,h0_rad,x1_m,y1_m,h1_rad; - for "
+                  "standard input")
       ->type_name("CSV");
   options
       .add_option("--waypoints", a.waypoints_file,
@@ -182,12 +182,9 @@ Action declare_steer(CLI::App& options) {
       ->type_name("CSV");
   options.final_callback([&a] { check_arguments(a); });
   options.footer(
-      "Prints CSV length_m,word,converged,end_x_m,end_y_m,end_heading_rad, a line for each pair "
-      "or\n"
-      "way-point.\n"
-      "Nothing is in the way. With the law clf a step is R / 100, and a vehicle has converged "
-      "within\n"
-      "R / 50 and 0.02 rad; its word is what it drove.\n"
+      "Prints CSV length_m,word,converged,end_x_m,end_y_m,end_heading_rad, a line for each\n"
+      "pair or waypoint. Obstacles are not considered. With the law clf a step is R / 100,\n"
+      "and a vehicle has converged within R / 50 and 0.02 rad; its word is what it drove.\n"
       "Example: fairway steer --from 0,0,0 --to 100,50,90deg --turn-radius 20 --picture path.svg");
   return [arguments](const Session& session) { return steer_command(*arguments, session); };
 }

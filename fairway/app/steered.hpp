@@ -40,7 +40,7 @@ enum class LegTrack { none, all };
 [[nodiscard]] std::vector<SteeredLeg> steer_pairs(const PosePairs& pairs, double turn_radius_m,
                                                   SteeringLaw law, LegTrack track);
 
-/// From each way-point to the next; under the law clf a leg begins where the one before ended, and
+/// From each waypoint to the next; under the law clf a leg begins where the one before ended, and
 /// a leg that does not converge is the last.
 [[nodiscard]] std::vector<SteeredLeg> steer_waypoints(const PosePairs& legs, double turn_radius_m,
                                                       SteeringLaw law, LegTrack track);

@@ -51,9 +51,8 @@ Action declare_view(CLI::App& options) {
       ->check(CLI::Range(0, 65535))
       ->type_name("N");
   options.footer(
-      "Serves DIR/report.html and the run's other products on this machine alone, and answers "
-      "what\n"
-      "the page asks: verdicts, flights and ways to a pose.\n"
+      "Serves DIR/report.html and the run's other products on this machine alone, and\n"
+      "answers what the page asks: verdicts, flights and ways to a pose.\n"
       "Example: fairway view out/demo");
   return [arguments](const Session& session) { return view_command(*arguments, session); };
 }

@@ -1,6 +1,6 @@
 // Three kinds of error, kept apart:
-//   InputError         bad input from outside, thrown by readers only; the command exits with 65.
-//   PreconditionViolation  a caller's mistake, always checked; our fault in the command (exit 70).
+//   InputError             bad input from outside, thrown by readers only; the command exits 65.
+//   PreconditionViolation  the caller broke what a function asks of it: a bug (exit 70).
 //   the domain's answer (goal unreachable, undecided) is a value, never an exception.
 #pragma once
 

@@ -30,7 +30,6 @@ struct Interval {
   constexpr bool empty() const { return !(lo <= hi); }
   constexpr bool contains(double x) const { return lo <= x && x <= hi; }
   constexpr double width() const { return hi - lo; }
-  constexpr double middle() const { return 0.5 * (lo + hi); }
   /// Certain signs.
   constexpr bool positive() const { return lo > 0.0; }
   constexpr bool negative() const { return hi < 0.0; }

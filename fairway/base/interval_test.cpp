@@ -87,7 +87,7 @@ TEST(Interval, holds_the_exact_sum_difference_product_and_quotient_of_members) {
     ASSERT_TRUE(holds(x * b, p * q)) << x << " * (number) " << y;
     ASSERT_TRUE(holds(-a, -p)) << x;
     if (b.positive() || b.negative()) {
-      // The contract's limit: exact results below 1e300.
+      // Within the limit that interval.hpp states: exact results below 1e300.
       const double least = std::min(std::abs(b.lo), std::abs(b.hi));
       const double largest = std::max(std::abs(a.lo), std::abs(a.hi));
       if (largest > least * 1e290) continue;

@@ -1,4 +1,4 @@
-// CSV files of places and headings, read strictly: states, pairs of poses, way-points.
+// CSV files of places and headings, read strictly: states, pairs of poses, waypoints.
 //
 // With a header, columns are found by name and others are passed over; without one, a line has
 // exactly the columns asked for. Blank lines and lines that start with # are skipped. A heading is

@@ -7,6 +7,7 @@
 
 #include "fairway/base/random.hpp"
 #include "fairway/cellular/border_frame.hpp"
+#include "fairway/cellular/testing/nearest_end.hpp"
 
 namespace fairway {
 namespace {
@@ -40,7 +41,7 @@ void expect_agreement(Vec2 p, double heading_rad, const Direction& command, cons
   const CellExit exit = cross_cell({p, direction(heading_rad)}, command, shape);
   for (const Side side : sides) {
     const HeadingSet& set = sets[static_cast<std::size_t>(side)];
-    if (set.from_nearest_end(heading_rad) < 1e-7) {
+    if (from_nearest_end(set, heading_rad) < 1e-7) {
       ++agreement.near_ends;
       continue;
     }
@@ -197,7 +198,7 @@ TEST(BackwardHeadings, on_borders_are_those_that_enter) {
       for (int k = 0; k < 64; ++k) {
         const double h = (k + 0.3) * two_pi / 64;
         const bool enters = std::sin(h - static_cast<int>(entry) * (pi / 2) - pi / 2) > 0.0;
-        if (set.from_nearest_end(h) > 1e-9) {
+        if (from_nearest_end(set, h) > 1e-9) {
           ASSERT_EQ(set.holds(h), enters && all.holds(h));
         }
       }

@@ -8,6 +8,7 @@
 
 #include "fairway/base/random.hpp"
 #include "fairway/cellular/border_frame.hpp"
+#include "fairway/cellular/testing/nearest_end.hpp"
 
 namespace fairway {
 namespace {
@@ -53,7 +54,7 @@ TEST(ForwardHeadings, hold_every_exit_of_exact_motion) {
         << heading.rad << " command " << command.rad << " d " << shape.cell_m << " r "
         << shape.turn_radius_m << " exit " << static_cast<int>(exit.side) << " at "
         << exit.state.position_m.x << ", " << exit.state.position_m.y << " heading "
-        << exit.state.heading.rad << " from end " << set.from_nearest_end(exit.state.heading.rad);
+        << exit.state.heading.rad << " from end " << from_nearest_end(set, exit.state.heading.rad);
     ++met[static_cast<std::size_t>(entry)][static_cast<std::size_t>(exit.side)];
   }
   for (const auto& row : met) {
@@ -251,7 +252,7 @@ TEST(ForwardHeadings, turn_with_the_cell) {
                                               direction(command + pi / 2), shape);
     for (int k = 0; k < 64; ++k) {
       const double h = (k + 0.4) * two_pi / 64;
-      if (set.from_nearest_end(h) < 1e-6) continue;
+      if (from_nearest_end(set, h) < 1e-6) continue;
       ASSERT_EQ(set.holds(h), after.holds(h + pi / 2));
     }
   }

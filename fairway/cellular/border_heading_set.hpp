@@ -45,15 +45,6 @@ struct HeadingSet {
     return std::any_of(begin(), end(),
                        [&](const HeadingRange& r) { return r.holds(rad, slack_rad); });
   }
-  /// How far a heading is from the nearest end of a range, rad; infinite without ranges.
-  double from_nearest_end(double rad) const {
-    double nearest = INFINITY;
-    for (const HeadingRange& r : *this) {
-      for (const double at : {r.from_rad, r.to_rad()})
-        nearest = std::min(nearest, std::abs(std::remainder(rad - at, two_pi)));
-    }
-    return nearest;
-  }
 };
 
 /// What two ranges share: nothing, one range, or two.

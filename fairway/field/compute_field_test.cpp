@@ -394,7 +394,7 @@ TEST(ComputeField, CommandsNearAnAxisAreCapturedOnlyAsFarAsAsked) {
   EXPECT_TRUE(same_bits(paper_on.heading_rad, field_of(map, goal, options).heading_rad));
 }
 
-// --- Contracts -----------------------------------------------------------------------------------
+// --- Preconditions -------------------------------------------------------------------------------
 
 TEST(ComputeField, BrokenPromisesThrow) {
   const ObstacleMap map = samples::map_of(Mask(20, 20), 1.0);

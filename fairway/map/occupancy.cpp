@@ -37,8 +37,7 @@ class OccupancyTable {
       if (classes_[at] == Pixel::free && counts_[at] > 0)
         warnings.push_back(
             fmt::format("{}: {} pixels have the grey 205 that map savers write for unknown; with "
-                        "free_thresh {} "
-                        "they are read as free (0.196 keeps them unknown).",
+                        "free_thresh {} they are read as free (0.196 keeps them unknown).",
                         image, counts_[at], rule.free));
       return;
     }

@@ -40,7 +40,7 @@ TEST_F(ReadPath, HeadersAndSeparatorsOfTheWildAreUnderstood) {
   const std::vector<Vec2> expected = {{1.5, 2.0}, {30.0, -4.0}};
   for (const char* text : {
            "1.5,2\n30,-4\n",                             // no header
-           "x_m,y_m\n1.5,2\n30,-4\n",                    // the contract's
+           "x_m,y_m\n1.5,2\n30,-4\n",                    // as documented
            "\xef\xbb\xbfx_m,y_m\r\n1.5,2\r\n30,-4\r\n",  // a spreadsheet's
            "\"x_m\", \"y_m\"\n1.5, 2\n30, -4",           // quoted
            "y_m,x_m\n2,1.5\n-4,30\n",                    // in any order

@@ -150,9 +150,7 @@ RosMap read_keys(const SourceText& source) {
   map.resolution_m = yaml.number("resolution");
   if (map.resolution_m <= 0.0)
     yaml.fail(yaml.at("resolution"),
-              fmt::format("resolution is {}, expected metres per pixel above "
-                          "0",
-                          map.resolution_m));
+              fmt::format("resolution is {}, expected metres per pixel above 0", map.resolution_m));
   const YAML::Node origin = yaml.at("origin");
   if (!origin.IsSequence() || origin.size() != 3)
     yaml.fail(origin, "origin is no list of three numbers [x, y, yaw]");
@@ -180,8 +178,7 @@ SourceRaster read_ros_map(const SourceText& yaml, const MapRequest& request) {
     raster.world_from_grid = {map.origin[0], map.origin[1], map.origin[2]};
     raster.warnings.push_back(
         fmt::format("{}: the origin is turned by {} rad; all coordinates are in the map's own "
-                    "frame, lower-left "
-                    "corner at (0, 0); in the world that corner is at ({}, {}).",
+                    "frame, lower-left corner at (0, 0); in the world that corner is at ({}, {}).",
                     yaml.file.string(), map.origin[2], map.origin[0], map.origin[1]));
   }
   raster.inputs = {yaml.input, {map.image.string(), sha256_file(map.image)}};

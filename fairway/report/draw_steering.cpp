@@ -109,7 +109,7 @@ void draw_pose(Canvas& canvas, const PlotFrame& frame, const State& s, const Col
   draw_arrow(canvas, frame.to_page(s.position_m), page_unit(s.heading), color);
 }
 
-/// Beside its way-point, as paths come and go along its heading; on the side that is emptier.
+/// Beside its waypoint, as paths come and go along its heading; on the side that is emptier.
 void draw_number(Canvas& canvas, const PlotFrame& frame, const SteeringPicture& p, std::size_t k) {
   const Vec2 at = frame.to_page(p.goals[k].position_m);
   const Vec2 across = left_of(page_unit(p.goals[k].heading));
@@ -180,7 +180,7 @@ LegendEntry arrow_entry(std::string name, const Color& color) {
 std::vector<LegendEntry> map_entries(const SteeringPicture& p) {
   std::vector<LegendEntry> entries{
       arrow_entry("start", start_color),
-      arrow_entry(p.goals.size() > 1 ? "way-points" : "goal", goal_color),
+      arrow_entry(p.goals.size() > 1 ? "waypoints" : "goal", goal_color),
       line_entry(p.path.name, path_pen)};
   if (p.compared) entries.push_back(line_entry(p.compared->name, compared_pen));
   entries.push_back(line_entry(fmt::format("circles of least radius, {:g} m", p.turn_radius_m),

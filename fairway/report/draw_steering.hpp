@@ -1,4 +1,4 @@
-// A vehicle steered to a pose, or along way-points: its path with the circles of least radius at
+// A vehicle steered to a pose, or along waypoints: its path with the circles of least radius at
 // every pose, the shortest path to compare, and beside them a chart of what the law brings to
 // nothing.
 //

@@ -53,7 +53,7 @@ TEST(DrawSteering, WaypointsHaveNumbersAndAGoalHasNone) {
   const std::string svg = draw_steering(picture).svg;
   EXPECT_TRUE(has_text(svg, "1"));
   EXPECT_TRUE(has_text(svg, "2"));
-  EXPECT_TRUE(has_text(svg, "way-points"));
+  EXPECT_TRUE(has_text(svg, "waypoints"));
   EXPECT_FALSE(has_layer(svg, "series-1"));
 }
 

@@ -11,7 +11,7 @@ namespace fairway {
 [[nodiscard]] std::string checker_program();
 
 struct CheckRun {
-  int exit_code = 0;   ///< 0 accepted, 1 refused; others as in the contract; 127: not to be run
+  int exit_code = 0;   ///< 0 accepted, 1 refused; else as of any command; 127: could not be run
   std::string output;  ///< what it printed, when it was captured
 };
 

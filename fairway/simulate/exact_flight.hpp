@@ -1,5 +1,5 @@
 // Exact flights under a plan: cell by cell, event by event, no time stepping, for the bang-bang law
-// (the contract's model section; vehicle/cell_motion.hpp flies one cell).
+// (docs/model.md; vehicle/cell_motion.hpp flies one cell).
 //
 // Conventions where the model leaves a choice (on such ties a claim must hold for both):
 //   - exactly opposite heading: left;

@@ -10,7 +10,7 @@
 
 namespace fairway {
 
-/// What ends a flight, by what comes first (the contract's model section).
+/// What ends a flight, by what comes first (docs/model.md, "Outcomes").
 enum class Outcome : std::uint8_t { reach, collide, leave, trapped };
 
 /// The name used in files and on screen.

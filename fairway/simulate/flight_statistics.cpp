@@ -1,8 +1,6 @@
 #include "fairway/simulate/flight_statistics.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "fairway/base/error.hpp"
@@ -21,41 +19,6 @@ double OutcomeCounts::share(Outcome outcome) const {
 OutcomeCounts count_outcomes(std::span<const FlightResult> results) {
   OutcomeCounts counts;
   for (const FlightResult& result : results) counts.add(result.outcome);
-  return counts;
-}
-
-RegionCounts count_by_region(const Plan& plan, std::span<const State> starts,
-                             std::span<const FlightResult> results) {
-  require(starts.size() == results.size(), "one result per start");
-  RegionCounts counts;
-  const Grid& grid = plan.grid;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    const Outcome outcome = results[i].outcome;
-    counts.all.add(outcome);
-    const Vec2 p = starts[i].position_m;
-    if (!(p.x >= grid.x0_m && p.x < grid.x0_m + grid.width_m() && p.y >= grid.y0_m &&
-          p.y < grid.y0_m + grid.height_m())) {
-      continue;
-    }
-    const Cell found = grid.cell_of(p);  // rounding may round up at the last cell's end
-    const std::size_t cell =
-        grid.index({std::min(found.ix, grid.nx - 1), std::min(found.iy, grid.ny - 1)});
-    switch (plan.region[cell]) {
-      case Region::buffer:
-        counts.buffer.add(outcome);
-        break;
-      case Region::goal:
-        counts.goal.add(outcome);
-        break;
-      case Region::obstacle:
-        counts.obstacle.add(outcome);
-        break;
-      case Region::free:
-        counts.safe_start.add(outcome);
-        if (std::isfinite(plan.cost_m[cell])) counts.safe_start_finite_cost.add(outcome);
-        break;
-    }
-  }
   return counts;
 }
 

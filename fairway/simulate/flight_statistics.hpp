@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "fairway/plan/plan.hpp"
 #include "fairway/simulate/flight.hpp"
 #include "fairway/vehicle/mission.hpp"
 #include "fairway/vehicle/path_geometry.hpp"
@@ -25,20 +24,6 @@ struct OutcomeCounts {
 };
 
 [[nodiscard]] OutcomeCounts count_outcomes(std::span<const FlightResult> results);
-
-/// By the cell in which a flight starts. Starts outside the grid count in `all` alone.
-struct RegionCounts {
-  OutcomeCounts all;
-  OutcomeCounts safe_start;              ///< free cells
-  OutcomeCounts safe_start_finite_cost;  ///< of these, cells that can reach the goal
-  OutcomeCounts buffer;
-  OutcomeCounts goal;
-  OutcomeCounts obstacle;
-};
-
-/// `starts` and `results` are of one length; throws PreconditionViolation otherwise.
-[[nodiscard]] RegionCounts count_by_region(const Plan& plan, std::span<const State> starts,
-                                           std::span<const FlightResult> results);
 
 struct PathSample {
   double time_s = 0.0;

@@ -13,8 +13,7 @@
 //                What repels is the wrong pair, so what is turned round is the law of that circle
 //                of the vehicle: k_L goes with L and R', k_R with R and L'.
 //   Section B3   the repulsion lasts, from the start, until it vanishes for the first time, and
-//   then
-//                never comes back: one bit of memory.
+//                then never comes back: one bit of memory.
 // What the law reaches and how often it is shortest is measured in docs/steering.md.
 #pragma once
 
@@ -69,8 +68,6 @@ class ClfLaw {
 
   /// What the law sees at `state`; with the repulsion only while it lasts.
   [[nodiscard]] ClfValue value(const State& state, const State& goal, double turn_radius_m) const;
-
-  bool repulsion_over() const { return repulsion_over_; }
 
  private:
   ClfOptions options_;

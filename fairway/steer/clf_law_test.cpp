@@ -100,7 +100,7 @@ TEST(ClfLaw, TheSmallerDistanceNeverGrowsOnceNothingRepels) {
         ASSERT_LE(nearest, last + 2.1e-4 / last) << "start " << i << " step " << k;
       }
       last = nearest;
-      over = law.repulsion_over();
+      over = over || !(of.repels_left || of.repels_right);
       const double per_m = law.curvature_per_m(s, goal, 1.0, 0.01);
       ASSERT_LE(std::abs(per_m), 1.0);
       s = driven(s, 0.01, per_m);

@@ -249,15 +249,6 @@ State pose_at(const DubinsPath& path, double length_m) {
   return at;
 }
 
-int turn_at(const DubinsPath& path, double length_m) {
-  for (int i = 0; i < 2; ++i) {
-    const double part_m = path.part_m[static_cast<std::size_t>(i)];
-    if (length_m < part_m) return turn_of(path.word, i);
-    length_m -= part_m;
-  }
-  return turn_of(path.word, 2);
-}
-
 State end_of(const DubinsPath& path) {
   State at = path.start;
   for (int i = 0; i < 3; ++i) {

@@ -78,8 +78,6 @@ inline constexpr double least_radius_m = 1e-300;
 
 /// Where the vehicle is after `length_m` of the path, 0 .. its length; beyond it stays at the end.
 [[nodiscard]] State pose_at(const DubinsPath& path, double length_m);
-/// +1, 0, -1: how the vehicle turns there; at a join, what comes after it.
-[[nodiscard]] int turn_at(const DubinsPath& path, double length_m);
 [[nodiscard]] State end_of(const DubinsPath& path);
 
 /// After `length_m` of driving with signed curvature `per_m`, left positive.

@@ -53,14 +53,13 @@ PosePairs read_waypoints(const std::string& file, const std::optional<State>& st
                          double turn_radius_m, double most_radii) {
   PosePairs pairs;
   std::optional<State> last = start;
-  for_csv_lines(csv_text(file, waypoint_columns), csv_name(file), waypoint_columns, "way-points",
+  for_csv_lines(csv_text(file, waypoint_columns), csv_name(file), waypoint_columns, "waypoints",
                 [&](std::span<const double> v, const CsvPlace& place) {
                   if (last) add(pairs, *last, state_of(v), {turn_radius_m, most_radii}, place);
                   last = state_of(v);
                 });
   if (pairs.from.empty()) {
-    throw InputError(csv_name(file),
-                     "one way-point: expected two or more, or a start to come from");
+    throw InputError(csv_name(file), "one waypoint: expected two or more, or a start to come from");
   }
   return pairs;
 }

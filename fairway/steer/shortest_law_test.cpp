@@ -97,7 +97,7 @@ TEST(ShortestLaw, DoesNotHesitateAtATie) {
     double last = 0.0;
     const auto watch = [&](const State& s) {
       if (law.path() && law.path()->part_m[0] > 0.2 * r) {  // not what corrects the noise
-        const double now = turn_at(*law.path(), 0.0);
+        const double now = turn_of(law.path()->word, 0);
         changes += now * last < 0.0 ? 1 : 0;
         last = now != 0.0 ? now : last;
       }

@@ -1,15 +1,15 @@
-// Following way-points with headings one by one, under either steering law.
+// Following waypoints with headings one by one, under either steering law.
 //
-// A way-point is done with when the vehicle is within the tolerance `reached`, or when it has just
-// crossed the line across the way-point within `passed`: near enough to go on, rather than to drive
+// A waypoint is done with when the vehicle is within the tolerance `reached`, or when it has just
+// crossed the line across the waypoint within `passed`: near enough to go on, rather than to drive
 // a loop for the rest. Then the next one is steered to, by a law that starts afresh.
 // Properties that always hold:
-//   1. Latched: way-points are done in their order, each once; what is done with stays so, whatever
-//      noise, wind or a way-point's own motion do afterwards.
-//   2. A step uses no heap and looks at the present state and the present way-points alone, beside
-//      the latch and the law's own memory: way-points that are not done with may move, and the
+//   1. Latched: waypoints are done in their order, each once; what is done with stays so, whatever
+//      noise, wind or a waypoint's own motion do afterwards.
+//   2. A step uses no heap and looks at the present state and the present waypoints alone, beside
+//      the latch and the law's own memory: waypoints that are not done with may move, and the
 //      vehicle may be pushed.
-// With `passed`, ShortestLaw has to know it, so as not to begin the loop before the way-point is
+// With `passed`, ShortestLaw has to know it, so as not to begin the loop before the waypoint is
 // passed: shortest_waypoint_law().
 // Undisturbed, under ShortestLaw, each leg is longer than the shortest path from where it begins by
 // less than a twentieth of the radius (observed, with the steps of steering_options()).
@@ -27,14 +27,14 @@ namespace fairway {
 
 struct WaypointOptions {
   PoseTolerance reached;
-  PoseTolerance passed = {};  ///< nothing: a way-point has to be reached
+  PoseTolerance passed = {};  ///< nothing: a waypoint has to be reached
 };
 
 /// `Law`: ClfLaw or ShortestLaw.
 template <typename Law>
 class WaypointLaw {
  public:
-  /// `fresh` is the law as it starts for every way-point.
+  /// `fresh` is the law as it starts for every waypoint.
   WaypointLaw(const Law& fresh, const WaypointOptions& options)
       : fresh_(fresh), law_(fresh), options_(options) {}
 
@@ -51,7 +51,7 @@ class WaypointLaw {
     return law_.curvature_per_m(state, waypoints[next_], turn_radius_m, step_m);
   }
 
-  /// The way-point that is steered to, as of the last call; how many there are when all are done.
+  /// The waypoint that is steered to, as of the last call; how many there are when all are done.
   std::size_t next() const { return next_; }
   const Law& law() const { return law_; }
   const WaypointOptions& options() const { return options_; }
@@ -69,10 +69,10 @@ class WaypointLaw {
   Law law_;
   WaypointOptions options_;
   std::size_t next_ = 0;
-  double behind_m_ = 1.0;  // along the way-point's heading from it, at the last call
+  double behind_m_ = 1.0;  // along the waypoint's heading from it, at the last call
 };
 
-/// ShortestLaw for way-points. `passed` is nothing or wider than `reached`, which covers the step.
+/// ShortestLaw for waypoints. `passed` is nothing or wider than `reached`, which covers the step.
 [[nodiscard]] inline WaypointLaw<ShortestLaw> shortest_waypoint_law(const WaypointOptions& options,
                                                                     double tie_m) {
   const bool wider = options.passed.place_m > options.reached.place_m &&
@@ -84,7 +84,7 @@ struct WaypointLeg {
   State begin;
   State end;
   double length_m = 0.0;
-  double shortest_m = 0.0;   ///< of the shortest path from `begin` to the way-point
+  double shortest_m = 0.0;   ///< of the shortest path from `begin` to the waypoint
   bool reached = false;      ///< else passed, or given up
   bool converged = false;    ///< reached or passed
   int extra_turns = 0;       ///< whole turns that it is longer than the shortest path, rounded
@@ -93,12 +93,12 @@ struct WaypointLeg {
 };
 
 struct WaypointFlight {
-  bool converged = false;  ///< to every way-point
+  bool converged = false;  ///< to every waypoint
   double length_m = 0.0;
-  std::vector<WaypointLeg> legs;  ///< one per way-point; up to the first that is given up
+  std::vector<WaypointLeg> legs;  ///< one per waypoint; up to the first that is given up
 };
 
-/// Drives from `from` along all way-points; a leg is given up after the length that
+/// Drives from `from` along all waypoints; a leg is given up after the length that
 /// steering_options() allows it. `disturbed`, when there is one, gives the state that the vehicle
 /// is really in after a step. Throws PreconditionViolation unless can_steer() from each to the
 /// next.

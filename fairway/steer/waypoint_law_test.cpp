@@ -54,8 +54,8 @@ TEST(WaypointLaw, ReachesEveryWaypointInItsOrderByTheShortestPaths) {
 }
 
 TEST(WaypointLaw, DrivesTheSumOfTheShortestLengthsWhereTheyDoNotJump) {
-  // Way-points 4 r apart and more: there the length of a shortest path is continuous. A leg begins
-  // within the tolerance of a way-point, from where it may be that much longer, times a factor.
+  // Waypoints 4 r apart and more: there the length of a shortest path is continuous. A leg begins
+  // within the tolerance of a waypoint, from where it may be that much longer, times a factor.
   Random random(2);
   double worst = 0.0;
   for (int i = 0; i < 400; ++i) {

@@ -1,7 +1,7 @@
-// Where a set of states can leave a cell, and how: an enclosure of the exact motion (the contract's
-// model section), in intervals. This is the one place that knows how the vehicle moves inside a
-// cell; what builds on it knows only "these states enter, these may leave". A model with
-// disturbances is another function of this signature that encloses more.
+// Where a set of states can leave a cell, and how: an enclosure of the exact motion (docs/model.md)
+// in intervals. Of all that the proof rests on, this alone knows how the vehicle moves inside a
+// cell (ARCHITECTURE.md, "What knows the motion"); what builds on it knows only "these states
+// enter, these may leave".
 //
 // The motion is one arc, then a straight line. On an arc of centre C and sign k (+1 left, -1 right)
 //     p = C + k r (u_y, -u_x),                                                              (a)

@@ -38,7 +38,8 @@ class ImageStore {
   Image operator[](std::size_t i) const;
 
   /// Fills the images of all blocks in parallel: `fly(i, visitor)` follows set i. `go_on()` false
-  /// leaves the blocks not yet begun given up.
+  /// leaves the blocks not yet begun given up. Defined in images.cpp, and so callable there
+  /// alone: the two functions below are all that fills a store.
   template <typename Fly>
   void fill(const Flow& flow, const Fly& fly, const std::function<bool()>& go_on);
 

@@ -47,7 +47,8 @@ inline constexpr double largest_cell = 0.95;  // of R
 inline constexpr int most_cells = 64;
 inline constexpr int most_straight_cells = 1 << 14;
 
-/// The meeting of an arc with a side, or with the command.
+/// The meeting of an arc with a side, or with the command. Sides are numbers here, those of `Side`:
+/// even ones stand upright, the first two are the far ones, and two more values are needed.
 struct Event {
   int side = -1;  // 0 right, 1 top, 2 left, 3 bottom, 4 the command; -1 none
   double turned_sin = 2.0;
@@ -211,6 +212,7 @@ class Follower {
     p.ux = vertical ? u_out : event.along;
     p.uy = vertical ? event.along : u_out;
     p.u_error = event.error;
+    // Of the two coordinates, the one across the side is counted from the next cell's corner.
     (vertical ? p.cx : p.cy) -= outwards * d_;
     p.c_error += rounding * r_;
     enter(p, event.side, place);

@@ -1,4 +1,4 @@
-// What is known of a state (the contract's model section): one of the four outcomes, proved, or
+// What is known of a state (docs/model.md, "Verdicts"): one of the four outcomes, proved, or
 // undecided.
 #pragma once
 

@@ -1,6 +1,6 @@
-// An oracle for tests: the exact motion through one cell in a wide number type, from the contract's
-// model section alone. No source of geometry is shared with the code under test: every candidate
-// event is a point of the circle, ordered by the tangent of half the angle turned.
+// An oracle for tests: the exact motion through one cell in a wide number type, from docs/model.md
+// alone. No source of geometry is shared with the code under test: every candidate event is a point
+// of the circle, ordered by the tangent of half the angle turned.
 //
 // `Real` is boost::multiprecision::cpp_bin_float_oct where a proof is attacked (237 bits: near a
 // touch half of them are lost), long double where a second opinion will do.
@@ -164,7 +164,7 @@ class WideCell {
     return exits;
   }
 
-  /// The way the contract turns: +1 left, -1 right, 0 aligned; 2 both (exactly opposite).
+  /// The way the model turns: +1 left, -1 right, 0 aligned; 2 both (exactly opposite).
   static int turn_of(const WideVec<Real>& u, const WideVec<Real>& command) {
     const Real side = wide_cross(u, command);
     if (abs(side) < Real(1e-30)) return wide_dot(u, command) > 0 ? 0 : 2;
