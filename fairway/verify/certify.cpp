@@ -10,12 +10,12 @@
 #include "fairway/base/random.hpp"
 #include "fairway/verify/images.hpp"
 #include "fairway/verify/prover.hpp"
+#include "fairway/verify/undecided_sections.hpp"
 
 namespace fairway {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto undecided = static_cast<std::uint8_t>(Verdict::undecided);
 
 /// The states that measure volumes: the same number in every cell that is neither obstacle nor
 /// target, one in each of equal slices of heading.
@@ -142,25 +142,6 @@ const char* name_of(StoppedBy reason) {
       return "stalled";
   }
   return "";
-}
-
-SectionVerdicts undecided_sections(const Flow& flow, int level) {
-  SectionVerdicts sections;
-  const std::uint64_t step = std::uint64_t{1} << (32 - level);
-  sections.first.reserve(4 * flow.grid.size() + 1);
-  sections.first.push_back(0);
-  for (std::size_t s = 0; s < 4 * flow.grid.size(); ++s) {
-    if (is_section(flow, s)) {
-      for (std::uint32_t k = 0; k < std::uint32_t{1} << level; ++k) {
-        sections.begin.push_back(static_cast<std::uint32_t>(k * step));
-      }
-    }
-    sections.first.push_back(static_cast<std::uint32_t>(sections.begin.size()));
-  }
-  sections.rank.assign(sections.leaves(), 0);
-  sections.verdict.assign(sections.leaves(), undecided);
-  sections.time_s.assign(sections.leaves(), 0.0F);
-  return sections;
 }
 
 Certified certify(const Flow& flow, const std::vector<bool>& is_free, const CertifyOptions& options,

@@ -73,7 +73,4 @@ using CertifyProgress = std::function<void(const LevelRecord&)>;
 Certified certify(const Flow& flow, const std::vector<bool>& is_free, const CertifyOptions& options,
                   SectionVerdicts start = {}, const CertifyProgress& progress = {});
 
-/// Sections of 2^level equal leaves, all undecided.
-SectionVerdicts undecided_sections(const Flow& flow, int level);
-
 }  // namespace fairway

@@ -12,6 +12,7 @@
 #include "fairway/verify/certify.hpp"
 #include "fairway/verify/prover.hpp"
 #include "fairway/verify/testing/plans_to_verify.hpp"
+#include "fairway/verify/undecided_sections.hpp"
 
 namespace fairway {
 namespace {

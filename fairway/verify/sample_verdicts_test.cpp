@@ -11,6 +11,7 @@
 #include "fairway/verify/certify.hpp"
 #include "fairway/verify/images.hpp"
 #include "fairway/verify/testing/plans_to_verify.hpp"
+#include "fairway/verify/undecided_sections.hpp"
 
 namespace fairway {
 namespace {

@@ -13,6 +13,7 @@
 #include "fairway/verify/images.hpp"
 #include "fairway/verify/testing/plans_to_verify.hpp"
 #include "fairway/verify/testing/told_flights.hpp"
+#include "fairway/verify/undecided_sections.hpp"
 
 namespace fairway {
 namespace {

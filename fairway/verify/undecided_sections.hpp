@@ -1,0 +1,13 @@
+// Where a proof begins.
+#pragma once
+
+#include "fairway/verify/flow.hpp"
+#include "fairway/verify/section_verdicts.hpp"
+#include "fairway/verify/undecided_sections.hpp"
+
+namespace fairway {
+
+/// Sections of 2^level equal leaves, all undecided.
+[[nodiscard]] SectionVerdicts undecided_sections(const Flow& flow, int level);
+
+}  // namespace fairway
