@@ -7,6 +7,7 @@
 
 #include "fairway/steer/clear_approach.hpp"
 #include "fairway/steer/dubins_words.hpp"
+#include "fairway/steer/path_segments.hpp"
 
 namespace fairway {
 namespace {
@@ -15,23 +16,19 @@ using nlohmann::json;
 
 /// Appends the parts of a path to a leg.
 void append(FinalLeg& leg, const DubinsPath& path, double end_time_s, double speed_mps) {
-  State at = path.start;
-  for (int i = 0; i < 3; ++i) {
-    const double part_m = path.part_m[static_cast<std::size_t>(i)];
-    if (!(part_m > 0.0)) continue;
-    const double per_m = turn_of(path.word, i) / path.turn_radius_m;
-    leg.segments.push_back({at, end_time_s + leg.length_m / speed_mps, part_m, per_m});
-    leg.length_m += part_m;
-    at = driven(at, part_m, per_m);
+  for (FlightSegment piece : segments_of(path)) {
+    piece.time_s = end_time_s + leg.length_m / speed_mps;
+    leg.length_m += piece.length_m;
+    leg.segments.push_back(piece);
   }
   leg.time_s = leg.length_m / speed_mps;
 }
 
 /// "L", "R" or "S": what a lead of one part does.
 std::string word_of_lead(const DubinsPath& lead) {
-  for (int i = 0; i < 3; ++i) {
-    if (!(lead.part_m[static_cast<std::size_t>(i)] > 0.0)) continue;
-    return turn_of(lead.word, i) == 0 ? "S" : turn_of(lead.word, i) > 0 ? "L" : "R";
+  for (const DubinsPart& part : parts_of(lead)) {
+    if (!(part.length_m > 0.0)) continue;
+    return part.turn == 0 ? "S" : part.turn > 0 ? "L" : "R";
   }
   return "";
 }

@@ -241,28 +241,27 @@ State driven(const State& from, double length_m, double per_m) {
 State pose_at(const DubinsPath& path, double length_m) {
   State at = path.start;
   double left_m = std::max(0.0, length_m);
-  for (int i = 0; i < 3; ++i) {
-    const double part_m = std::min(left_m, path.part_m[static_cast<std::size_t>(i)]);
-    if (part_m > 0.0) at = driven(at, part_m, turn_of(path.word, i) / path.turn_radius_m);
+  for (const DubinsPart& part : parts_of(path)) {
+    const double part_m = std::min(left_m, part.length_m);
+    if (part_m > 0.0) at = driven(at, part_m, part.curvature_per_m);
     left_m -= part_m;
   }
   return at;
 }
 
 int turn_at(const DubinsPath& path, double length_m) {
-  for (int i = 0; i < 2; ++i) {
-    const double part_m = path.part_m[static_cast<std::size_t>(i)];
-    if (length_m < part_m) return turn_of(path.word, i);
-    length_m -= part_m;
+  const auto parts = parts_of(path);
+  for (const DubinsPart& part : {parts[0], parts[1]}) {
+    if (length_m < part.length_m) return part.turn;
+    length_m -= part.length_m;
   }
-  return turn_of(path.word, 2);
+  return parts[2].turn;
 }
 
 State end_of(const DubinsPath& path) {
   State at = path.start;
-  for (int i = 0; i < 3; ++i) {
-    const double part_m = path.part_m[static_cast<std::size_t>(i)];
-    if (part_m > 0.0) at = driven(at, part_m, turn_of(path.word, i) / path.turn_radius_m);
+  for (const DubinsPart& part : parts_of(path)) {
+    if (part.length_m > 0.0) at = driven(at, part.length_m, part.curvature_per_m);
   }
   return at;
 }
@@ -270,14 +269,13 @@ State end_of(const DubinsPath& path) {
 std::vector<State> sampled(const DubinsPath& path, double step_m) {
   require(step_m > 0.0, "the step is positive");
   std::vector<State> poses{path.start};
-  for (int i = 0; i < 3; ++i) {
-    const double part_m = path.part_m[static_cast<std::size_t>(i)];
-    if (!(part_m > 0.0)) continue;
-    const auto pieces = static_cast<int>(std::ceil(part_m / step_m));
+  for (const DubinsPart& part : parts_of(path)) {
+    if (!(part.length_m > 0.0)) continue;
+    const auto pieces = static_cast<int>(std::ceil(part.length_m / step_m));
     const State begin = poses.back();
     for (int k = 1; k <= pieces; ++k) {
-      const double at_m = k == pieces ? part_m : part_m * k / pieces;
-      poses.push_back(driven(begin, at_m, turn_of(path.word, i) / path.turn_radius_m));
+      const double at_m = k == pieces ? part.length_m : part.length_m * k / pieces;
+      poses.push_back(driven(begin, at_m, part.curvature_per_m));
     }
   }
   return poses;

@@ -11,6 +11,7 @@
 #include "fairway/run/scenario_flights.hpp"
 #include "fairway/run/version.hpp"
 #include "fairway/steer/dubins_words.hpp"
+#include "fairway/steer/path_segments.hpp"
 
 namespace fairway {
 namespace {
@@ -39,18 +40,6 @@ json leg_json(const FinalLeg& leg) {
           {"length_m", leg.length_m},
           {"time_s", leg.time_s},
           {"pieces", pieces_json(leg.segments)}};
-}
-
-std::vector<FlightSegment> segments_of(const DubinsPath& path) {
-  std::vector<FlightSegment> segments;
-  State at = path.start;
-  for (int part = 0; part < 3; ++part) {
-    const double length_m = path.part_m[static_cast<std::size_t>(part)];
-    const double per_m = turn_of(path.word, part) / path.turn_radius_m;
-    segments.push_back({at, 0.0, length_m, per_m});
-    at = driven(at, length_m, per_m);
-  }
-  return segments;
 }
 
 Mission mission_in(const Plan& plan, const std::string& where) {
