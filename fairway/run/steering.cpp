@@ -1,4 +1,4 @@
-#include "fairway/app/steered.hpp"
+#include "fairway/run/steering.hpp"
 
 #include <algorithm>
 #include <cmath>

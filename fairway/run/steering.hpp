@@ -1,4 +1,5 @@
-// What `fairway steer` drove, leg by leg: its answer, and on request its track and its picture.
+// Steering as it is asked for: to poses, or along way-points, leg by leg; the answer, and on
+// request its track and its picture.
 #pragma once
 
 #include <span>
