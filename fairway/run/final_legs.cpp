@@ -15,9 +15,9 @@ namespace {
 using nlohmann::json;
 
 /// Appends the parts of a path to a leg.
-void append(FinalLeg& leg, const DubinsPath& path, double end_time_s, double speed_mps) {
+void append(FinalLeg& leg, const DubinsPath& path, double entry_s, double speed_mps) {
   for (FlightSegment piece : segments_of(path)) {
-    piece.time_s = end_time_s + leg.length_m / speed_mps;
+    piece.time_s = entry_s + leg.length_m / speed_mps;
     leg.length_m += piece.length_m;
     leg.segments.push_back(piece);
   }
@@ -44,16 +44,19 @@ FinalLegs::FinalLegs(const Plan& plan, const State& goal)
 }
 
 FinalLeg FinalLegs::leg_of(const Flight& flight) const {
+  if (flight.result.outcome != Outcome::reach) return {};
+  return leg_from(end_of(flight), flight.result.time_s);
+}
+
+FinalLeg FinalLegs::leg_from(const State& entry, double time_s) const {
   FinalLeg leg;
-  if (flight.result.outcome != Outcome::reach) return leg;
-  leg.entry = end_of(flight);
+  leg.entry = entry;
   const BlockedCells cells{grid_, blocked_, true};
-  const double end_time_s = flight.result.time_s;
   const DubinsPath shortest = shortest_path(leg.entry, goal_, vehicle_.turn_radius_m);
   if (is_clear(shortest, cells)) {
     leg.state = FinalLegState::shortest;
     leg.word = name_of(shortest.word);
-    append(leg, shortest, end_time_s, vehicle_.speed_mps);
+    append(leg, shortest, time_s, vehicle_.speed_mps);
     return leg;
   }
   const auto approach = first_clear_approach(leg.entry, goal_, vehicle_.turn_radius_m, cells);
@@ -64,8 +67,8 @@ FinalLeg FinalLegs::leg_of(const Flight& flight) const {
   leg.state = FinalLegState::other;
   const std::string lead = word_of_lead(approach->lead);
   leg.word = lead + (lead.empty() ? "" : "+") + name_of(approach->path.word);
-  append(leg, approach->lead, end_time_s, vehicle_.speed_mps);
-  append(leg, approach->path, end_time_s, vehicle_.speed_mps);
+  append(leg, approach->lead, time_s, vehicle_.speed_mps);
+  append(leg, approach->path, time_s, vehicle_.speed_mps);
   return leg;
 }
 
