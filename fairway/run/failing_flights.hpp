@@ -1,4 +1,4 @@
-// Flights from states that are proved to fail, to be seen.
+// Flights from states that are proved to fail, for pictures and the page.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace fairway {
 
-/// Of each kind of failure - collide, leave, trapped - the longest flights, longest first, at most
-/// `of_each`: their ends are the least to be seen from their starts.
+/// Of each kind of failure (collide, leave, trapped) the longest flights, longest first, at most
+/// `of_each`: the longer a flight, the less its start shows how it ends.
 [[nodiscard]] std::vector<Flight> longest_failing(const ExactFlights& flights,
                                                   const std::vector<FailingState>& failing,
                                                   std::size_t of_each);

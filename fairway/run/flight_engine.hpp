@@ -1,8 +1,8 @@
 // Flights under a plan, exact or by a sampled law, and the last leg of those that reach.
 //
 // Properties that always hold:
-//   1. A flight depends on the plan, the law and the start alone; under a sampled law on its index,
-//      too, which picks the random draws. Several threads may ask at once.
+//   1. A flight depends on the plan, the law and the start alone; under a sampled law also on its
+//      index, which picks the random draws. Several threads may ask at once.
 //   2. Exact flights that reach go on to the goal's pose where the goal has a heading. Sampled ones
 //      do not: what a disturbed vehicle does in the goal is not known from its entry.
 // Cost: that of the flights, and 25 bytes a cell for exact ones while the object lives.
@@ -23,13 +23,13 @@
 
 namespace fairway {
 
-/// The name of the law that no sampling stands behind.
+/// The name of the model's own law, flown without sampling.
 inline constexpr const char* exact_law = "exact";
 
 /// The sampled laws that have a name. `gain_per_s` > 0: of the proportional one.
 [[nodiscard]] std::vector<std::pair<const char*, ControlLaw>> sampled_laws(double gain_per_s);
 
-/// How the law of that name flies: none when it is exact_law; else `options`, under the law. Throws
+/// How the law of that name flies: none for exact_law, else `options` with that law. Throws
 /// PreconditionViolation when no law has the name.
 [[nodiscard]] std::optional<SampledOptions> options_of_law(std::string_view name, double gain_per_s,
                                                            SampledOptions options);
@@ -37,7 +37,7 @@ inline constexpr const char* exact_law = "exact";
 /// Where a track ends.
 enum class TrackEnd : std::uint8_t {
   flight,  ///< where the flight ends
-  path     ///< under an exact law and a path mission: beyond the first goal cell, along the path
+  path     ///< beyond the first goal cell, along the path; for exact flights of path missions only
 };
 
 class FlightEngine {
@@ -52,12 +52,12 @@ class FlightEngine {
 
   [[nodiscard]] FlightResult fly(const State& start, std::size_t index) const;
 
-  /// With its pieces and its last leg. Along a path the result is of the track alone: `trapped`
-  /// when that was too short to end otherwise. `start` then lies on the grid.
+  /// With its pieces and its last leg. Where the track goes on along a path, `start` lies on the
+  /// grid, and the result is the track's own: `trapped` when it was too short to end otherwise.
   [[nodiscard]] Flight record(const State& start, std::size_t index,
                               TrackEnd end = TrackEnd::flight) const;
 
-  /// Whether tracks that end so go on where flights have ended.
+  /// Whether tracks with that end go on beyond their flights.
   [[nodiscard]] bool goes_on(TrackEnd end) const;
 
   /// Null under a sampled law.

@@ -13,17 +13,17 @@
 
 namespace fairway {
 
-/// A sentence for the random flights of a scenario, one for the given ones and one for the last
-/// legs, each with a space behind it; none for what was not flown.
+/// A sentence each for a scenario's random flights, its given ones and the last legs, followed by a
+/// space; none for what was not flown.
 [[nodiscard]] std::string flight_words(const ScenarioFlights& flown);
 
-/// The members of summary.json that tell of flights. `seed`: of the random ones.
+/// The flights' members of summary.json. `seed`: of the random ones.
 void add_flights(nlohmann::json& summary, const ScenarioFlights& flown, std::uint64_t seed);
 
 /// A line for each flight while there are few of them, then one for all, and one for the last legs.
 [[nodiscard]] std::string flight_words(std::span<const State> starts, const ManyFlights& flown);
 
-/// Every flight, their counts and the last legs. Of one length: starts and results.
+/// Every flight, their counts and the last legs. There are as many starts as results.
 [[nodiscard]] nlohmann::json flight_json(std::span<const State> starts, const ManyFlights& flown);
 
 }  // namespace fairway

@@ -3,8 +3,8 @@
 // Properties that always hold:
 //   1. Flight i is the engine's flight from start i with index first_index + i. No result depends
 //      on how many fly, on what is kept of them, or on the number of threads.
-//   2. Each start is flown once, but for tracks that go on along a path: those are flights of their
-//      own.
+//   2. Each start is flown once; only a track that goes on along a path is a flight of its own,
+//      flown beside.
 // Memory: beside what is kept, the last legs of a thousand flights.
 #pragma once
 
@@ -25,8 +25,8 @@ struct FlyOptions {
   TrackEnd track_end = TrackEnd::flight;
   bool count_legs = false;      ///< of all flights, recorded or not, where the engine has legs
   std::size_t first_index = 0;  ///< of the first start
-  /// Called in between, from the calling thread, with how many have been flown. What it throws ends
-  /// the work. May be empty.
+  /// Called after each batch, on the calling thread, with the number flown so far. An exception
+  /// ends the work. May be empty.
   std::function<void(std::size_t flown)> progress = {};
 };
 

@@ -1,5 +1,4 @@
-// Steering as it is asked for: to poses, or along way-points, leg by leg; the answer, and on
-// request its track and its picture.
+// Steering to poses or along way-points, leg by leg; on request with its track and its picture.
 #pragma once
 
 #include <span>

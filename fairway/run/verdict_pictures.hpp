@@ -17,8 +17,8 @@ namespace fairway {
 /// Every file that write_verdict_pictures may write.
 [[nodiscard]] std::vector<std::string> verdict_picture_files();
 
-/// The plan with the certificate's target for its goal: what the proved states fly over. The plan
-/// itself when the certificate is of no other region.
+/// The plan with the certificate's target as its goal: what its verdicts are about. It equals
+/// `plan` when the certificate is about the plan's own goal.
 [[nodiscard]] Plan as_verified(Plan plan, const Certificate& certificate);
 
 /// Writes NAME.svg and NAME.png into `folder` for every picture; "counterexamples" only when there

@@ -8,7 +8,7 @@
 
 namespace fairway {
 
-/// The parts longer than nothing, joined end to end. Their times are 0: a path has no speed.
+/// The parts of positive length, joined end to end. Times are left 0: a path has no speed.
 [[nodiscard]] std::vector<FlightSegment> segments_of(const DubinsPath& path);
 
 }  // namespace fairway

@@ -1,8 +1,6 @@
 #include "fairway/view/engine.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "fairway/base/error.hpp"
