@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,13 +17,13 @@
 #include "binding.hpp"
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/base/error.hpp"
-#include "fairway/base/parallel.hpp"
 #include "fairway/exchange/flight_files.hpp"
 #include "fairway/exchange/qgc_mission.hpp"
 #include "fairway/exchange/track.hpp"
 #include "fairway/map/degrees_from_frame.hpp"
 #include "fairway/report/draw_flights.hpp"
-#include "fairway/run/final_legs.hpp"
+#include "fairway/run/flight_engine.hpp"
+#include "fairway/run/fly_many.hpp"
 #include "fairway/run/plan_map.hpp"
 #include "fairway/run/plan_record.hpp"
 #include "fairway/simulate/flight_statistics.hpp"
@@ -38,38 +37,20 @@ using namespace pybind11::literals;
 
 constexpr const char* record_name = "the plan's record";
 
-/// Between two looks for signals.
-constexpr std::size_t batch = 4096;
-
 /// Many flights under one plan. They are flown again when their tracks are asked for: a flight
-/// depends on its start and its number alone.
+/// depends on its start and its index alone.
 struct Flights {
   std::shared_ptr<HeldPlan> plan;
-  std::optional<SampledOptions> sampled;  ///< none: exact
+  std::shared_ptr<const FlightEngine> engine;  ///< of the plan
   std::vector<State> starts;
   std::vector<FlightResult> results;
 
-  /// Exact flights go on to the goal's heading, where it has one; what a disturbed vehicle does in
-  /// the goal is not known from its entry.
   std::vector<Flight> recorded(std::size_t first, std::size_t count) const {
-    const std::size_t begin = std::min(first, starts.size());
-    std::vector<Flight> flights(std::min(count, starts.size() - begin));
-    std::optional<SampledFlights> by_law;
-    std::optional<FinalLegs> legs;
-    if (sampled) {
-      by_law.emplace(plan->plan, *sampled);
-    } else if (const auto goal = goal_pose_of(plan->plan)) {
-      legs.emplace(plan->plan, *goal);
-    }
-    for_ranges(flights.size(), 8, [&](std::size_t low, std::size_t high) {
-      for (std::size_t k = low; k < high; ++k) {
-        const State& start = starts[begin + k];
-        flights[k] =
-            by_law ? by_law->record(start, begin + k).flight : plan->flights().record(start);
-        if (legs) flights[k].final_leg = legs->leg_of(flights[k]);
-      }
-    });
-    return flights;
+    const auto part = std::span(starts).subspan(first);
+    FlyOptions options;
+    options.tracks = std::min(count, part.size());
+    options.first_index = first;
+    return fly_many(*engine, part.first(options.tracks), options).recorded;
   }
 };
 
@@ -89,24 +70,20 @@ py::array column(const py::object& self, const std::vector<Item>& items, Member 
               self);
 }
 
-template <typename FlyBatch>
-void in_batches(Flights& flights, const FlyBatch& fly) {
-  const py::gil_scoped_release unlocked;
-  flights.results.resize(flights.starts.size());
-  for (std::size_t begin = 0; begin < flights.starts.size(); begin += batch) {
-    raise_on_signal();
-    fly(begin, std::min(begin + batch, flights.starts.size()));
-  }
+/// Without the interpreter's lock.
+void fly_all(Flights& flights) {
+  FlyOptions options;
+  options.progress = [](std::size_t) { raise_on_signal(); };
+  flights.results = fly_many(*flights.engine, flights.starts, options).results;
 }
 
 std::shared_ptr<Flights> fly(const std::shared_ptr<HeldPlan>& plan, const py::object& states) {
   auto flown = std::make_shared<Flights>();
   flown->plan = plan;
   flown->starts = states_of(states, "states");
-  in_batches(*flown, [&](std::size_t begin, std::size_t end) {
-    const auto part = plan->flights().fly_all(std::span(flown->starts).subspan(begin, end - begin));
-    std::copy(part.begin(), part.end(), flown->results.begin() + static_cast<long>(begin));
-  });
+  const py::gil_scoped_release unlocked;
+  flown->engine = {plan, &plan->exact()};
+  fly_all(*flown);
   return flown;
 }
 
@@ -130,9 +107,7 @@ ControlLaw law_of(const py::object& law, double gain_per_s) {
   if (!py::isinstance<py::str>(law)) {
     throw py::type_error("law: expected \"bang-bang\", \"proportional\" or a function");
   }
-  return choice_of<ControlLaw>(
-      "law", law.cast<std::string>(),
-      {{"bang-bang", BangBang{}}, {"proportional", SaturatedProportional{gain_per_s}}});
+  return choice_of("law", law.cast<std::string>(), sampled_laws(gain_per_s));
 }
 
 std::shared_ptr<Flights> fly_sampled(const std::shared_ptr<HeldPlan>& plan,
@@ -154,15 +129,9 @@ std::shared_ptr<Flights> fly_sampled(const std::shared_ptr<HeldPlan>& plan,
   options.gust_time_s = gust_time_s;
   options.time_limit_s = time_limit_s;
   options.seed = seed;
-  flown->sampled = options;
-  const SampledFlights flights(plan->plan, options);
-  in_batches(*flown, [&](std::size_t first, std::size_t last) {
-    for_ranges(last - first, 8, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = first + begin; i < first + end; ++i) {
-        flown->results[i] = flights.fly(flown->starts[i], i);
-      }
-    });
-  });
+  const py::gil_scoped_release unlocked;
+  flown->engine = std::make_shared<const FlightEngine>(plan->plan, options);
+  fly_all(*flown);
   return flown;
 }
 
@@ -240,8 +209,7 @@ void save(const Flights& flights, const std::filesystem::path& path, Text kind,
 
 void save_mission(const Flights& flights, py::ssize_t i, const std::filesystem::path& path,
                   double altitude_m, double tolerance_m, bool force) {
-  const std::string kind = path.extension().string();
-  if (kind != ".plan" && kind != ".waypoints" && kind != ".txt") {
+  if (!is_qgc_mission_name(path)) {
     throw py::value_error("path: expected a name that ends in .plan, .waypoints or .txt");
   }
   const std::size_t place = place_in(flights, i);
@@ -250,10 +218,9 @@ void save_mission(const Flights& flights, py::ssize_t i, const std::filesystem::
   const LonLatOf lon_lat = lon_lat_of(frame_in(plan.record), record_name);
   require(static_cast<bool>(lon_lat),
           "the plan's map has no place on Earth: there is no latitude and longitude to fly to");
-  const auto text = kind == ".plan" ? &qgc_plan_text : &qgc_waypoints_text;
   write_whole(path, force ? Existing::replace : Existing::keep,
-              text(flights.recorded(place, 1).front(), plan.vehicle.speed_mps, lon_lat,
-                   {altitude_m, tolerance_m}));
+              qgc_mission_text(path, flights.recorded(place, 1).front(), plan.vehicle.speed_mps,
+                               lon_lat, {altitude_m, tolerance_m}));
 }
 
 void bind_trajectory(py::module_& m) {

@@ -18,8 +18,8 @@
 #include "fairway/map/obstacle_map.hpp"
 #include "fairway/plan/plan.hpp"
 #include "fairway/report/picture.hpp"
+#include "fairway/run/flight_engine.hpp"
 #include "fairway/run/progress.hpp"
-#include "fairway/simulate/exact_flight.hpp"
 #include "fairway/vehicle/mission.hpp"
 
 namespace fairway::python {
@@ -41,15 +41,15 @@ void bind_run(py::module_& m);
 class HeldPlan {
  public:
   explicit HeldPlan(Plan made) : plan(std::move(made)) {}
-  const ExactFlights& flights() const {
-    std::call_once(once_, [this] { flights_ = std::make_unique<ExactFlights>(plan); });
-    return *flights_;
+  const FlightEngine& exact() const {
+    std::call_once(once_, [this] { exact_ = std::make_unique<FlightEngine>(plan); });
+    return *exact_;
   }
   const Plan plan;
 
  private:
   mutable std::once_flag once_;
-  mutable std::unique_ptr<ExactFlights> flights_;
+  mutable std::unique_ptr<FlightEngine> exact_;
 };
 
 /// The domain's answer "no" to a mission; Python's fairway.MissionRefused.

@@ -13,8 +13,8 @@
 
 #include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
-#include "fairway/app/steered.hpp"
 #include "fairway/base/atomic_file.hpp"
+#include "fairway/run/steering.hpp"
 #include "fairway/steer/dubins_words.hpp"
 #include "fairway/steer/pose_csv.hpp"
 #include "fairway/steer/steering_flight.hpp"

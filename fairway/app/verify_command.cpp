@@ -12,9 +12,11 @@
 #include "fairway/base/error.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/run/failing_flights.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/run/verdict_pictures.hpp"
 #include "fairway/run/verification.hpp"
+#include "fairway/simulate/exact_flight.hpp"
 
 namespace fairway {
 namespace {
@@ -114,7 +116,9 @@ int verify_command(VerifyArguments a, const Session& session) {
     }
     if (pictures) {
       clock.begin("drawing", unknown_time);
-      write_verdict_pictures(plan, made.certificate, failing, a.options.seed,
+      const Plan flown = as_verified(plan, made.certificate);
+      write_verdict_pictures(flown, made.certificate,
+                             longest_failing(ExactFlights(flown), failing, 1), a.options.seed,
                              a.plan.stem().string(), pictures->temporary_path());
       pictures->commit();
     }

@@ -108,4 +108,16 @@ std::string qgc_waypoints_text(const Flight& flight, double speed_mps, const Lon
   return text;
 }
 
+bool is_qgc_mission_name(const std::filesystem::path& file) {
+  const std::string kind = file.extension().string();
+  return kind == ".plan" || kind == ".waypoints" || kind == ".txt";
+}
+
+std::string qgc_mission_text(const std::filesystem::path& file, const Flight& flight,
+                             double speed_mps, const LonLatOf& lon_lat_of,
+                             const QgcMissionOptions& options) {
+  const auto text = file.extension() == ".plan" ? qgc_plan_text : qgc_waypoints_text;
+  return text(flight, speed_mps, lon_lat_of, options);
+}
+
 }  // namespace fairway

@@ -11,6 +11,7 @@
 //   3. map/ reads both files back to the same points, within 1e-9 degrees (0.1 mm).
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "fairway/base/frame.hpp"
@@ -34,5 +35,13 @@ struct QgcMissionOptions {
 [[nodiscard]] std::string qgc_waypoints_text(const Flight& flight, double speed_mps,
                                              const LonLatOf& lon_lat_of,
                                              const QgcMissionOptions& options);
+
+/// Whether a mission's file may have that name: it ends in .plan, .waypoints or .txt.
+[[nodiscard]] bool is_qgc_mission_name(const std::filesystem::path& file);
+
+/// Either, as the file's name asks for.
+[[nodiscard]] std::string qgc_mission_text(const std::filesystem::path& file, const Flight& flight,
+                                           double speed_mps, const LonLatOf& lon_lat_of,
+                                           const QgcMissionOptions& options);
 
 }  // namespace fairway

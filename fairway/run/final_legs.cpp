@@ -7,6 +7,7 @@
 
 #include "fairway/steer/clear_approach.hpp"
 #include "fairway/steer/dubins_words.hpp"
+#include "fairway/steer/path_segments.hpp"
 
 namespace fairway {
 namespace {
@@ -14,24 +15,20 @@ namespace {
 using nlohmann::json;
 
 /// Appends the parts of a path to a leg.
-void append(FinalLeg& leg, const DubinsPath& path, double end_time_s, double speed_mps) {
-  State at = path.start;
-  for (int i = 0; i < 3; ++i) {
-    const double part_m = path.part_m[static_cast<std::size_t>(i)];
-    if (!(part_m > 0.0)) continue;
-    const double per_m = turn_of(path.word, i) / path.turn_radius_m;
-    leg.segments.push_back({at, end_time_s + leg.length_m / speed_mps, part_m, per_m});
-    leg.length_m += part_m;
-    at = driven(at, part_m, per_m);
+void append(FinalLeg& leg, const DubinsPath& path, double entry_s, double speed_mps) {
+  for (FlightSegment piece : segments_of(path)) {
+    piece.time_s = entry_s + leg.length_m / speed_mps;
+    leg.length_m += piece.length_m;
+    leg.segments.push_back(piece);
   }
   leg.time_s = leg.length_m / speed_mps;
 }
 
 /// "L", "R" or "S": what a lead of one part does.
 std::string word_of_lead(const DubinsPath& lead) {
-  for (int i = 0; i < 3; ++i) {
-    if (!(lead.part_m[static_cast<std::size_t>(i)] > 0.0)) continue;
-    return turn_of(lead.word, i) == 0 ? "S" : turn_of(lead.word, i) > 0 ? "L" : "R";
+  for (const DubinsPart& part : parts_of(lead)) {
+    if (!(part.length_m > 0.0)) continue;
+    return part.turn == 0 ? "S" : part.turn > 0 ? "L" : "R";
   }
   return "";
 }
@@ -47,16 +44,19 @@ FinalLegs::FinalLegs(const Plan& plan, const State& goal)
 }
 
 FinalLeg FinalLegs::leg_of(const Flight& flight) const {
+  if (flight.result.outcome != Outcome::reach) return {};
+  return leg_from(end_of(flight), flight.result.time_s);
+}
+
+FinalLeg FinalLegs::leg_from(const State& entry, double time_s) const {
   FinalLeg leg;
-  if (flight.result.outcome != Outcome::reach) return leg;
-  leg.entry = end_of(flight);
+  leg.entry = entry;
   const BlockedCells cells{grid_, blocked_, true};
-  const double end_time_s = flight.result.time_s;
   const DubinsPath shortest = shortest_path(leg.entry, goal_, vehicle_.turn_radius_m);
   if (is_clear(shortest, cells)) {
     leg.state = FinalLegState::shortest;
     leg.word = name_of(shortest.word);
-    append(leg, shortest, end_time_s, vehicle_.speed_mps);
+    append(leg, shortest, time_s, vehicle_.speed_mps);
     return leg;
   }
   const auto approach = first_clear_approach(leg.entry, goal_, vehicle_.turn_radius_m, cells);
@@ -67,8 +67,8 @@ FinalLeg FinalLegs::leg_of(const Flight& flight) const {
   leg.state = FinalLegState::other;
   const std::string lead = word_of_lead(approach->lead);
   leg.word = lead + (lead.empty() ? "" : "+") + name_of(approach->path.word);
-  append(leg, approach->lead, end_time_s, vehicle_.speed_mps);
-  append(leg, approach->path, end_time_s, vehicle_.speed_mps);
+  append(leg, approach->lead, time_s, vehicle_.speed_mps);
+  append(leg, approach->path, time_s, vehicle_.speed_mps);
   return leg;
 }
 

@@ -33,6 +33,8 @@ class FinalLegs {
 
   /// The leg of a recorded flight; FinalLegState::not_asked when it does not reach.
   [[nodiscard]] FinalLeg leg_of(const Flight& flight) const;
+  /// The leg of a flight that entered a goal cell in the state `entry`, `time_s` after its start.
+  [[nodiscard]] FinalLeg leg_from(const State& entry, double time_s) const;
 
  private:
   Grid grid_;

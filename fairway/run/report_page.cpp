@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <optional>
 #include <span>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/report/page.hpp"
 #include "fairway/report/page_template.hpp"
-#include "fairway/simulate/exact_flight.hpp"
 #include "fairway/verify/sample_verdicts.hpp"
 
 namespace fairway {
@@ -26,32 +24,6 @@ VerdictMapOptions sampling_of(const Grid& grid) {
   return options;
 }
 
-double flown_m(const Flight& flight) {
-  double length_m = 0.0;
-  for (const FlightSegment& piece : flight.segments) length_m += piece.length_m;
-  return length_m;
-}
-
-/// Of the states that fail, the longest flights to each failure: their ends are the least to be
-/// seen from their starts.
-std::vector<Flight> failing_flights(const Plan& plan, const std::vector<FailingState>& failing) {
-  constexpr std::size_t of_each = 4;
-  const ExactFlights flights(plan);
-  std::vector<Flight> longest;
-  for (const Verdict verdict : {Verdict::collide, Verdict::leave, Verdict::trapped}) {
-    std::vector<State> starts;
-    for (const FailingState& state : failing) {
-      if (state.verdict == verdict) starts.push_back(state.start);
-    }
-    std::vector<Flight> flown = flights.record_all(starts);
-    std::stable_sort(flown.begin(), flown.end(),
-                     [](const Flight& a, const Flight& b) { return flown_m(a) > flown_m(b); });
-    if (flown.size() > of_each) flown.resize(of_each);
-    for (Flight& flight : flown) longest.push_back(std::move(flight));
-  }
-  return longest;
-}
-
 }  // namespace
 
 std::string write_report_page(const Plan& plan, const Mission& mission,
@@ -61,11 +33,9 @@ std::string write_report_page(const Plan& plan, const Mission& mission,
     return fmt::format("{} was left out: {}", report_page_name, page_template());
   }
   std::optional<VerdictMap> verdicts;
-  std::vector<Flight> failing;
   if (page.certificate != nullptr) {
     verdicts = verdict_map_of(page.certificate->flow(), page.certificate->sections.view(),
                               sampling_of(plan.grid));
-    failing = failing_flights(plan, page.failing);
   }
   const std::span recorded(flown.recorded);
   const std::size_t given = std::min(flown.given, recorded.size());
@@ -73,7 +43,7 @@ std::string write_report_page(const Plan& plan, const Mission& mission,
                             plan,
                             mission,
                             {{"given", recorded.first(given), 100},
-                             {"failing", failing, failing.size()},
+                             {"failing", page.failing, page.failing.size()},
                              {"random", recorded.subspan(given), 100}},
                             verdicts ? &*verdicts : nullptr,
                             page.words,

@@ -11,7 +11,7 @@
 #include "fairway/certificate/certificate.hpp"
 #include "fairway/plan/plan.hpp"
 #include "fairway/run/scenario_flights.hpp"
-#include "fairway/run/verification.hpp"
+#include "fairway/simulate/flight.hpp"
 #include "fairway/vehicle/mission.hpp"
 
 namespace fairway {
@@ -23,7 +23,7 @@ struct ReportPage {
   std::vector<std::string> words;  ///< the honest paragraph
   nlohmann::json summary;          ///< without what differs from run to run
   const Certificate* certificate = nullptr;
-  std::vector<FailingState> failing;  ///< of the certificate
+  std::vector<Flight> failing;  ///< to each kind of failure that was proved
 };
 
 /// Writes `folder`/report.html. Empty when it did; else why this build has no page, one sentence

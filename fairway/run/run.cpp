@@ -17,6 +17,9 @@
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/plan/plan_of_field.hpp"
 #include "fairway/run/checker.hpp"
+#include "fairway/run/failing_flights.hpp"
+#include "fairway/run/flight_engine.hpp"
+#include "fairway/run/flight_summary.hpp"
 #include "fairway/run/mission_on_map.hpp"
 #include "fairway/run/plan_record.hpp"
 #include "fairway/run/report_page.hpp"
@@ -53,41 +56,12 @@ Estimate estimate(const Scenario& scenario, const Grid& grid) {
           0.5 + 500e-9 * cells, 0.2 + 20e-6 * cells};
 }
 
-std::string plural(std::size_t n, const char* noun) {
-  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
-}
-
 RunResult unreachable(const Scenario& scenario, const MissionRefusal& refusal) {
   const char* key = place_key(scenario);
   return {true,
           {{"unreachable", true}, {"message", refusal.message}},
           fmt::format("{}: {}: {}", scenario.place_of(key), key, refusal.message),
           {}};
-}
-
-std::string flight_words(const ScenarioFlights& flown) {
-  std::string words;
-  if (!flown.random_results().empty()) {
-    words += fmt::format("Of {}, {}. ", plural(flown.random_results().size(), "random safe start"),
-                         outcome_words(count_outcomes(flown.random_results())));
-  }
-  if (flown.given > 0) {
-    const OutcomeCounts counts = count_outcomes(flown.given_results());
-    words += fmt::format("Of {} in the scenario, {} reach. ", plural(flown.given, "state"),
-                         counts.of(Outcome::reach));
-  }
-  if (const std::string legs = final_legs_words(flown.final_legs); !legs.empty()) {
-    words += legs + " ";
-  }
-  return words;
-}
-
-void add_flights(json& summary, const Scenario& scenario, const ScenarioFlights& flown) {
-  summary["random_flights"] = outcome_json(count_outcomes(flown.random_results()));
-  summary["random_flights"]["seed"] = scenario.simulate.seed;
-  summary["given_flights"] = outcome_json(count_outcomes(flown.given_results()));
-  summary["recorded_flights"] = flown.recorded.size();
-  summary["final_legs"] = final_legs_json(flown.final_legs);
 }
 
 }  // namespace
@@ -168,14 +142,15 @@ Verified verify_and_check(const Plan& plan, const Scenario& scenario, const fs::
 
 /// report.html; where this build has none, a warning says why.
 void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights& flown,
-                const Verified& verified, const std::string& title, const fs::path& place,
-                RunResult& result) {
+                const Verified& verified, const ExactFlights& flights, const std::string& title,
+                const fs::path& place, RunResult& result) {
+  constexpr std::size_t failing_of_each = 4;
   const ReportPage page{title,
                         {plan_words(plan), flight_words(flown) + evidence_words,
                          verified.summary["words"].get<std::string>()},
                         result.summary,
                         verified.certificate ? &*verified.certificate : nullptr,
-                        verified.failing};
+                        longest_failing(flights, verified.failing, failing_of_each)};
   const std::string absent = write_report_page(plan, mission, flown, page, place);
   if (!absent.empty()) result.warnings.push_back(absent);
 }
@@ -224,7 +199,8 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   write_plan(plan, place / "plan.safetensors", Existing::keep);
 
   clock.begin("flying", left.from_flights());
-  const ScenarioFlights flown = fly_scenario(scenario, plan, mission, clock, left.from_pictures());
+  const FlightEngine engine(plan);
+  const ScenarioFlights flown = fly_scenario(scenario, plan, engine, clock, left.from_pictures());
   write_flights(flown, plan, scenario.file.string(), place);
 
   const Verified verified = verify_and_check(plan, scenario, place, clock);
@@ -233,16 +209,17 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   const std::string title = scenario.file.stem().string();
   write_run_pictures(plan, mission, flown, title, place);
   if (verified.certificate) {
-    write_verdict_pictures(plan, *verified.certificate, verified.failing, scenario.simulate.seed,
-                           title, place);
+    write_verdict_pictures(plan, *verified.certificate,
+                           longest_failing(*engine.exact(), verified.failing, 1),
+                           scenario.simulate.seed, title, place);
   }
 
   clock.begin("making the page", left.page_s);
   RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
-  add_flights(result.summary, scenario, flown);
+  add_flights(result.summary, flown, scenario.simulate.seed);
   result.summary["verify"] = verified.summary;
   result.summary["products"] = product_digests(place);
-  write_page(plan, mission, flown, verified, title, place, result);
+  write_page(plan, mission, flown, verified, *engine.exact(), title, place, result);
   clock.end();
   result.summary["products"] = product_digests(place);
   add_cost(result.summary, clock);

@@ -3,7 +3,6 @@
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/report/draw_flights.hpp"
 #include "fairway/report/draw_verdicts.hpp"
-#include "fairway/simulate/exact_flight.hpp"
 #include "fairway/verify/sample_verdicts.hpp"
 
 namespace fairway {
@@ -18,7 +17,8 @@ std::string titled(const std::string& title, const char* what) {
   return title.empty() ? what : title + ": " + what;
 }
 
-/// The plan with the region of interest for a goal, as the certificate's flights see it.
+}  // namespace
+
 Plan as_verified(Plan plan, const Certificate& certificate) {
   for (std::size_t i = 0; i < plan.region.size(); ++i) {
     if (certificate.kind[i] == CellKind::target) {
@@ -30,39 +30,13 @@ Plan as_verified(Plan plan, const Certificate& certificate) {
   return plan;
 }
 
-double flown_m(const Flight& flight) {
-  double length_m = 0.0;
-  for (const FlightSegment& piece : flight.segments) length_m += piece.length_m;
-  return length_m;
-}
-
-std::vector<Flight> longest_of_each(const ExactFlights& flights,
-                                    const std::vector<FailingState>& failing) {
-  std::vector<Flight> longest;
-  for (const Verdict verdict : {Verdict::collide, Verdict::leave, Verdict::trapped}) {
-    std::vector<State> starts;
-    for (const FailingState& state : failing) {
-      if (state.verdict == verdict) starts.push_back(state.start);
-    }
-    const std::vector<Flight> flown = flights.record_all(starts);
-    const Flight* best = nullptr;
-    for (const Flight& flight : flown) {
-      if (best == nullptr || flown_m(flight) > flown_m(*best)) best = &flight;
-    }
-    if (best != nullptr) longest.push_back(*best);
-  }
-  return longest;
-}
-
-}  // namespace
-
 std::vector<std::string> verdict_picture_files() {
   return {"verdicts.svg", "verdicts.png",        "proved.svg",
           "proved.png",   "counterexamples.svg", "counterexamples.png"};
 }
 
 void write_verdict_pictures(const Plan& plan, const Certificate& certificate,
-                            const std::vector<FailingState>& failing, std::uint64_t seed,
+                            std::span<const Flight> counterexamples, std::uint64_t seed,
                             const std::string& title, const std::filesystem::path& folder) {
   VerdictMapOptions sampled;
   sampled.seed = seed;
@@ -71,13 +45,10 @@ void write_verdict_pictures(const Plan& plan, const Certificate& certificate,
         "verdicts");
   write(draw_proved_shares(map, {.title = titled(title, "verdicts over all headings")}), folder,
         "proved");
-
-  const Plan flown = as_verified(plan, certificate);
-  const std::vector<Flight> flights = longest_of_each(ExactFlights(flown), failing);
-  if (flights.empty()) return;
+  if (counterexamples.empty()) return;
   write(
       draw_flights(
-          flown, flights,
+          plan, counterexamples,
           {.title = titled(title, "a flight to each kind of failure"), .mission = {}, .names = {}}),
       folder, "counterexamples");
 }

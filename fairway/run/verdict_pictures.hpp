@@ -4,22 +4,28 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "fairway/certificate/certificate.hpp"
 #include "fairway/plan/plan.hpp"
-#include "fairway/run/verification.hpp"
+#include "fairway/simulate/flight.hpp"
 
 namespace fairway {
 
 /// Every file that write_verdict_pictures may write.
 [[nodiscard]] std::vector<std::string> verdict_picture_files();
 
+/// The plan with the certificate's target as its goal: what its verdicts are about. It equals
+/// `plan` when the certificate is about the plan's own goal.
+[[nodiscard]] Plan as_verified(Plan plan, const Certificate& certificate);
+
 /// Writes NAME.svg and NAME.png into `folder` for every picture; "counterexamples" only when there
-/// are failing states. Of these, `failing`, it shows the longest flight to each failure: the one
-/// whose end is the least to be seen from its start. `seed`: of the states sampled for "proved".
+/// are some. `plan`: as verified; `counterexamples`: a flight over it to each kind of failure;
+/// `seed`: of the states sampled for "proved".
 void write_verdict_pictures(const Plan& plan, const Certificate& certificate,
-                            const std::vector<FailingState>& failing, std::uint64_t seed,
+                            std::span<const Flight> counterexamples, std::uint64_t seed,
                             const std::string& title, const std::filesystem::path& folder);
 
 }  // namespace fairway

@@ -149,14 +149,12 @@ bool is_clear(const DubinsPath& path, const BlockedCells& cells) {
   require(cells.blocked.size() == cells.grid.size(), "the cells are those of the grid");
   State at = path.start;
   if (!is_clear(part_of(at, 0.0, 0, path.turn_radius_m), path.turn_radius_m, cells)) return false;
-  for (int i = 0; i < 3; ++i) {
-    const double part_m = path.part_m[static_cast<std::size_t>(i)];
-    if (!(part_m > 0.0)) continue;
-    const int turn = turn_of(path.word, i);
-    if (!is_clear(part_of(at, part_m, turn, path.turn_radius_m), path.turn_radius_m, cells)) {
+  for (const auto& [length_m, turn, curvature_per_m] : parts_of(path)) {
+    if (!(length_m > 0.0)) continue;
+    if (!is_clear(part_of(at, length_m, turn, path.turn_radius_m), path.turn_radius_m, cells)) {
       return false;
     }
-    at = driven(at, part_m, turn / path.turn_radius_m);
+    at = driven(at, length_m, curvature_per_m);
   }
   return true;
 }

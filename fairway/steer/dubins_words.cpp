@@ -241,9 +241,9 @@ State driven(const State& from, double length_m, double per_m) {
 State pose_at(const DubinsPath& path, double length_m) {
   State at = path.start;
   double left_m = std::max(0.0, length_m);
-  for (int i = 0; i < 3; ++i) {
-    const double part_m = std::min(left_m, path.part_m[static_cast<std::size_t>(i)]);
-    if (part_m > 0.0) at = driven(at, part_m, turn_of(path.word, i) / path.turn_radius_m);
+  for (const DubinsPart& part : parts_of(path)) {
+    const double part_m = std::min(left_m, part.length_m);
+    if (part_m > 0.0) at = driven(at, part_m, part.curvature_per_m);
     left_m -= part_m;
   }
   return at;
@@ -251,9 +251,8 @@ State pose_at(const DubinsPath& path, double length_m) {
 
 State end_of(const DubinsPath& path) {
   State at = path.start;
-  for (int i = 0; i < 3; ++i) {
-    const double part_m = path.part_m[static_cast<std::size_t>(i)];
-    if (part_m > 0.0) at = driven(at, part_m, turn_of(path.word, i) / path.turn_radius_m);
+  for (const DubinsPart& part : parts_of(path)) {
+    if (part.length_m > 0.0) at = driven(at, part.length_m, part.curvature_per_m);
   }
   return at;
 }
@@ -261,14 +260,13 @@ State end_of(const DubinsPath& path) {
 std::vector<State> sampled(const DubinsPath& path, double step_m) {
   require(step_m > 0.0, "the step is positive");
   std::vector<State> poses{path.start};
-  for (int i = 0; i < 3; ++i) {
-    const double part_m = path.part_m[static_cast<std::size_t>(i)];
-    if (!(part_m > 0.0)) continue;
-    const auto pieces = static_cast<int>(std::ceil(part_m / step_m));
+  for (const DubinsPart& part : parts_of(path)) {
+    if (!(part.length_m > 0.0)) continue;
+    const auto pieces = static_cast<int>(std::ceil(part.length_m / step_m));
     const State begin = poses.back();
     for (int k = 1; k <= pieces; ++k) {
-      const double at_m = k == pieces ? part_m : part_m * k / pieces;
-      poses.push_back(driven(begin, at_m, turn_of(path.word, i) / path.turn_radius_m));
+      const double at_m = k == pieces ? part.length_m : part.length_m * k / pieces;
+      poses.push_back(driven(begin, at_m, part.curvature_per_m));
     }
   }
   return poses;

@@ -22,6 +22,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -55,6 +56,22 @@ struct DubinsPath {
 
   double length_m() const { return part_m[0] + part_m[1] + part_m[2]; }
 };
+
+/// One of the three parts of a path.
+struct DubinsPart {
+  double length_m = 0.0;         ///< >= 0
+  int turn = 0;                  ///< +1 left, 0 straight, -1 right
+  double curvature_per_m = 0.0;  ///< left positive
+};
+
+/// In the order they are driven.
+[[nodiscard]] constexpr std::array<DubinsPart, 3> parts_of(const DubinsPath& path) {
+  const auto part = [&](int i) {
+    const int turn = turn_of(path.word, i);
+    return DubinsPart{path.part_m[static_cast<std::size_t>(i)], turn, turn / path.turn_radius_m};
+  };
+  return {part(0), part(1), part(2)};
+}
 
 /// The farthest that poses may be apart, in turning radii.
 inline constexpr double farthest_radii = 1e100;

@@ -25,9 +25,9 @@ DubinsPath rest_of(const DubinsPath& path, double length_m, const State& from) {
 /// The change of heading over the next `length_m`.
 double turn_over(const DubinsPath& path, double length_m) {
   double turn_m = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    const double part_m = std::min(length_m, path.part_m[static_cast<std::size_t>(i)]);
-    turn_m += turn_of(path.word, i) * part_m;
+  for (const DubinsPart& part : parts_of(path)) {
+    const double part_m = std::min(length_m, part.length_m);
+    turn_m += part.turn * part_m;
     length_m -= part_m;
   }
   return turn_m / path.turn_radius_m;

@@ -1,16 +1,15 @@
 #include "fairway/view/engine.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "fairway/base/error.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/plan/plan_file.hpp"
-#include "fairway/run/scenario_flights.hpp"
+#include "fairway/run/final_legs.hpp"
 #include "fairway/run/version.hpp"
 #include "fairway/steer/dubins_words.hpp"
+#include "fairway/steer/path_segments.hpp"
 
 namespace fairway {
 namespace {
@@ -41,20 +40,8 @@ json leg_json(const FinalLeg& leg) {
           {"pieces", pieces_json(leg.segments)}};
 }
 
-std::vector<FlightSegment> segments_of(const DubinsPath& path) {
-  std::vector<FlightSegment> segments;
-  State at = path.start;
-  for (int part = 0; part < 3; ++part) {
-    const double length_m = path.part_m[static_cast<std::size_t>(part)];
-    const double per_m = turn_of(path.word, part) / path.turn_radius_m;
-    segments.push_back({at, 0.0, length_m, per_m});
-    at = driven(at, length_m, per_m);
-  }
-  return segments;
-}
-
-Mission mission_in(const Plan& plan, const std::string& where) {
-  if (plan.record.mission) return *plan.record.mission;
+const Plan& with_mission(const Plan& plan, const std::string& where) {
+  if (plan.record.mission) return plan;
   throw InputError(where, "its record names no mission: expected a plan made by fairway");
 }
 
@@ -62,9 +49,7 @@ Mission mission_in(const Plan& plan, const std::string& where) {
 
 LiveEngine::LiveEngine(const fs::path& folder)
     : plan_(read_plan(folder / "plan.safetensors")),
-      mission_(mission_in(plan_, (folder / "plan.safetensors").string())),
-      flights_(plan_) {
-  if (const auto goal = goal_pose_of(plan_)) final_legs_.emplace(plan_, *goal);
+      flights_(with_mission(plan_, (folder / "plan.safetensors").string())) {
   const fs::path file = folder / "certificate.safetensors";
   if (!fs::exists(file)) return;
   // Once as a whole, which checks digests; the answers then come from the mapped file.
@@ -92,8 +77,7 @@ json LiveEngine::state(const State& start) const {
     answer["verdict"] = name_of(found.verdict);
     answer["time_bound_s"] = finite_or_null(found.time_bound_s);
   }
-  Flight flight = recorded_flight(flights_, plan_, mission_, start);
-  if (final_legs_) flight.final_leg = final_legs_->leg_of(flight);
+  const Flight flight = flights_.record(start, 0, TrackEnd::path);
   answer["flight"] = {{"outcome", name_of(flight.result.outcome)},
                       {"time_s", finite_or_null(flight.result.time_s)},
                       {"length_m", finite_or_null(flight.result.length_m)},
@@ -106,10 +90,7 @@ json LiveEngine::state(const State& start) const {
 }
 
 json LiveEngine::steer(const State& from, const State& to) const {
-  Flight arrived;  // at `from`: what follows is the leg from there
-  arrived.start = from;
-  arrived.result = {Outcome::reach, 0.0, 0.0};
-  json answer = leg_json(FinalLegs(plan_, to).leg_of(arrived));
+  json answer = leg_json(FinalLegs(plan_, to).leg_from(from, 0.0));
   const DubinsPath shortest = shortest_path(from, to, plan_.vehicle.turn_radius_m);
   answer["shortest"] = {{"word", name_of(shortest.word)},
                         {"length_m", shortest.length_m()},

@@ -10,17 +10,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
-#include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/plan/plan.hpp"
-#include "fairway/run/final_legs.hpp"
+#include "fairway/run/flight_engine.hpp"
 #include "fairway/runtime.hpp"
-#include "fairway/simulate/exact_flight.hpp"
-#include "fairway/vehicle/mission.hpp"
 
 namespace fairway {
 
@@ -44,10 +40,8 @@ class LiveEngine {
 
  private:
   Plan plan_;
-  Mission mission_;
-  ExactFlights flights_;
-  std::optional<FinalLegs> final_legs_;  ///< when the goal has a heading
-  std::unique_ptr<MappedFile> file_;     ///< of the certificate
+  FlightEngine flights_;
+  std::unique_ptr<MappedFile> file_;  ///< of the certificate
   runtime::Certificate certificate_;
 };
 

@@ -1,4 +1,4 @@
-#include "fairway/app/steered.hpp"
+#include "fairway/run/steering.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,7 @@
 #include "fairway/base/parallel.hpp"
 #include "fairway/report/draw_steering.hpp"
 #include "fairway/steer/dubins_words.hpp"
+#include "fairway/steer/path_segments.hpp"
 #include "fairway/steer/waypoint_law.hpp"
 
 namespace fairway {
@@ -26,22 +27,18 @@ void add_shortest_track(SteeredLeg& leg, const DubinsPath& path) {
   const auto add = [&](const State& s, double per_m, double driven_m) {
     leg.track.push_back({driven_m, s, per_m, (length_m - driven_m) / path.turn_radius_m, 0.0, 0.0});
   };
-  State at = path.start;
+  leg.segments = segments_of(path);
   double driven_m = 0.0;
-  double per_m = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    const double part_m = path.part_m[static_cast<std::size_t>(i)];
-    if (!(part_m > 0.0)) continue;
-    per_m = turn_of(path.word, i) / path.turn_radius_m;
-    leg.segments.push_back({at, driven_m, part_m, per_m});
-    const double steps = std::ceil(part_m / step_m);
+  for (const FlightSegment& piece : leg.segments) {
+    const double steps = std::ceil(piece.length_m / step_m);
     for (double k = 0.0; k < steps; k += 1.0) {
-      add(driven(at, part_m * k / steps, per_m), per_m, driven_m + part_m * k / steps);
+      const double along_m = piece.length_m * k / steps;
+      add(driven(piece.start, along_m, piece.curvature_per_m), piece.curvature_per_m,
+          driven_m + along_m);
     }
-    at = driven(at, part_m, per_m);
-    driven_m += part_m;
+    driven_m += piece.length_m;
   }
-  add(at, per_m, length_m);
+  add(end_of(path), leg.segments.empty() ? 0.0 : leg.segments.back().curvature_per_m, length_m);
 }
 
 SteeredLeg shortest_leg(const State& from, const State& goal, double turn_radius_m,

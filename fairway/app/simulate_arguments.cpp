@@ -1,0 +1,151 @@
+#include "fairway/app/simulate_arguments.hpp"
+
+#include "fairway/app/argument_checks.hpp"
+
+namespace fairway {
+namespace {
+
+void declare_starts(CLI::App& options, SimulateArguments& a) {
+  options.add_option("plan", a.plan, "the plan file")->required()->type_name("PLAN");
+  options
+      .add_option("--state", a.states,
+                  "a start: metres, and radians or degrees with the suffix deg; may be repeated")
+      ->type_name("X,Y,H")
+      ->check(state_argument())
+      ->allow_extra_args(false)
+      ->delimiter('\0');
+  options.add_option("--states", a.states_file, "starts from a CSV file: x_m,y_m,heading_rad")
+      ->type_name("CSV");
+  options.add_option("--random", a.random, "this many random starts")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{100'000'000}));
+  options.add_option("--seed", a.sampled.seed, "of all random draws")
+      ->type_name("S")
+      ->check(finite_from(0.0))
+      ->capture_default_str();
+  options
+      .add_option("--random-in", a.random_in,
+                  "safe_start: free cells that can reach the goal; flyable: free and buffer; "
+                  "not_obstacle: goal cells too")
+      ->check(CLI::IsMember({"safe_start", "flyable", "not_obstacle"}))
+      ->type_name("WHERE")
+      ->capture_default_str();
+}
+
+void declare_outputs(CLI::App& options, SimulateArguments& a) {
+  options.add_option("--csv", a.csv, "write the flights' tracks; - for stdout")->type_name("FILE");
+  options.add_option("--outcomes", a.outcomes, "write a line per start; - for stdout")
+      ->type_name("CSV");
+  options.add_option("--geojson", a.geojson, "write the flights' tracks as GeoJSON; - for stdout")
+      ->type_name("FILE");
+  options
+      .add_option("--qgc", a.qgc,
+                  "write the one flight as a mission: .plan for QGroundControl, .waypoints or .txt "
+                  "for QGC WPL 110")
+      ->type_name("FILE");
+  options.add_option("--altitude", a.mission.altitude_m, "of the mission, metres above its start")
+      ->type_name("M")
+      ->check(finite_from(0.0))
+      ->capture_default_str();
+  options
+      .add_option("--tolerance", a.mission.tolerance_m,
+                  "farthest that the mission's line may be from the flight, metres")
+      ->type_name("M")
+      ->check(finite_above(0.0))
+      ->capture_default_str();
+  options
+      .add_option("--step", a.step_m,
+                  "longest step between points of a track, metres (default: a cell)")
+      ->type_name("M")
+      ->check(finite_above(0.0));
+}
+
+std::vector<std::string> law_names() {
+  std::vector<std::string> names{exact_law};
+  for (const auto& [name, law] : sampled_laws(1.0)) names.emplace_back(name);
+  return names;
+}
+
+void declare_laws(CLI::App& options, SimulateArguments& a) {
+  options.add_option("--law", a.law, "exact: the model itself; bang-bang, proportional: sampled")
+      ->check(CLI::IsMember(law_names()))
+      ->type_name("LAW")
+      ->capture_default_str();
+  const auto sampled = [&](const char* name, auto& value, const char* does, const char* type) {
+    return options.add_option(name, value, does)
+        ->type_name(type)
+        ->group("Sampled laws")
+        ->each([&a](const std::string&) { a.sampled_only_given = true; });
+  };
+  const CLI::Validator positive = finite_above(0.0);
+  const CLI::Validator not_negative = finite_from(0.0);
+  constexpr double shortest_period_s = 1e-4;  // a flight of a minute: half a million periods
+  sampled("--gain", a.gain_per_s, "proportional: turn rate per heading error, 1/s", "G")
+      ->check(positive);
+  sampled("--period", a.sampled.control_period_s, "control period, seconds", "S")
+      ->check(finite_from(shortest_period_s));
+  sampled("--position-noise", a.sampled.position_noise_m, "of the measurement, metres", "M")
+      ->check(not_negative);
+  sampled("--heading-noise", a.heading_noise,
+          "of the measurement, radians, or degrees with the suffix deg", "H")
+      ->check(angle_argument());
+  sampled("--wind", a.wind_mps, "where it blows to, metres per second", "EAST,NORTH")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(finite_number());
+  sampled("--gust", a.sampled.gust_mps, "standard deviation of gusts per axis", "MPS")
+      ->check(not_negative);
+  sampled("--gust-time", a.sampled.gust_time_s, "correlation time of gusts, seconds", "S")
+      ->check(positive);
+  sampled("--time-limit", a.sampled.time_limit_s, "a flight still under way then counts as trapped",
+          "S")
+      ->check(positive);
+}
+
+void check(const SimulateArguments& a) {
+  if (a.states.empty() && a.states_file.empty() && a.random == 0) {
+    throw CLI::RequiredError("--state, --states or --random");
+  }
+  const auto to_stdout = [](const std::filesystem::path& path) { return path == "-" ? 1 : 0; };
+  if (to_stdout(a.csv) + to_stdout(a.outcomes) + to_stdout(a.geojson) > 1) {
+    throw CLI::ValidationError("--csv, --outcomes, --geojson", "only one of them can be -");
+  }
+  if (!a.qgc.empty() && !is_qgc_mission_name(a.qgc)) {
+    throw CLI::ValidationError("--qgc", "expected a name that ends in .plan, .waypoints or .txt");
+  }
+  if (a.sampled_only_given && a.law == exact_law) {
+    throw CLI::ValidationError(
+        "--law", "noise, wind, gain, period and time limit need --law bang-bang or proportional");
+  }
+}
+
+}  // namespace
+
+StartRegion SimulateArguments::start_region() const {
+  return random_in == "flyable"        ? StartRegion::flyable
+         : random_in == "not_obstacle" ? StartRegion::not_obstacle
+                                       : StartRegion::safe_start;
+}
+
+std::optional<SampledOptions> SimulateArguments::sampled_options() const {
+  SampledOptions options = sampled;
+  if (!wind_mps.empty()) options.wind_mps = {wind_mps[0], wind_mps[1]};
+  if (!heading_noise.empty()) {
+    options.heading_noise_rad = angle_of_argument_rad(heading_noise);
+  }
+  return options_of_law(law, gain_per_s, options);
+}
+
+void declare(CLI::App& options, SimulateArguments& a) {
+  declare_starts(options, a);
+  declare_outputs(options, a);
+  declare_laws(options, a);
+  options.final_callback([&a] { check(a); });
+  options.footer(
+      "Without --outcomes - and the like, prints what became of the flights.\n"
+      "Where the plan's goal has a heading, exact flights that reach go on by a last leg to it.\n"
+      "Example: fairway simulate demo.safetensors --state 100,100,90deg --random 1000 --outcomes "
+      "out.csv");
+}
+
+}  // namespace fairway

@@ -1,0 +1,47 @@
+// What `fairway simulate` can be asked.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "fairway/exchange/qgc_mission.hpp"
+#include "fairway/run/flight_engine.hpp"
+#include "fairway/simulate/sampled_flight.hpp"
+#include "fairway/simulate/start_states.hpp"
+
+namespace fairway {
+
+struct SimulateArguments {
+  std::filesystem::path plan;
+  std::vector<std::string> states;
+  std::filesystem::path states_file;
+  std::uint64_t random = 0;
+  std::string random_in = "safe_start";
+  std::filesystem::path csv;
+  std::filesystem::path outcomes;
+  std::filesystem::path geojson;
+  std::filesystem::path qgc;
+  QgcMissionOptions mission;
+  double step_m = 0.0;  ///< 0: a cell
+  std::string law = exact_law;
+  double gain_per_s = SaturatedProportional{}.gain_per_s;
+  SampledOptions sampled;
+  std::string heading_noise;
+  std::vector<double> wind_mps;
+  bool sampled_only_given = false;
+
+  bool wants_tracks() const { return !csv.empty() || !geojson.empty() || !qgc.empty(); }
+  StartRegion start_region() const;
+  /// None: the exact law.
+  std::optional<SampledOptions> sampled_options() const;
+};
+
+/// Its options, with the checks of one against another. `arguments` must outlive `options`.
+void declare(CLI::App& options, SimulateArguments& arguments);
+
+}  // namespace fairway

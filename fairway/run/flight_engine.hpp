@@ -1,0 +1,74 @@
+// Flights under a plan, exact or by a sampled law, and the last leg of those that reach.
+//
+// Properties that always hold:
+//   1. A flight depends on the plan, the law and the start alone; under a sampled law also on its
+//      index, which picks the random draws. Several threads may ask at once.
+//   2. Exact flights that reach go on to the goal's pose where the goal has a heading. Sampled ones
+//      do not: what a disturbed vehicle does in the goal is not known from its entry.
+// Cost: that of the flights, and 25 bytes a cell for exact ones while the object lives.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "fairway/plan/plan.hpp"
+#include "fairway/run/final_legs.hpp"
+#include "fairway/simulate/exact_flight.hpp"
+#include "fairway/simulate/sampled_flight.hpp"
+
+namespace fairway {
+
+/// The name of the model's own law, flown without sampling.
+inline constexpr const char* exact_law = "exact";
+
+/// The sampled laws that have a name. `gain_per_s` > 0: of the proportional one.
+[[nodiscard]] std::vector<std::pair<const char*, ControlLaw>> sampled_laws(double gain_per_s);
+
+/// How the law of that name flies: none for exact_law, else `options` with that law. Throws
+/// PreconditionViolation when no law has the name.
+[[nodiscard]] std::optional<SampledOptions> options_of_law(std::string_view name, double gain_per_s,
+                                                           SampledOptions options);
+
+/// Where a track ends.
+enum class TrackEnd : std::uint8_t {
+  flight,  ///< where the flight ends
+  path     ///< beyond the first goal cell, along the path; for exact flights of path missions only
+};
+
+class FlightEngine {
+ public:
+  /// Exact without `sampled`. `plan` must outlive this. Throws PreconditionViolation as
+  /// ExactFlights and SampledFlights do.
+  explicit FlightEngine(const Plan& plan, const std::optional<SampledOptions>& sampled = {});
+  FlightEngine(Plan&&, const std::optional<SampledOptions>& = {}) = delete;
+  FlightEngine(const FlightEngine&) = delete;
+  FlightEngine& operator=(const FlightEngine&) = delete;
+  ~FlightEngine() = default;
+
+  [[nodiscard]] FlightResult fly(const State& start, std::size_t index) const;
+
+  /// With its pieces and its last leg. Where the track goes on along a path, `start` lies on the
+  /// grid, and the result is the track's own: `trapped` when it was too short to end otherwise.
+  [[nodiscard]] Flight record(const State& start, std::size_t index,
+                              TrackEnd end = TrackEnd::flight) const;
+
+  /// Whether tracks with that end go on beyond their flights.
+  [[nodiscard]] bool goes_on(TrackEnd end) const;
+
+  /// Null under a sampled law.
+  const ExactFlights* exact() const { return std::get_if<ExactFlights>(&flights_); }
+  /// None under a sampled law, or when the goal has no heading.
+  const std::optional<FinalLegs>& legs() const { return legs_; }
+
+ private:
+  const Plan& plan_;
+  std::variant<ExactFlights, SampledFlights> flights_;
+  std::optional<FinalLegs> legs_;
+};
+
+}  // namespace fairway

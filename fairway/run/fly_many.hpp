@@ -1,0 +1,42 @@
+// Many flights under a plan: what became of each, tracks of the first ones, and their last legs.
+//
+// Properties that always hold:
+//   1. Flight i is the engine's flight from start i with index first_index + i. No result depends
+//      on how many fly, on what is kept of them, or on the number of threads.
+//   2. Each start is flown once; only a track that goes on along a path is a flight of its own,
+//      flown beside.
+// Memory: beside what is kept, the last legs of a thousand flights.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fairway/run/final_legs.hpp"
+#include "fairway/run/flight_engine.hpp"
+#include "fairway/simulate/flight.hpp"
+
+namespace fairway {
+
+struct FlyOptions {
+  std::size_t tracks = 0;  ///< the first so many flights are recorded, with their last legs
+  TrackEnd track_end = TrackEnd::flight;
+  bool count_legs = false;      ///< of all flights, recorded or not, where the engine has legs
+  std::size_t first_index = 0;  ///< of the first start
+  /// Called after each batch, on the calling thread, with the number flown so far. An exception
+  /// ends the work. May be empty.
+  std::function<void(std::size_t flown)> progress = {};
+};
+
+struct ManyFlights {
+  std::vector<FlightResult> results;        ///< one per start
+  std::vector<Flight> recorded;             ///< of the first starts
+  std::optional<FinalLegTally> final_legs;  ///< of all starts, when counted
+};
+
+[[nodiscard]] ManyFlights fly_many(const FlightEngine& engine, std::span<const State> starts,
+                                   const FlyOptions& options = {});
+
+}  // namespace fairway
