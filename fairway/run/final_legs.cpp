@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "fairway/run/path_segments.hpp"
 #include "fairway/steer/clear_approach.hpp"
 #include "fairway/steer/dubins_words.hpp"
-#include "fairway/steer/path_segments.hpp"
 
 namespace fairway {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "fairway/base/parallel.hpp"
 #include "fairway/report/draw_steering.hpp"
+#include "fairway/run/path_segments.hpp"
 #include "fairway/steer/dubins_words.hpp"
-#include "fairway/steer/path_segments.hpp"
 #include "fairway/steer/waypoint_law.hpp"
 
 namespace fairway {

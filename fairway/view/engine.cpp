@@ -7,9 +7,9 @@
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/run/final_legs.hpp"
+#include "fairway/run/path_segments.hpp"
 #include "fairway/run/version.hpp"
 #include "fairway/steer/dubins_words.hpp"
-#include "fairway/steer/path_segments.hpp"
 
 namespace fairway {
 namespace {

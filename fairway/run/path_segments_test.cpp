@@ -1,4 +1,4 @@
-#include "fairway/steer/path_segments.hpp"
+#include "fairway/run/path_segments.hpp"
 
 #include <gtest/gtest.h>
 
