@@ -276,7 +276,7 @@ class Falsifier {
       ++totals_.by_verdict[static_cast<std::size_t>(verdict)];
       if (verdict == Verdict::undecided) {
         ++totals_.undecided;
-      } else if (static_cast<int>(verdict) != static_cast<int>(flown.outcome) + 1) {
+      } else if (static_cast<int>(verdict) != static_cast<int>(flown.outcome)) {
         judge(states[i], verdict, flown, infinite, static_cast<int>(checked.runs[i].ended_by));
       } else if (verdict == Verdict::reach &&
                  checked.verdicts[i].time_s < flown.time_s * (1.0 - 1e-9)) {
@@ -350,7 +350,7 @@ class Falsifier {
     }
   }
 
-  static constexpr std::size_t outcomes = 4;
+  static constexpr std::size_t outcomes = outcome_codes;
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
   std::string name_;
