@@ -10,6 +10,7 @@
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/report/page.hpp"
 #include "fairway/report/page_template.hpp"
+#include "fairway/run/products.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/verify/sample_verdicts.hpp"
 
@@ -38,7 +39,8 @@ std::vector<Flight> failing_flights(const Plan& plan, const std::vector<FailingS
   constexpr std::size_t of_each = 4;
   const ExactFlights flights(plan);
   std::vector<Flight> longest;
-  for (const Verdict verdict : {Verdict::collide, Verdict::leave, Verdict::trapped}) {
+  for (const Verdict verdict : verdicts_in_order) {
+    if (!fails(verdict)) continue;
     std::vector<State> starts;
     for (const FailingState& state : failing) {
       if (state.verdict == verdict) starts.push_back(state.start);
@@ -58,7 +60,7 @@ std::string write_report_page(const Plan& plan, const Mission& mission,
                               const ScenarioFlights& flown, const ReportPage& page,
                               const std::filesystem::path& folder) {
   if (!has_page_template()) {
-    return fmt::format("{} was left out: {}", report_page_name, page_template());
+    return fmt::format("{} was left out: {}", product::report_page, page_template());
   }
   std::optional<VerdictMap> verdicts;
   std::vector<Flight> failing;
@@ -78,7 +80,7 @@ std::string write_report_page(const Plan& plan, const Mission& mission,
                             verdicts ? &*verdicts : nullptr,
                             page.words,
                             page.summary.dump(-1, ' ', true)};
-  write_whole(folder / report_page_name, Existing::keep, page_html(content));
+  write_whole(folder / product::report_page, Existing::keep, page_html(content));
   return {};
 }
 

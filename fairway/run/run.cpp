@@ -19,6 +19,7 @@
 #include "fairway/run/checker.hpp"
 #include "fairway/run/mission_on_map.hpp"
 #include "fairway/run/plan_record.hpp"
+#include "fairway/run/products.hpp"
 #include "fairway/run/report_page.hpp"
 #include "fairway/run/run_pictures.hpp"
 #include "fairway/run/scenario_flights.hpp"
@@ -33,7 +34,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr const char* summary_name = "summary.json";
 constexpr const char* evidence_words = "Flights are evidence, not a proof.";
 
 /// Seconds that the stages after the map will take, from rates seen on one machine with two cores:
@@ -113,11 +113,11 @@ namespace {
 void write_flights(const ScenarioFlights& flown, const Plan& plan, const std::string& where,
                    const fs::path& place) {
   const double step_m = plan.grid.cell_m;
-  write_whole(place / "flights.csv", Existing::keep,
+  write_whole(place / product::flights_csv, Existing::keep,
               trajectories_csv(flown.recorded, plan.vehicle.speed_mps, step_m));
-  write_whole(place / "flights.geojson", Existing::keep,
+  write_whole(place / product::flights_geojson, Existing::keep,
               flights_geojson(flown.recorded, step_m, lon_lat_of(frame_in(plan.record), where)));
-  write_whole(place / "outcomes.csv", Existing::keep, outcomes_csv(flown.starts, flown.results));
+  write_whole(place / product::outcomes, Existing::keep, outcomes_csv(flown.starts, flown.results));
 }
 
 /// What verifying left for the summary, and for the pictures when verdicts were proved.
@@ -130,12 +130,12 @@ struct Verified {
 /// The verdicts into `certificate.safetensors`, re-proved by the independent program.
 Verified verify_and_check(const Plan& plan, const Scenario& scenario, const fs::path& place,
                           StageClock& clock) {
-  const fs::path file = place / "certificate.safetensors";
+  const fs::path file = place / product::certificate;
   clock.begin("verifying", unknown_time);
   if (scenario.verify.method == VerifyMethod::bitmap) {
     constexpr int samples = 200;
-    json summary = write_bitmap(plan, {}, samples, scenario.simulate.seed,
-                                place / "bitmap.safetensors", Existing::keep);
+    json summary = write_bitmap(plan, {}, samples, scenario.simulate.seed, place / product::bitmap,
+                                Existing::keep);
     summary["words"] =
         fmt::format("By samples of the borders, which prove nothing, {:.2f} % of all states reach.",
                     100.0 * summary["estimated_reach"].get<double>());
@@ -150,7 +150,7 @@ Verified verify_and_check(const Plan& plan, const Scenario& scenario, const fs::
   Verification made = verify_plan(plan, scenario.file.string(), {}, options, std::nullopt, clock);
   write_certificate(made.certificate, file, Existing::keep);
   std::vector<FailingState> failing = failing_states(made.certificate, 100, options.seed);
-  write_whole(place / "failures.csv", Existing::keep, failing_states_csv(failing));
+  write_whole(place / product::failures, Existing::keep, failing_states_csv(failing));
 
   clock.begin("checking the certificate", unknown_time);
   const CheckRun check = run_checker({file.string(), "--quiet"}, true);
@@ -180,24 +180,6 @@ void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights&
   if (!absent.empty()) result.warnings.push_back(absent);
 }
 
-std::vector<std::string> product_names() {
-  std::vector<std::string> names{"plan.safetensors",
-                                 "flights.csv",
-                                 "flights.geojson",
-                                 "outcomes.csv",
-                                 "certificate.safetensors",
-                                 "bitmap.safetensors",
-                                 "failures.csv",
-                                 report_page_name,
-                                 summary_name};
-  for (const std::string picture : run_pictures) {
-    names.push_back(picture + ".svg");
-    names.push_back(picture + ".png");
-  }
-  for (std::string& file : verdict_picture_files()) names.push_back(std::move(file));
-  return names;
-}
-
 json product_digests(const fs::path& folder) {
   json digests = json::object();
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -210,7 +192,7 @@ json product_digests(const fs::path& folder) {
 
 RunResult run(const Scenario& scenario, const fs::path& folder, Existing existing,
               const Progress& progress) {
-  AtomicFolder products(folder, existing, summary_name, product_names());
+  AtomicFolder products(folder, existing, product::summary, product_names());
   const fs::path& place = products.temporary_path();
   StageClock clock(progress);
 
@@ -221,7 +203,7 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   const Estimate left = estimate(scenario, map.grid);
 
   clock.begin("writing the plan", left.from_plan());
-  write_plan(plan, place / "plan.safetensors", Existing::keep);
+  write_plan(plan, place / product::plan, Existing::keep);
 
   clock.begin("flying", left.from_flights());
   const ScenarioFlights flown = fly_scenario(scenario, plan, mission, clock, left.from_pictures());
@@ -246,17 +228,17 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   clock.end();
   result.summary["products"] = product_digests(place);
   add_cost(result.summary, clock);
-  write_whole(place / summary_name, Existing::keep, result.summary.dump(2) + "\n");
+  write_whole(place / product::summary, Existing::keep, result.summary.dump(2) + "\n");
   products.commit();
   std::string pictures = (folder / "plan.svg").string() + ", " + (folder / "flights.svg").string();
-  if (result.summary["products"].contains(report_page_name)) {
-    pictures = (folder / report_page_name).string() + ", " + pictures;
+  if (result.summary["products"].contains(product::report_page)) {
+    pictures = (folder / product::report_page).string() + ", " + pictures;
   }
   if (verified.certificate) pictures += ", " + (folder / "verdicts.svg").string();
   result.paragraph =
       fmt::format("{} {}{} {} {}\nLook at {} and {}.", plan_words(plan), flight_words(flown),
                   evidence_words, verified.summary["words"].get<std::string>(),
-                  cost_words(result.summary), pictures, (folder / summary_name).string());
+                  cost_words(result.summary), pictures, (folder / product::summary).string());
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "fairway/base/error.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/run/products.hpp"
 #include "fairway/run/scenario_flights.hpp"
 #include "fairway/run/version.hpp"
 #include "fairway/steer/dubins_words.hpp"
@@ -61,11 +62,11 @@ Mission mission_in(const Plan& plan, const std::string& where) {
 }  // namespace
 
 LiveEngine::LiveEngine(const fs::path& folder)
-    : plan_(read_plan(folder / "plan.safetensors")),
-      mission_(mission_in(plan_, (folder / "plan.safetensors").string())),
+    : plan_(read_plan(folder / product::plan)),
+      mission_(mission_in(plan_, (folder / product::plan).string())),
       flights_(plan_) {
   if (const auto goal = goal_pose_of(plan_)) final_legs_.emplace(plan_, *goal);
-  const fs::path file = folder / "certificate.safetensors";
+  const fs::path file = folder / product::certificate;
   if (!fs::exists(file)) return;
   // Once as a whole, which checks digests; the answers then come from the mapped file.
   if (read_certificate(file).plan != plan_digests(plan_)) {
