@@ -27,6 +27,7 @@
 #include "fairway/run/summary.hpp"
 #include "fairway/run/verdict_pictures.hpp"
 #include "fairway/run/verification.hpp"
+#include "fairway/run/verification_summary.hpp"
 
 namespace fairway {
 namespace {
@@ -120,62 +121,79 @@ void write_flights(const ScenarioFlights& flown, const Plan& plan, const std::st
   write_whole(place / product::outcomes, Existing::keep, outcomes_csv(flown.starts, flown.results));
 }
 
-/// What verifying left for the summary, and for the pictures when verdicts were proved.
-struct Verified {
-  json summary;
-  std::optional<Certificate> certificate;
+/// A proof, and whether another program made it again.
+struct Proved {
+  Verification verification;
   std::vector<FailingState> failing;
+  bool checked = false;
 };
 
-/// The verdicts into `certificate.safetensors`, re-proved by the independent program.
-Verified verify_and_check(const Plan& plan, const Scenario& scenario, const fs::path& place,
-                          StageClock& clock) {
+/// The paper's method, which proves nothing, or a proof.
+using Verified = std::variant<BitmapVerification, Proved>;
+
+/// The verdicts into a certificate, re-proved by the independent program.
+Proved prove_and_check(const Plan& plan, const Scenario& scenario, const fs::path& place,
+                       StageClock& clock) {
   const fs::path file = place / product::certificate;
-  clock.begin("verifying", unknown_time);
-  if (scenario.verify.method == VerifyMethod::bitmap) {
-    constexpr int samples = 200;
-    json summary = write_bitmap(plan, {}, samples, scenario.simulate.seed, place / product::bitmap,
-                                Existing::keep);
-    summary["words"] =
-        fmt::format("By samples of the borders, which prove nothing, {:.2f} % of all states reach.",
-                    100.0 * summary["estimated_reach"].get<double>());
-    return {std::move(summary), std::nullopt, {}};
-  }
-  CertifyOptions options;
-  options.undecided_max = scenario.verify.undecided_max;
-  options.time_limit_s = scenario.verify.time_limit_s;
-  options.memory_limit_bytes =
-      static_cast<std::size_t>(scenario.verify.memory_limit_mb.value_or(0.0) * 1e6);
-  options.seed = scenario.simulate.seed;
-  Verification made = verify_plan(plan, scenario.file.string(), {}, options, std::nullopt, clock);
-  write_certificate(made.certificate, file, Existing::keep);
-  std::vector<FailingState> failing = failing_states(made.certificate, 100, options.seed);
-  write_whole(place / product::failures, Existing::keep, failing_states_csv(failing));
+  const CertifyOptions options = certify_options(scenario.verify.limits, scenario.simulate.seed);
+  Proved proved;
+  proved.verification =
+      verify_plan(plan, scenario.file.string(), {}, options, std::nullopt, levels_told_by(clock));
+  const Certificate& certificate = proved.verification.certificate;
+  write_certificate(certificate, file, Existing::keep);
+  proved.failing = failing_states(certificate, 100, options.seed);
+  write_whole(place / product::failures, Existing::keep, failing_states_csv(proved.failing));
 
   clock.begin("checking the certificate", unknown_time);
   const CheckRun check = run_checker({file.string(), "--quiet"}, true);
   if (check.exit_code == 1) {
     throw std::runtime_error("the certificate was refused by fairway-check: " + check.output);
   }
-  json summary = made.summary;
-  summary["checked"] = check.exit_code == 0;
-  summary["words"] = verification_words(made) +
-                     (check.exit_code == 0 ? " A separate program re-proved the certificate."
-                                           : " The certificate was NOT checked: fairway-check "
-                                             "could not be run.");
-  return {std::move(summary), std::move(made.certificate), std::move(failing)};
+  proved.checked = check.exit_code == 0;
+  return proved;
+}
+
+Verified verify_and_check(const Plan& plan, const Scenario& scenario, const fs::path& place,
+                          StageClock& clock) {
+  clock.begin("verifying", unknown_time);
+  if (scenario.verify.method == VerifyMethod::certified) {
+    return prove_and_check(plan, scenario, place, clock);
+  }
+  constexpr int samples_per_border = 200;
+  return write_bitmap(plan, {}, samples_per_border, scenario.simulate.seed, place / product::bitmap,
+                      Existing::keep);
+}
+
+std::string words_of(const Verified& verified) {
+  if (const auto* bitmap = std::get_if<BitmapVerification>(&verified)) {
+    return verification_words(*bitmap);
+  }
+  const Proved& proved = std::get<Proved>(verified);
+  return verification_words(proved.verification) +
+         (proved.checked ? " A separate program re-proved the certificate."
+                         : " The certificate was NOT checked: fairway-check could not be run.");
+}
+
+json json_of(const Verified& verified) {
+  const auto* proved = std::get_if<Proved>(&verified);
+  json summary = proved != nullptr ? verification_json(proved->verification)
+                                   : verification_json(std::get<BitmapVerification>(verified));
+  if (proved != nullptr) summary["checked"] = proved->checked;
+  summary["words"] = words_of(verified);
+  return summary;
 }
 
 /// report.html; where this build has none, a warning says why.
 void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights& flown,
                 const Verified& verified, const std::string& title, const fs::path& place,
                 RunResult& result) {
-  const ReportPage page{title,
-                        {plan_words(plan), flight_words(flown) + evidence_words,
-                         verified.summary["words"].get<std::string>()},
-                        result.summary,
-                        verified.certificate ? &*verified.certificate : nullptr,
-                        verified.failing};
+  const auto* proved = std::get_if<Proved>(&verified);
+  const ReportPage page{
+      title,
+      {plan_words(plan), flight_words(flown) + evidence_words, words_of(verified)},
+      result.summary,
+      proved != nullptr ? &proved->verification.certificate : nullptr,
+      proved != nullptr ? proved->failing : std::vector<FailingState>{}};
   const std::string absent = write_report_page(plan, mission, flown, page, place);
   if (!absent.empty()) result.warnings.push_back(absent);
 }
@@ -214,15 +232,16 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   clock.begin("drawing", left.from_pictures());
   const std::string title = scenario.file.stem().string();
   write_run_pictures(plan, mission, flown, title, place);
-  if (verified.certificate) {
-    write_verdict_pictures(plan, *verified.certificate, verified.failing, scenario.simulate.seed,
-                           title, place);
+  const auto* proved = std::get_if<Proved>(&verified);
+  if (proved != nullptr) {
+    write_verdict_pictures(plan, proved->verification.certificate, proved->failing,
+                           scenario.simulate.seed, title, place);
   }
 
   clock.begin("making the page", left.page_s);
   RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
   add_flights(result.summary, scenario, flown);
-  result.summary["verify"] = verified.summary;
+  result.summary["verify"] = json_of(verified);
   result.summary["products"] = product_digests(place);
   write_page(plan, mission, flown, verified, title, place, result);
   clock.end();
@@ -234,11 +253,11 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   if (result.summary["products"].contains(product::report_page)) {
     pictures = (folder / product::report_page).string() + ", " + pictures;
   }
-  if (verified.certificate) pictures += ", " + (folder / "verdicts.svg").string();
+  if (proved != nullptr) pictures += ", " + (folder / "verdicts.svg").string();
   result.paragraph =
       fmt::format("{} {}{} {} {}\nLook at {} and {}.", plan_words(plan), flight_words(flown),
-                  evidence_words, verified.summary["words"].get<std::string>(),
-                  cost_words(result.summary), pictures, (folder / product::summary).string());
+                  evidence_words, words_of(verified), cost_words(result.summary), pictures,
+                  (folder / product::summary).string());
   return result;
 }
 
