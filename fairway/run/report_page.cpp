@@ -11,6 +11,7 @@
 #include "fairway/report/page.hpp"
 #include "fairway/report/page_template.hpp"
 #include "fairway/run/products.hpp"
+#include "fairway/run/verification_summary.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/verify/sample_verdicts.hpp"
 
@@ -79,7 +80,8 @@ std::string write_report_page(const Plan& plan, const Mission& mission,
                              {"random", recorded.subspan(given), 100}},
                             verdicts ? &*verdicts : nullptr,
                             page.words,
-                            page.summary.dump(-1, ' ', true)};
+                            page.summary.dump(-1, ' ', true),
+                            proof_assumptions()};
   write_whole(folder / product::report_page, Existing::keep, page_html(content));
   return {};
 }
