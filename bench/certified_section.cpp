@@ -81,11 +81,7 @@ Proved prove(const Plan& plan, const std::string& name, double undecided_max) {
   CertifyOptions options;
   options.undecided_max = undecided_max;
   Proved proved;
-  proved.took = timed([&] {
-    const Progress silent;
-    StageClock clock(silent);
-    proved.verification = verify_plan(plan, name, {}, options, std::nullopt, clock);
-  });
+  proved.took = timed([&] { proved.verification = verify_plan(plan, name, {}, options); });
   return proved;
 }
 

@@ -147,7 +147,7 @@ class Certificate {
     Answer answer;
     if (!is_near(x_m, y_m) || !std::isfinite(heading_rad)) return answer;
     Reader reader{flow_, sections_, {}};
-    follow_state(flow_, x_m, y_m, heading_rad, most_crossings, reader);
+    follow_state(flow_, x_m, y_m, heading_rad, usual_most_crossings, reader);
     answer.verdict = reader.found.only();
     if (answer.verdict == Verdict::reach) answer.time_bound_s = reader.found.time_s;
     return answer;
@@ -171,9 +171,6 @@ class Certificate {
   const Flow& flow() const noexcept { return flow_; }
 
  private:
-  /// Borders that one query may cross before it answers undecided.
-  static constexpr int most_crossings = 3000;
-
   struct Array {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;

@@ -153,8 +153,8 @@ void bind_certificate(py::module_& m) {
 
 states  float64 [n, 3]: x_m, y_m, heading_rad
 
-Returns (verdict int8 [n], time_bound_s float64 [n]): codes of Verdict (0 undecided, 1 reach,
-2 collide, 3 leave, 4 trapped); seconds within which a state that reaches does, else +inf.)")
+Returns (verdict int8 [n], time_bound_s float64 [n]): codes of Verdict; seconds within
+which a state that reaches does, else +inf.)")
       .def("verdict_map", &verdict_map, "heading_rad"_a,
            R"(The verdict of the vehicle near every cell's middle for one heading.
 
@@ -164,8 +164,8 @@ heading: exactly in the middle, flights meet ties that have no volume.)")
       .def("failing_states", &failing, "of_each"_a = 100, "seed"_a = 1,
            R"(Sampled states that do not reach: at most `of_each` of every other verdict.
 
-Returns (states float64 [n, 3], verdict int8 [n]), in the order collide, leave, trapped,
-undecided: for Plan.fly and a look at its tracks.)")
+Returns (states float64 [n, 3], verdict int8 [n]), failures first, undecided states
+last: for Plan.fly and a look at its tracks.)")
       .def_property_readonly(
           "volume_fraction",
           [](const HeldCertificate& held) { return member_of(held, "volume_fraction"); },

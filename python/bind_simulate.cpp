@@ -171,7 +171,7 @@ std::shared_ptr<Trajectory> trajectory(const Flights& flights, py::ssize_t i,
 py::dict counts(const Flights& flights) {
   const OutcomeCounts all = count_outcomes(flights.results);
   py::dict by_name;
-  for (const Outcome o : {Outcome::reach, Outcome::collide, Outcome::leave, Outcome::trapped}) {
+  for (const Outcome o : outcomes_in_order) {
     by_name[name_of(o)] = all.of(o);
   }
   return by_name;
@@ -271,7 +271,7 @@ void bind_flights(py::module_& m) {
             const auto& f = self.cast<const Flights&>();
             return column<std::int8_t>(self, f.results, &FlightResult::outcome);
           },
-          "int8 [n]: 0 reach, 1 collide, 2 leave, 3 trapped; see Outcome.")
+          "int8 [n]: codes of Outcome, the numbers that Verdict has for the same.")
       .def_property_readonly(
           "time_s",
           [](const py::object& self) {
@@ -340,10 +340,11 @@ void bind_flights(py::module_& m) {
 
 void bind_simulate(py::module_& m) {
   std::vector<std::pair<const char*, int>> codes;
-  for (const Outcome o : {Outcome::reach, Outcome::collide, Outcome::leave, Outcome::trapped}) {
+  for (const Outcome o : outcomes_in_order) {
     codes.emplace_back(name_of(o), static_cast<int>(o));
   }
-  add_enum(m, "Outcome", "What ends a flight, as Flights.outcome has it.", codes);
+  add_enum(m, "Outcome", "What ends a flight, as Flights.outcome has it; numbered as Verdict.",
+           codes);
   bind_trajectory(m);
   bind_flights(m);
 

@@ -8,8 +8,10 @@
 
 #include "bind_certificate.hpp"
 #include "binding.hpp"
-#include "fairway/run/stage_clock.hpp"
+#include "fairway/run/progress.hpp"
 #include "fairway/run/verification.hpp"
+#include "fairway/run/verification_summary.hpp"
+#include "fairway/run/verify_limits.hpp"
 
 #include <pybind11/stl.h>
 
@@ -46,31 +48,28 @@ std::shared_ptr<HeldCertificate> verify(const std::shared_ptr<HeldPlan>& plan,
                                         std::uint64_t seed,
                                         const std::shared_ptr<HeldCertificate>& resume,
                                         const py::object& progress) {
-  CertifyOptions options;
   if (!(undecided_max >= 0.0 && undecided_max <= 1.0)) {
     throw py::value_error("undecided_max: expected a share, 0 to 1");
   }
-  options.undecided_max = undecided_max;
   for (const auto& [name, limit] :
        {std::pair{"time_limit_s", time_limit_s}, std::pair{"memory_limit_mb", memory_limit_mb}}) {
     if (limit && !(*limit > 0.0 && *limit < 1e12)) {
       throw py::value_error(std::string(name) + ": expected a number > 0, or None");
     }
   }
-  options.time_limit_s = time_limit_s.value_or(0.0);
-  options.memory_limit_bytes = static_cast<std::size_t>(memory_limit_mb.value_or(0.0) * 1e6);
-  options.samples = samples;
-  options.seed = seed;
+  const CertifyOptions options =
+      certify_options({undecided_max, time_limit_s.value_or(0.0), memory_limit_mb}, seed, samples);
   const RegionOfInterest of_interest = region_from(region);
   const Progress told = progress_of(progress);
 
   const py::gil_scoped_release unlocked;
   std::optional<Certificate> earlier;
   if (resume) earlier = resume->certificate;
-  StageClock clock(told);
-  clock.begin("verifying", unknown_time);
-  Verification made =
-      verify_plan(plan->plan, "plan", of_interest, options, std::move(earlier), clock);
+  if (told) told("verifying", unknown_time);
+  Verification made = verify_plan(plan->plan, "plan", of_interest, options, std::move(earlier),
+                                  [&told](const LevelRecord& level) {
+                                    if (told) told(level_words(level), unknown_time);
+                                  });
   return std::make_shared<HeldCertificate>(HeldCertificate{std::move(made.certificate)});
 }
 

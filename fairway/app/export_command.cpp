@@ -87,6 +87,15 @@ int export_command(const ExportArguments& a, const Session& session) {
   return exit_done;
 }
 
+/// "0 undecided, 1 reach, ...".
+std::string verdict_codes() {
+  std::string codes;
+  for (int v = 0; v < verdict_count; ++v) {
+    codes += fmt::format("{}{} {}", v == 0 ? "" : ", ", v, name_of(static_cast<Verdict>(v)));
+  }
+  return codes;
+}
+
 }  // namespace
 
 Action declare_export(CLI::App& options) {
@@ -105,11 +114,12 @@ Action declare_export(CLI::App& options) {
       ->type_name("H")
       ->check(heading_argument())
       ->allow_extra_args(false);
-  options.footer(
+  options.footer(fmt::format(
       "A plan becomes the bands heading_rad, cost_m and region; a certificate a band of\n"
-      "verdicts for each heading: 0 undecided, 1 reach, 2 collide, 3 leave, 4 trapped.\n"
+      "verdicts for each heading: {}.\n"
       "QGIS opens both where the map was.\n"
-      "Example: fairway export out/demo/plan.safetensors -o demo.tif");
+      "Example: fairway export out/demo/plan.safetensors -o demo.tif",
+      verdict_codes()));
   return [arguments](const Session& session) { return export_command(*arguments, session); };
 }
 

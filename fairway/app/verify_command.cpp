@@ -16,6 +16,8 @@
 #include "fairway/run/summary.hpp"
 #include "fairway/run/verdict_pictures.hpp"
 #include "fairway/run/verification.hpp"
+#include "fairway/run/verification_summary.hpp"
+#include "fairway/run/verify_limits.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 
 namespace fairway {
@@ -33,8 +35,9 @@ struct VerifyArguments {
   fs::path summary;
   std::string method = "certified";
   std::string region = "goal";
-  CertifyOptions options;
-  double memory_limit_mb = 0.0;
+  VerifyLimits limits;
+  std::size_t volume_samples = CertifyOptions{}.samples;
+  std::uint64_t seed = CertifyOptions{}.seed;
   int samples_per_border = 200;
 };
 
@@ -80,7 +83,6 @@ int verify_command(VerifyArguments a, const Session& session) {
   std::optional<AtomicFolder> pictures;
   if (!a.pictures.empty())
     pictures.emplace(a.pictures, session.existing(), "proved.png", verdict_picture_files());
-  a.options.memory_limit_bytes = static_cast<std::size_t>(a.memory_limit_mb * 1e6);
   const RegionOfInterest region = region_of_text(a.region);
 
   std::optional<TerminalProgress> terminal(std::in_place, session.quiet);
@@ -92,24 +94,23 @@ int verify_command(VerifyArguments a, const Session& session) {
   std::string words;
   if (a.method == "bitmap") {
     clock.begin("verifying", unknown_time);
-    summary = write_bitmap(plan, region, a.samples_per_border, a.options.seed, a.output,
-                           session.existing());
+    const BitmapVerification made =
+        write_bitmap(plan, region, a.samples_per_border, a.seed, a.output, session.existing());
     clock.end();
-    words = fmt::format(
-        "From {:.3f} % of the states the region is reached, as samples of the borders have it: "
-        "evidence, not a proof.",
-        100.0 * summary["estimated_reach"].get<double>());
+    summary = verification_json(made);
+    words = verification_words(made);
   } else {
     std::optional<Certificate> earlier;
     if (!a.resume.empty()) earlier = read_certificate(a.resume);
     clock.begin("verifying", unknown_time);
-    const Verification made =
-        verify_plan(plan, a.plan.string(), region, a.options, std::move(earlier), clock);
+    const Verification made = verify_plan(plan, a.plan.string(), region,
+                                          certify_options(a.limits, a.seed, a.volume_samples),
+                                          std::move(earlier), levels_told_by(clock));
     clock.begin("writing the certificate", unknown_time);
     write_certificate(made.certificate, a.output, session.existing());
     std::vector<FailingState> failing;
     if (!a.failures.empty() || pictures) {
-      failing = failing_states(made.certificate, 100, a.options.seed);
+      failing = failing_states(made.certificate, 100, a.seed);
     }
     if (!a.failures.empty()) {
       write_whole(a.failures, session.existing(), failing_states_csv(failing));
@@ -118,12 +119,12 @@ int verify_command(VerifyArguments a, const Session& session) {
       clock.begin("drawing", unknown_time);
       const Plan flown = as_verified(plan, made.certificate);
       write_verdict_pictures(flown, made.certificate,
-                             longest_failing(ExactFlights(flown), failing, 1), a.options.seed,
+                             longest_failing(ExactFlights(flown), failing, 1), a.seed,
                              a.plan.stem().string(), pictures->temporary_path());
       pictures->commit();
     }
     clock.end();
-    summary = made.summary;
+    summary = verification_json(made);
     words = verification_words(made);
   }
   terminal.reset();
@@ -159,15 +160,16 @@ Action declare_verify(CLI::App& options) {
       ->type_name("REGION")
       ->capture_default_str();
   options
-      .add_option("--undecided-max", a.options.undecided_max,
+      .add_option("--undecided-max", a.limits.undecided_max,
                   "stop once this share of the volume is undecided")
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("F")
       ->capture_default_str();
-  options.add_option("--time-limit", a.options.time_limit_s, "stop after this time, seconds")
+  options.add_option("--time-limit", a.limits.time_limit_s, "stop after this time, seconds")
       ->check(finite_above(0.0))
       ->type_name("S");
-  options.add_option("--memory-limit", a.memory_limit_mb, "stop before using more, megabytes")
+  options
+      .add_option("--memory-limit", a.limits.memory_limit_mb, "stop before using more, megabytes")
       ->check(finite_above(0.0))
       ->type_name("MB");
   options.add_option("--resume", a.resume, "go on from an earlier certificate of the same plan")
@@ -185,12 +187,12 @@ Action declare_verify(CLI::App& options) {
                   "where to write the numbers (default: beside the certificate, .summary.json)")
       ->type_name("JSON");
   options
-      .add_option("--volume-samples", a.options.samples,
+      .add_option("--volume-samples", a.volume_samples,
                   "states that measure the volumes, at least one a cell")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}))
       ->type_name("N")
       ->capture_default_str();
-  options.add_option("--seed", a.options.seed, "of these")->type_name("S")->capture_default_str();
+  options.add_option("--seed", a.seed, "of these")->type_name("S")->capture_default_str();
   options
       .add_option("--border-samples", a.samples_per_border,
                   "bitmap: places and headings on a border, a multiple of four")

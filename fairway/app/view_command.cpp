@@ -7,7 +7,7 @@
 #include "fairway/app/command.hpp"
 #include "fairway/app/ending.hpp"
 #include "fairway/base/error.hpp"
-#include "fairway/run/report_page.hpp"
+#include "fairway/run/products.hpp"
 #include "fairway/view/engine.hpp"
 #include "fairway/view/page_server.hpp"
 
@@ -25,9 +25,9 @@ int view_command(const ViewArguments& a, const Session& session) {
   if (!fs::is_directory(a.folder)) {
     throw InputError(a.folder.string(), "is no folder: expected what `fairway run` made");
   }
-  if (!fs::exists(a.folder / report_page_name)) {
+  if (!fs::exists(a.folder / product::report_page)) {
     throw InputError(
-        (a.folder / report_page_name).string(),
+        (a.folder / product::report_page).string(),
         "is not there: expected the folder of a `fairway run` whose build has the page "
         "(docs/report.md)");
   }

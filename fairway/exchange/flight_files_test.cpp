@@ -33,7 +33,8 @@ TEST(FlightFiles, writes_a_line_per_start_that_reads_back_as_the_same_doubles) {
   for (int i = 0; i < 200; ++i) {
     starts.push_back(
         {{random.uniform(-1e6, 1e6), random.normal()}, Heading::from_rad(random.uniform(-pi, pi))});
-    results.push_back({static_cast<Outcome>(i % 4), i % 4 == 3 ? infinity : random.unit(), 0.1});
+    results.push_back({outcomes_in_order[static_cast<std::size_t>(i % 4)],
+                       i % 4 == 3 ? infinity : random.unit(), 0.1});
   }
   const std::string text = outcomes_csv(starts, results);
   EXPECT_EQ(text.substr(0, text.find('\n')), "x_m,y_m,heading_rad,outcome,time_s,length_m");

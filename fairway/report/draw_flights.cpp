@@ -10,6 +10,7 @@
 #include "fairway/base/error.hpp"
 #include "fairway/report/flight_path.hpp"
 #include "fairway/report/map_page.hpp"
+#include "fairway/report/outcome_style.hpp"
 #include "fairway/report/thinned_path.hpp"
 
 namespace fairway {
@@ -19,22 +20,7 @@ constexpr double start_dot_pt = 2.4;
 constexpr double start_tick_pt = 9.0;
 
 /// Rare outcomes are drawn last and strongest, so that they are seen among many flights.
-constexpr std::array<Outcome, 4> outcomes{Outcome::reach, Outcome::leave, Outcome::collide,
-                                          Outcome::trapped};
-
-Pen outcome_pen(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::reach:
-      return {color_of_oklch(0.48, 0.13, 255.0), 0.9, {}};
-    case Outcome::collide:
-      return {color_of_oklch(0.58, 0.20, 40.0), 1.5, {4.0, 1.5}};
-    case Outcome::leave:
-      return {color_of_oklch(0.62, 0.13, 80.0), 1.5, {1.5, 1.5}};
-    case Outcome::trapped:
-      return {color_of_oklch(0.50, 0.17, 340.0), 1.3, {6.0, 1.5, 1.5, 1.5}};
-  }
-  return {};
-}
+constexpr std::array as_drawn{Outcome::reach, Outcome::leave, Outcome::collide, Outcome::trapped};
 
 /// One style with all flights that share it.
 struct Bundle {
@@ -46,8 +32,8 @@ struct Bundle {
 
 std::vector<Bundle> bundles_by_outcome(std::span<const Flight> flights) {
   std::vector<Bundle> bundles;
-  for (const Outcome outcome : outcomes) {
-    Bundle bundle{"", fmt::format("flights-{}", name_of(outcome)), outcome_pen(outcome), {}};
+  for (const Outcome outcome : as_drawn) {
+    Bundle bundle{"", fmt::format("flights-{}", name_of(outcome)), style_of(outcome).pen, {}};
     for (const Flight& flight : flights)
       if (flight.result.outcome == outcome) bundle.flights.push_back(&flight);
     if (bundle.flights.empty()) continue;

@@ -14,9 +14,6 @@
 namespace fairway {
 namespace {
 
-constexpr std::array<Verdict, verdict_count> in_order{
-    Verdict::reach, Verdict::collide, Verdict::leave, Verdict::trapped, Verdict::undecided};
-
 /// "97.2 %", never rounded up to all or down to nothing.
 std::string percent(std::size_t part, std::size_t of) {
   const double tenths = std::round(1000.0 * static_cast<double>(part) / static_cast<double>(of));
@@ -38,17 +35,12 @@ enum Share : std::size_t { reached, failing, open };
 constexpr int shares = 3;
 
 std::size_t states_of(const VerdictMap& map, std::size_t sample, Share share) {
-  const auto of = [&](Verdict v) -> std::size_t {
-    return map.count[sample][static_cast<std::size_t>(v)];
-  };
-  switch (share) {
-    case reached:
-      return of(Verdict::reach);
-    case failing:
-      return of(Verdict::collide) + of(Verdict::leave) + of(Verdict::trapped);
-    default:
-      return of(Verdict::undecided);
+  std::size_t states = 0;
+  for (const Verdict verdict : verdicts_in_order) {
+    const Share its = fails(verdict) ? failing : verdict == Verdict::reach ? reached : open;
+    if (its == share) states += map.count[sample][static_cast<std::size_t>(verdict)];
   }
+  return states;
 }
 
 /// None, up to an eighth, a half, seven eighths, less than all, all.
@@ -84,17 +76,15 @@ Picture draw_verdicts(const VerdictMap& map, const VerdictPictureOptions& option
                         of > 0 ? percent(reaching, of) + " reach" : ""});
   }
   std::vector<LegendEntry> entries;
-  for (const Verdict verdict : in_order) {
-    entries.push_back(verdict_entry(
-        verdict == Verdict::undecided ? "undecided" : fmt::format("proved: {}", name_of(verdict)),
-        verdict));
+  for (const Verdict verdict : verdicts_in_order) {
+    entries.push_back(verdict_entry(verdict));
   }
   const double panel_pt = options.panel_pt > 0.0 ? options.panel_pt : 150.0;
   MapPanels page(map, {options.title, 4, panel_pt, options.pixels_per_pt}, std::move(captions),
                  std::move(entries));
   for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
     std::vector<SamplePattern> patterns;
-    for (const Verdict verdict : in_order) {
+    for (const Verdict verdict : verdicts_in_order) {
       const VerdictStyle style = style_of(verdict);
       patterns.push_back(
           {style.pen, style.rising, style.falling, [&map, h, verdict](std::size_t i) {

@@ -11,6 +11,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/report/color.hpp"
+#include "fairway/report/outcome_style.hpp"
 #include "fairway/report/page_arrays.hpp"
 #include "fairway/report/page_payload.hpp"
 #include "fairway/report/page_template.hpp"
@@ -33,12 +34,18 @@ json styles_json() {
     const auto verdict = static_cast<Verdict>(v);
     const VerdictStyle style = style_of(verdict);
     verdicts.push_back({{"name", name_of(verdict)},
+                        {"words", words_of(verdict)},
                         {"ground", hex(style.ground)},
                         {"pen", hex(style.pen.color)},
                         {"pen_pt", style.pen.width_pt},
                         {"dotted", !style.pen.dash_pt.empty()},
                         {"rising", style.rising},
                         {"falling", style.falling}});
+  }
+  json outcomes = json::object();
+  for (const Outcome outcome : outcomes_in_order) {
+    const OutcomeStyle style = style_of(outcome);
+    outcomes[name_of(outcome)] = {{"color", hex(style.on_screen)}, {"dash", style.dash_px}};
   }
   json ramp = json::array();
   constexpr int steps = 64;
@@ -53,6 +60,7 @@ json styles_json() {
   json series = json::array();
   for (int k = 0; k < 8; ++k) series.push_back(hex(series_color(k)));
   return {{"verdict", std::move(verdicts)},
+          {"outcome", std::move(outcomes)},
           {"cost_ramp", std::move(ramp)},
           {"share", std::move(shares)},
           {"series", std::move(series)},
@@ -64,6 +72,17 @@ json styles_json() {
           {"goal_pattern", hex(palette::goal_pattern)},
           {"unreachable", hex(palette::unreachable)},
           {"unreachable_pattern", hex(palette::unreachable_pattern)}};
+}
+
+/// What the page has to know of the codes of verdicts.
+json codes_json() {
+  json failing = json::array();
+  for (const Verdict verdict : verdicts_in_order) {
+    if (fails(verdict)) failing.push_back(verdict);
+  }
+  return {{"reach", Verdict::reach},         {"failing", std::move(failing)},
+          {"undecided", Verdict::undecided}, {"order", verdicts_in_order},
+          {"obstacle", page_obstacle},       {"target", page_target}};
 }
 
 json verdicts_json(const VerdictMap& map) {
@@ -121,7 +140,7 @@ json record_of(const PageContent& content) {
     if (group.flights.size() > group.most)
       left_out[group.group] = group.flights.size() - group.most;
   }
-  return {{"format_version", 1},
+  return {{"format_version", 2},
           {"title", content.title},
           {"grid",
            {{"nx", g.nx}, {"ny", g.ny}, {"x0_m", g.x0_m}, {"y0_m", g.y0_m}, {"cell_m", g.cell_m}}},
@@ -133,12 +152,14 @@ json record_of(const PageContent& content) {
           {"mission", json_of(content.mission)},
           {"cost_step_m", page_cost_step_m(content.plan)},
           {"styles", styles_json()},
+          {"codes", codes_json()},
           {"verdicts", content.verdicts != nullptr && content.verdicts->samples() > 0
                            ? verdicts_json(*content.verdicts)
                            : json()},
           {"flights", flights_json(content.flights)},
           {"flights_left_out", std::move(left_out)},
           {"words", content.words},
+          {"assumptions", content.assumptions},
           {"summary", json::parse(content.summary_json)}};
 }
 

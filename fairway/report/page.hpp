@@ -35,9 +35,10 @@ struct PageContent {
   const Plan& plan;
   const Mission& mission;
   std::vector<PageFlights> flights;
-  const VerdictMap* verdicts = nullptr;  ///< none: nothing was proved
-  std::vector<std::string> words = {};   ///< the honest paragraph, by sentence groups
-  std::string summary_json = "{}";       ///< an object, shown as numbers and digests
+  const VerdictMap* verdicts = nullptr;       ///< none: nothing was proved
+  std::vector<std::string> words = {};        ///< the honest paragraph, by sentence groups
+  std::string summary_json = "{}";            ///< an object, shown as numbers and digests
+  std::vector<std::string> assumptions = {};  ///< what a proof rests on
 };
 
 /// Throws PreconditionViolation when there is no template (page_template.hpp) or arrays do not fit.

@@ -165,16 +165,14 @@ void add_plan_arrays(const Plan& plan, PagePayload& payload) {
 }
 
 void add_verdict_arrays(const VerdictMap& map, PagePayload& payload) {
-  constexpr std::uint8_t obstacle = verdict_count;
-  constexpr std::uint8_t target = verdict_count + 1;
   std::vector<std::uint8_t> code(map.heading_rad.size() * map.samples());
   require(map.kind.size() == map.samples() && map.verdict.size() == code.size(),
           "a verdict map's arrays fit its samples and headings");
   for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
     for (std::size_t i = 0; i < map.samples(); ++i) {
-      code[h * map.samples() + i] = map.kind[i] == CellKind::obstacle ? obstacle
+      code[h * map.samples() + i] = map.kind[i] == CellKind::obstacle ? page_obstacle
                                     : map.kind[i] == CellKind::target
-                                        ? target
+                                        ? page_target
                                         : static_cast<std::uint8_t>(map.verdict_at(h, i));
     }
   }

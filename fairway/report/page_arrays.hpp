@@ -1,11 +1,13 @@
 // What the page draws, as arrays: the names and meanings are in docs/report.md.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "fairway/report/page.hpp"
 #include "fairway/report/page_payload.hpp"
+#include "fairway/verify/verdict.hpp"
 
 namespace fairway {
 
@@ -22,7 +24,12 @@ struct PageValues {
 /// `region`, `heading`, `cost` of the plan, `streamline_*`, `contour_*`.
 void add_plan_arrays(const Plan& plan, PagePayload& payload);
 
-/// `verdict` [headings][ny][nx]: a code of Verdict, or 5 obstacle, 6 target.
+/// Codes of the array `verdict` where there are no states, out of the way of any verdict's.
+inline constexpr std::uint8_t page_obstacle = 250;
+inline constexpr std::uint8_t page_target = 249;
+static_assert(verdict_count <= page_target);
+
+/// `verdict` [headings][ny][nx]: a code of Verdict, page_obstacle or page_target.
 void add_verdict_arrays(const VerdictMap& map, PagePayload& payload);
 
 /// `piece_*` of all flights shown, one flight after the other, each followed by its final leg.

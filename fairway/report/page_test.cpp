@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -230,6 +231,7 @@ TEST(Page, EveryVerdictLayerIsThatOfTheMap) {
   const std::string page = page_html({"t", plan, goal, {}, &map}, bare);
   const Decoded arrays = arrays_of(page);
   const json info = record_of(page)["verdicts"];
+  const json codes = record_of(page)["codes"];
   const auto counts = arrays.array<std::uint8_t>("verdict_count");
   std::vector<std::size_t> sums(verdict_count * map.samples());
   for (std::size_t h = 0; h < 3; ++h) {
@@ -238,7 +240,7 @@ TEST(Page, EveryVerdictLayerIsThatOfTheMap) {
     std::array<std::size_t, verdict_count> seen{};
     for (std::size_t i = 0; i < layer.size(); ++i) {
       if (map.kind[i] != CellKind::ordinary) {
-        EXPECT_EQ(layer[i], map.kind[i] == CellKind::obstacle ? 5 : 6);
+        EXPECT_EQ(layer[i], codes[map.kind[i] == CellKind::obstacle ? "obstacle" : "target"]);
         continue;
       }
       EXPECT_EQ(layer[i], static_cast<int>(map.verdict_at(h, i)));
@@ -254,6 +256,26 @@ TEST(Page, EveryVerdictLayerIsThatOfTheMap) {
   const Vec2 middle = map.grid.center(map.cell_of_sample(17));
   EXPECT_NEAR(info["offset_m"][0].get<double>(), place.x - middle.x, 1e-9);
   EXPECT_NEAR(info["offset_m"][1].get<double>(), place.y - middle.y, 1e-9);
+}
+
+TEST(Page, TheRecordListsEveryVerdictAndOutcomeOnce) {
+  const Plan plan = island_plan({14, 12, -3.0, 5.0, 6.0}, {60.0, 40.0}, {4, 6});
+  const json record = record_of(page_html({"t", plan, goal, {}}, bare));
+  const json& codes = record["codes"];
+  std::set<int> listed;
+  for (const json& code : codes["order"]) {
+    EXPECT_TRUE(listed.insert(code.get<int>()).second);
+    EXPECT_EQ(record["styles"]["verdict"].at(code.get<std::size_t>())["name"],
+              name_of(static_cast<Verdict>(code.get<int>())));
+  }
+  EXPECT_EQ(listed.size(), record["styles"]["verdict"].size());
+  EXPECT_EQ(codes["failing"].size() + 2, listed.size());
+  for (const char* name : {"obstacle", "target"}) {
+    EXPECT_EQ(listed.count(codes[name].get<int>()), 0U) << name;
+  }
+  for (const Outcome outcome : outcomes_in_order) {
+    EXPECT_EQ(record["styles"]["outcome"][name_of(outcome)]["color"].get<std::string>().size(), 7U);
+  }
 }
 
 TEST(Page, FlightsComeWithTheirPiecesAndLegsAndSayHowManyAreLeftOut) {

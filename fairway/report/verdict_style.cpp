@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstddef>
-#include <utility>
+#include <string>
 
 namespace fairway {
 
@@ -31,9 +31,11 @@ Color share_color(int share, int rank) {
                         hue[static_cast<std::size_t>(share)]);
 }
 
-LegendEntry verdict_entry(std::string name, Verdict verdict) {
+LegendEntry verdict_entry(Verdict verdict) {
   const VerdictStyle style = style_of(verdict);
-  return hatched_entry(std::move(name), style.ground, style.pen, style.rising, style.falling);
+  const std::string proved = verdict == Verdict::undecided ? "" : "proved: ";
+  return hatched_entry(proved + name_of(verdict), style.ground, style.pen, style.rising,
+                       style.falling);
 }
 
 }  // namespace fairway

@@ -22,6 +22,7 @@ struct VerdictStyle {
 inline constexpr int share_classes = 6;
 [[nodiscard]] Color share_color(int share, int rank);
 
-[[nodiscard]] LegendEntry verdict_entry(std::string name, Verdict verdict);
+/// "proved: collide", "undecided", with a sample.
+[[nodiscard]] LegendEntry verdict_entry(Verdict verdict);
 
 }  // namespace fairway

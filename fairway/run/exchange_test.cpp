@@ -85,12 +85,10 @@ TEST_F(Exchange, a_plan_reads_back_from_its_raster_bit_for_bit) {
 
 TEST_F(Exchange, a_certificate_knows_where_its_plan_lies_and_reads_back) {
   const Plan plan = plan_on(walled(somewhere));
-  const Progress quiet;
-  StageClock clock(quiet);
   CertifyOptions options;
   options.undecided_max = 0.5;
   options.samples = 1000;
-  const Verification made = verify_plan(plan, "plan", {}, options, {}, clock);
+  const Verification made = verify_plan(plan, "plan", {}, options);
   EXPECT_EQ(made.certificate.frame, plan.record.frame);
   EXPECT_EQ(made.certificate.frame->geo, somewhere);
 
@@ -116,12 +114,10 @@ TEST_F(Exchange, a_certificate_knows_where_its_plan_lies_and_reads_back) {
 
 TEST_F(Exchange, verdicts_at_a_heading_are_queries_of_its_states) {
   const Plan plan = plan_on(walled({}));
-  const Progress quiet;
-  StageClock clock(quiet);
   CertifyOptions options;
   options.undecided_max = 0.5;
   options.samples = 1000;
-  const Certificate certificate = verify_plan(plan, "plan", {}, options, {}, clock).certificate;
+  const Certificate certificate = verify_plan(plan, "plan", {}, options).certificate;
   const auto verdicts = verdicts_at(certificate, Heading::from_rad(1.0));
   const auto answers = ask(certificate, states_asked_at(plan.grid, Heading::from_rad(1.0)));
   for (std::size_t i = 0; i < verdicts.size(); ++i) {

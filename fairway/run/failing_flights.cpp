@@ -18,7 +18,8 @@ double flown_m(const Flight& flight) {
 std::vector<Flight> longest_failing(const ExactFlights& flights,
                                     const std::vector<FailingState>& failing, std::size_t of_each) {
   std::vector<Flight> longest;
-  for (const Verdict verdict : {Verdict::collide, Verdict::leave, Verdict::trapped}) {
+  for (const Verdict verdict : verdicts_in_order) {
+    if (!fails(verdict)) continue;
     std::vector<State> starts;
     for (const FailingState& state : failing) {
       if (state.verdict == verdict) starts.push_back(state.start);

@@ -9,6 +9,8 @@
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/report/page.hpp"
 #include "fairway/report/page_template.hpp"
+#include "fairway/run/products.hpp"
+#include "fairway/run/verification_summary.hpp"
 #include "fairway/verify/sample_verdicts.hpp"
 
 namespace fairway {
@@ -30,7 +32,7 @@ std::string write_report_page(const Plan& plan, const Mission& mission,
                               const ScenarioFlights& flown, const ReportPage& page,
                               const std::filesystem::path& folder) {
   if (!has_page_template()) {
-    return fmt::format("{} was left out: {}", report_page_name, page_template());
+    return fmt::format("{} was left out: {}", product::report_page, page_template());
   }
   std::optional<VerdictMap> verdicts;
   if (page.certificate != nullptr) {
@@ -47,8 +49,9 @@ std::string write_report_page(const Plan& plan, const Mission& mission,
                              {"random", recorded.subspan(given), 100}},
                             verdicts ? &*verdicts : nullptr,
                             page.words,
-                            page.summary.dump(-1, ' ', true)};
-  write_whole(folder / report_page_name, Existing::keep, page_html(content));
+                            page.summary.dump(-1, ' ', true),
+                            proof_assumptions()};
+  write_whole(folder / product::report_page, Existing::keep, page_html(content));
   return {};
 }
 

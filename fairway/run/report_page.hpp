@@ -16,8 +16,6 @@
 
 namespace fairway {
 
-inline constexpr const char* report_page_name = "report.html";
-
 struct ReportPage {
   std::string title;
   std::vector<std::string> words;  ///< the honest paragraph

@@ -22,6 +22,7 @@
 #include "fairway/run/flight_summary.hpp"
 #include "fairway/run/mission_on_map.hpp"
 #include "fairway/run/plan_record.hpp"
+#include "fairway/run/products.hpp"
 #include "fairway/run/report_page.hpp"
 #include "fairway/run/run_pictures.hpp"
 #include "fairway/run/scenario_flights.hpp"
@@ -29,6 +30,7 @@
 #include "fairway/run/summary.hpp"
 #include "fairway/run/verdict_pictures.hpp"
 #include "fairway/run/verification.hpp"
+#include "fairway/run/verification_summary.hpp"
 
 namespace fairway {
 namespace {
@@ -36,7 +38,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr const char* summary_name = "summary.json";
 constexpr const char* evidence_words = "Flights are evidence, not a proof.";
 
 /// Seconds that the stages after the map will take, from rates seen on one machine with two cores:
@@ -87,57 +88,73 @@ namespace {
 void write_flights(const ScenarioFlights& flown, const Plan& plan, const std::string& where,
                    const fs::path& place) {
   const double step_m = plan.grid.cell_m;
-  write_whole(place / "flights.csv", Existing::keep,
+  write_whole(place / product::flights_csv, Existing::keep,
               trajectories_csv(flown.recorded, plan.vehicle.speed_mps, step_m));
-  write_whole(place / "flights.geojson", Existing::keep,
+  write_whole(place / product::flights_geojson, Existing::keep,
               flights_geojson(flown.recorded, step_m, lon_lat_of(frame_in(plan.record), where)));
-  write_whole(place / "outcomes.csv", Existing::keep, outcomes_csv(flown.starts, flown.results));
+  write_whole(place / product::outcomes, Existing::keep, outcomes_csv(flown.starts, flown.results));
 }
 
-/// What verifying left for the summary, and for the pictures when verdicts were proved.
-struct Verified {
-  json summary;
-  std::optional<Certificate> certificate;
+/// A proof, and whether another program made it again.
+struct Proved {
+  Verification verification;
   std::vector<FailingState> failing;
+  bool checked = false;
 };
 
-/// The verdicts into `certificate.safetensors`, re-proved by the independent program.
-Verified verify_and_check(const Plan& plan, const Scenario& scenario, const fs::path& place,
-                          StageClock& clock) {
-  const fs::path file = place / "certificate.safetensors";
-  clock.begin("verifying", unknown_time);
-  if (scenario.verify.method == VerifyMethod::bitmap) {
-    constexpr int samples = 200;
-    json summary = write_bitmap(plan, {}, samples, scenario.simulate.seed,
-                                place / "bitmap.safetensors", Existing::keep);
-    summary["words"] =
-        fmt::format("By samples of the borders, which prove nothing, {:.2f} % of all states reach.",
-                    100.0 * summary["estimated_reach"].get<double>());
-    return {std::move(summary), std::nullopt, {}};
-  }
-  CertifyOptions options;
-  options.undecided_max = scenario.verify.undecided_max;
-  options.time_limit_s = scenario.verify.time_limit_s;
-  options.memory_limit_bytes =
-      static_cast<std::size_t>(scenario.verify.memory_limit_mb.value_or(0.0) * 1e6);
-  options.seed = scenario.simulate.seed;
-  Verification made = verify_plan(plan, scenario.file.string(), {}, options, std::nullopt, clock);
-  write_certificate(made.certificate, file, Existing::keep);
-  std::vector<FailingState> failing = failing_states(made.certificate, 100, options.seed);
-  write_whole(place / "failures.csv", Existing::keep, failing_states_csv(failing));
+/// The paper's method, which proves nothing, or a proof.
+using Verified = std::variant<BitmapVerification, Proved>;
+
+/// The verdicts into a certificate, re-proved by the independent program.
+Proved prove_and_check(const Plan& plan, const Scenario& scenario, const fs::path& place,
+                       StageClock& clock) {
+  const fs::path file = place / product::certificate;
+  const CertifyOptions options = certify_options(scenario.verify.limits, scenario.simulate.seed);
+  Proved proved;
+  proved.verification =
+      verify_plan(plan, scenario.file.string(), {}, options, std::nullopt, levels_told_by(clock));
+  const Certificate& certificate = proved.verification.certificate;
+  write_certificate(certificate, file, Existing::keep);
+  proved.failing = failing_states(certificate, 100, options.seed);
+  write_whole(place / product::failures, Existing::keep, failing_states_csv(proved.failing));
 
   clock.begin("checking the certificate", unknown_time);
   const CheckRun check = run_checker({file.string(), "--quiet"}, true);
   if (check.exit_code == 1) {
     throw std::runtime_error("the certificate was refused by fairway-check: " + check.output);
   }
-  json summary = made.summary;
-  summary["checked"] = check.exit_code == 0;
-  summary["words"] = verification_words(made) +
-                     (check.exit_code == 0 ? " A separate program re-proved the certificate."
-                                           : " The certificate was NOT checked: fairway-check "
-                                             "could not be run.");
-  return {std::move(summary), std::move(made.certificate), std::move(failing)};
+  proved.checked = check.exit_code == 0;
+  return proved;
+}
+
+Verified verify_and_check(const Plan& plan, const Scenario& scenario, const fs::path& place,
+                          StageClock& clock) {
+  clock.begin("verifying", unknown_time);
+  if (scenario.verify.method == VerifyMethod::certified) {
+    return prove_and_check(plan, scenario, place, clock);
+  }
+  constexpr int samples_per_border = 200;
+  return write_bitmap(plan, {}, samples_per_border, scenario.simulate.seed, place / product::bitmap,
+                      Existing::keep);
+}
+
+std::string words_of(const Verified& verified) {
+  if (const auto* bitmap = std::get_if<BitmapVerification>(&verified)) {
+    return verification_words(*bitmap);
+  }
+  const Proved& proved = std::get<Proved>(verified);
+  return verification_words(proved.verification) +
+         (proved.checked ? " A separate program re-proved the certificate."
+                         : " The certificate was NOT checked: fairway-check could not be run.");
+}
+
+json json_of(const Verified& verified) {
+  const auto* proved = std::get_if<Proved>(&verified);
+  json summary = proved != nullptr ? verification_json(proved->verification)
+                                   : verification_json(std::get<BitmapVerification>(verified));
+  if (proved != nullptr) summary["checked"] = proved->checked;
+  summary["words"] = words_of(verified);
+  return summary;
 }
 
 /// report.html; where this build has none, a warning says why.
@@ -145,32 +162,16 @@ void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights&
                 const Verified& verified, const ExactFlights& flights, const std::string& title,
                 const fs::path& place, RunResult& result) {
   constexpr std::size_t failing_of_each = 4;
-  const ReportPage page{title,
-                        {plan_words(plan), flight_words(flown) + evidence_words,
-                         verified.summary["words"].get<std::string>()},
-                        result.summary,
-                        verified.certificate ? &*verified.certificate : nullptr,
-                        longest_failing(flights, verified.failing, failing_of_each)};
+  const auto* proved = std::get_if<Proved>(&verified);
+  const ReportPage page{
+      title,
+      {plan_words(plan), flight_words(flown) + evidence_words, words_of(verified)},
+      result.summary,
+      proved != nullptr ? &proved->verification.certificate : nullptr,
+      proved != nullptr ? longest_failing(flights, proved->failing, failing_of_each)
+                        : std::vector<Flight>{}};
   const std::string absent = write_report_page(plan, mission, flown, page, place);
   if (!absent.empty()) result.warnings.push_back(absent);
-}
-
-std::vector<std::string> product_names() {
-  std::vector<std::string> names{"plan.safetensors",
-                                 "flights.csv",
-                                 "flights.geojson",
-                                 "outcomes.csv",
-                                 "certificate.safetensors",
-                                 "bitmap.safetensors",
-                                 "failures.csv",
-                                 report_page_name,
-                                 summary_name};
-  for (const std::string picture : run_pictures) {
-    names.push_back(picture + ".svg");
-    names.push_back(picture + ".png");
-  }
-  for (std::string& file : verdict_picture_files()) names.push_back(std::move(file));
-  return names;
 }
 
 json product_digests(const fs::path& folder) {
@@ -185,7 +186,7 @@ json product_digests(const fs::path& folder) {
 
 RunResult run(const Scenario& scenario, const fs::path& folder, Existing existing,
               const Progress& progress) {
-  AtomicFolder products(folder, existing, summary_name, product_names());
+  AtomicFolder products(folder, existing, product::summary, product_names());
   const fs::path& place = products.temporary_path();
   StageClock clock(progress);
 
@@ -196,7 +197,7 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   const Estimate left = estimate(scenario, map.grid);
 
   clock.begin("writing the plan", left.from_plan());
-  write_plan(plan, place / "plan.safetensors", Existing::keep);
+  write_plan(plan, place / product::plan, Existing::keep);
 
   clock.begin("flying", left.from_flights());
   const FlightEngine engine(plan);
@@ -208,32 +209,33 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   clock.begin("drawing", left.from_pictures());
   const std::string title = scenario.file.stem().string();
   write_run_pictures(plan, mission, flown, title, place);
-  if (verified.certificate) {
-    write_verdict_pictures(plan, *verified.certificate,
-                           longest_failing(*engine.exact(), verified.failing, 1),
+  const auto* proved = std::get_if<Proved>(&verified);
+  if (proved != nullptr) {
+    write_verdict_pictures(plan, proved->verification.certificate,
+                           longest_failing(*engine.exact(), proved->failing, 1),
                            scenario.simulate.seed, title, place);
   }
 
   clock.begin("making the page", left.page_s);
   RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
   add_flights(result.summary, flown, scenario.simulate.seed);
-  result.summary["verify"] = verified.summary;
+  result.summary["verify"] = json_of(verified);
   result.summary["products"] = product_digests(place);
   write_page(plan, mission, flown, verified, *engine.exact(), title, place, result);
   clock.end();
   result.summary["products"] = product_digests(place);
   add_cost(result.summary, clock);
-  write_whole(place / summary_name, Existing::keep, result.summary.dump(2) + "\n");
+  write_whole(place / product::summary, Existing::keep, result.summary.dump(2) + "\n");
   products.commit();
   std::string pictures = (folder / "plan.svg").string() + ", " + (folder / "flights.svg").string();
-  if (result.summary["products"].contains(report_page_name)) {
-    pictures = (folder / report_page_name).string() + ", " + pictures;
+  if (result.summary["products"].contains(product::report_page)) {
+    pictures = (folder / product::report_page).string() + ", " + pictures;
   }
-  if (verified.certificate) pictures += ", " + (folder / "verdicts.svg").string();
+  if (proved != nullptr) pictures += ", " + (folder / "verdicts.svg").string();
   result.paragraph =
       fmt::format("{} {}{} {} {}\nLook at {} and {}.", plan_words(plan), flight_words(flown),
-                  evidence_words, verified.summary["words"].get<std::string>(),
-                  cost_words(result.summary), pictures, (folder / summary_name).string());
+                  evidence_words, words_of(verified), cost_words(result.summary), pictures,
+                  (folder / product::summary).string());
   return result;
 }
 

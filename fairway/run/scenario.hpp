@@ -15,9 +15,9 @@
 
 #include "fairway/field/field.hpp"
 #include "fairway/map/read_map.hpp"
+#include "fairway/run/verify_limits.hpp"
 #include "fairway/vehicle/mission.hpp"
 #include "fairway/vehicle/vehicle.hpp"
-#include "fairway/verify/certify.hpp"
 
 namespace fairway {
 
@@ -48,9 +48,7 @@ enum class VerifyMethod { certified, bitmap };
 /// The [verify] table.
 struct VerifyRequest {
   VerifyMethod method = VerifyMethod::certified;
-  double undecided_max = CertifyOptions{}.undecided_max;
-  double time_limit_s = 120.0;  ///< a run ends soon enough, on any map; 0: none
-  std::optional<double> memory_limit_mb;
+  VerifyLimits limits = limits_of_a_run;
 };
 
 struct Scenario {

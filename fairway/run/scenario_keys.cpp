@@ -239,11 +239,11 @@ std::vector<ScenarioKey> simulate_and_verify_keys() {
           {{"certified", VerifyMethod::certified}, {"bitmap", VerifyMethod::bitmap}},
           FAIRWAY_MEMBER(verify.method),
           "a proof for every state, or the paper's samples of the borders: a picture"),
-      number("verify.undecided_max", Range{0.0, 1.0}, FAIRWAY_MEMBER(verify.undecided_max),
+      number("verify.undecided_max", Range{0.0, 1.0}, FAIRWAY_MEMBER(verify.limits.undecided_max),
              "stop refining once this share of the volume is undecided"),
-      number("verify.time_limit_s", Range{0.0, 1e9}, FAIRWAY_MEMBER(verify.time_limit_s),
+      number("verify.time_limit_s", Range{0.0, 1e9}, FAIRWAY_MEMBER(verify.limits.time_limit_s),
              "stop refining after this time, seconds; 0: no limit"),
-      number("verify.memory_limit_mb", positive, FAIRWAY_MEMBER(verify.memory_limit_mb),
+      number("verify.memory_limit_mb", positive, FAIRWAY_MEMBER(verify.limits.memory_limit_mb),
              "stop refining before using more memory, megabytes"),
   };
 }

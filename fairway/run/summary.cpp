@@ -15,8 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array outcomes{Outcome::reach, Outcome::collide, Outcome::leave, Outcome::trapped};
-
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -64,7 +62,7 @@ std::array<double, 2> wilson_interval(std::size_t hits, std::size_t count) {
 json outcome_json(const OutcomeCounts& counts) {
   const std::size_t all = counts.total();
   json report = {{"count", all}};
-  for (const Outcome outcome : outcomes) {
+  for (const Outcome outcome : outcomes_in_order) {
     report["outcomes"][name_of(outcome)] = counts.of(outcome);
     report["share"][name_of(outcome)] = all == 0 ? json() : json(counts.share(outcome));
   }

@@ -49,7 +49,7 @@ TEST(WilsonInterval, HoldsTheTruthNineteenTimesInTwenty) {
 
 OutcomeCounts counts(std::size_t reach, std::size_t collide, std::size_t leave,
                      std::size_t trapped) {
-  return {{reach, collide, leave, trapped}};
+  return {{0, reach, collide, leave, trapped}};
 }
 
 TEST(OutcomeWords, NeverRoundAMissAway) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,7 +16,9 @@
 #include "fairway/bitmap/bitmap_backward.hpp"
 #include "fairway/bitmap/bitmap_volume.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/run/verification_summary.hpp"
 #include "fairway/run/version.hpp"
+#include "fairway/simulate/flight.hpp"
 #include "fairway/verify/images.hpp"
 
 namespace fairway {
@@ -23,13 +26,14 @@ namespace {
 
 using nlohmann::json;
 
-json fractions_json(const std::array<double, verdict_count>& share) {
-  json by_name = json::object();
-  for (int v = 0; v < verdict_count; ++v) {
-    by_name[name_of(static_cast<Verdict>(v))] = share[static_cast<std::size_t>(v)];
+constexpr bool outcomes_have_the_numbers_of_their_verdicts() {
+  for (const Outcome outcome : outcomes_in_order) {
+    const auto verdict = static_cast<Verdict>(outcome);
+    if (std::string_view(name_of(outcome)) != name_of(verdict)) return false;
   }
-  return by_name;
+  return static_cast<int>(outcome_codes) <= verdict_count;
 }
+static_assert(outcomes_have_the_numbers_of_their_verdicts());
 
 json options_json(const CertifyOptions& o) {
   return {
@@ -52,9 +56,9 @@ json evidence_of(const CertifyOptions& options, const Certified& outcome) {
   }
   return {{"program", program_version},
           {"options", options_json(options)},
-          {"volume_fraction", fractions_json(outcome.volume.all)},
-          {"volume_fraction_free", fractions_json(outcome.volume.free)},
-          {"volume_fraction_buffer", fractions_json(outcome.volume.buffer)},
+          {"volume_fraction", shares_json(outcome.volume.all)},
+          {"volume_fraction_free", shares_json(outcome.volume.free)},
+          {"volume_fraction_buffer", shares_json(outcome.volume.buffer)},
           {"samples", outcome.volume.samples},
           {"worst_time_s", outcome.volume.worst_time_s},
           {"levels", std::move(levels)},
@@ -67,24 +71,11 @@ void require_same(const Certificate& earlier, const Certificate& now, const std:
   }
 }
 
-std::string percent(double share) { return fmt::format("{:.3f} %", 100.0 * share); }
-
-double share_of(const std::array<double, verdict_count>& volume, Verdict verdict) {
-  return volume[static_cast<std::size_t>(verdict)];
-}
-
-/// Places that the goal cannot be reached from count against no plan.
-std::string commanded_words(const VolumeFractions& volume) {
-  const double reach = share_of(volume.commanded, Verdict::reach);
-  if (percent(reach) == percent(share_of(volume.free, Verdict::reach))) return "";
-  return fmt::format(" ({} of those in cells from which the goal can be reached)", percent(reach));
-}
-
 }  // namespace
 
 Verification verify_plan(const Plan& plan, const std::string& where, const RegionOfInterest& region,
                          const CertifyOptions& options, std::optional<Certificate> earlier,
-                         StageClock& clock) {
+                         const CertifyProgress& progress) {
   if (!(plan.grid.cell_m < plan.vehicle.turn_radius_m)) {
     throw InputError(where, fmt::format("its cells of {:g} m are not smaller than the turning "
                                         "radius, {:g} m: such a plan cannot be verified",
@@ -107,56 +98,10 @@ Verification verify_plan(const Plan& plan, const std::string& where, const Regio
     require_same(*earlier, c, where);
     start = std::move(earlier->sections);
   }
-  made.outcome = certify(c.flow(), is_free, options, std::move(start), [&](const LevelRecord& l) {
-    clock.rename(fmt::format("verifying, {:.2f} % undecided", 100.0 * l.undecided_volume));
-    clock.tell(unknown_time);
-  });
+  made.outcome = certify(c.flow(), is_free, options, std::move(start), progress);
   c.sections = std::move(made.outcome.sections);
   c.evidence_json = evidence_of(options, made.outcome).dump();
-  made.summary = json::parse(record_text(c));
-  made.summary["volume_fraction_free_commanded"] = fractions_json(made.outcome.volume.commanded);
-  made.summary["method"] = "certified";
-  made.summary["cells"] = {plan.grid.nx, plan.grid.ny};
-  made.summary["leaves"] = c.sections.leaves();
   return made;
-}
-
-std::string verification_words(const Verification& v) {
-  const VolumeFractions& volume = v.outcome.volume;
-  std::string words = fmt::format(
-      "Proved for every heading and place: of the safe-start states {} reach{}, of all states "
-      "outside obstacles and target {} reach, {} collide, {} leave, {} circle forever; {} are "
-      "undecided",
-      percent(share_of(volume.free, Verdict::reach)), commanded_words(volume),
-      percent(share_of(volume.all, Verdict::reach)),
-      percent(share_of(volume.all, Verdict::collide)),
-      percent(share_of(volume.all, Verdict::leave)),
-      percent(share_of(volume.all, Verdict::trapped)),
-      percent(share_of(volume.all, Verdict::undecided)));
-  words += fmt::format(" (shares of volume, from {} sampled states, each proved).", volume.samples);
-  if (volume.worst_time_s > 0.0) {
-    words += fmt::format(" No sampled state that reaches takes longer than {:.1f} s.",
-                         volume.worst_time_s);
-  }
-  switch (v.outcome.stopped_by) {
-    case StoppedBy::time_limit:
-      words += " The time limit ended the work.";
-      break;
-    case StoppedBy::memory_limit:
-      words += " The memory limit ended the work.";
-      break;
-    case StoppedBy::last_level:
-      words += " The finest leaves ended the work.";
-      break;
-    case StoppedBy::stalled:
-      words += " Smaller leaves had stopped deciding more.";
-      break;
-    case StoppedBy::undecided_max:
-      break;
-  }
-  return words +
-         " Assumed: the exact kinematic model, without wind or delay, and a map that does not "
-         "change.";
 }
 
 std::vector<FailingState> failing_states(const Certificate& certificate, std::size_t of_each,
@@ -176,8 +121,7 @@ std::vector<FailingState> failing_states(const Certificate& certificate, std::si
     states[k] = {corner.x + random.unit() * flow.grid.cell_m,
                  corner.y + random.unit() * flow.grid.cell_m, random.uniform(-pi, pi)};
   }
-  const ImageStore images =
-      state_images(flow, states, CertifyOptions{}.most_crossings, [] { return true; });
+  const ImageStore images = state_images(flow, states, usual_most_crossings, [] { return true; });
   std::array<std::vector<FailingState>, verdict_count> found;
   for (std::size_t k = 0; k < draws; ++k) {
     const Verdict verdict = verdicts_of(images[k], certificate.sections.view()).only();
@@ -187,8 +131,7 @@ std::vector<FailingState> failing_states(const Certificate& certificate, std::si
     alike.push_back({{{p.x_m, p.y_m}, Heading::from_rad(p.heading_rad)}, verdict});
   }
   std::vector<FailingState> failing;
-  for (const Verdict verdict :
-       {Verdict::collide, Verdict::leave, Verdict::trapped, Verdict::undecided}) {
+  for (const Verdict verdict : verdicts_in_order) {
     const auto& alike = found[static_cast<std::size_t>(verdict)];
     failing.insert(failing.end(), alike.begin(), alike.end());
   }
@@ -205,35 +148,34 @@ std::string failing_states_csv(const std::vector<FailingState>& states) {
   return text;
 }
 
-json write_bitmap(const Plan& plan, const RegionOfInterest& region, int samples, std::uint64_t seed,
-                  const std::filesystem::path& file, Existing existing) {
+BitmapVerification write_bitmap(const Plan& plan, const RegionOfInterest& region,
+                                int samples_per_border, std::uint64_t seed,
+                                const std::filesystem::path& file, Existing existing) {
   require_writable_place(file, existing);
   const std::vector<std::uint8_t> target = target_cells(plan.grid, plan.region, region);
-  const BorderBitmap set = backward_reachable_set(plan, target, {samples});
+  const BorderBitmap set = backward_reachable_set(plan, target, {samples_per_border});
   constexpr std::size_t draws = 200'000;
   const VolumeShare share = volume_share_reached(plan, target, set, draws, seed);
-  json record = {
-      {"format", "fairway-bitmap"},    {"format_version", 1},
-      {"program", program_version},    {"method", "bitmap"},
-      {"samples_per_border", samples}, {"plan_sha256", json::parse(json_text(plan_digests(plan)))}};
+  BitmapVerification made;
+  made.grid = plan.grid;
+  made.plan = plan_digests(plan);
+  made.samples_per_border = samples_per_border;
+  made.seed = seed;
+  made.border_states = set.borders().count() * set.states_per_border();
+  made.share_of_border_states = set.share_reached();
+  made.stored_bytes = set.bytes();
+  made.estimated_reach = share.reached;
+  made.standard_error = share.standard_error;
   std::vector<std::uint64_t> words(set.words.size());
   for (std::size_t i = 0; i < words.size(); ++i) words[i] = set.words[i];
   AtomicFile out(file, existing);
-  write_safetensors(out, {{{"fairway", record.dump(-1, ' ', true)}},
+  write_safetensors(out, {{{"fairway", bitmap_record(made).dump(-1, ' ', true)}},
                           {{"border_words",
                             "U64",
                             {set.borders().count(), set.words_per_border()},
                             std::as_bytes(std::span(words))}}});
   out.commit();
-  record["cells"] = {plan.grid.nx, plan.grid.ny};
-  record["options"] = {{"samples_per_border", samples}, {"seed", seed}};
-  record["border_states"] = set.borders().count() * set.states_per_border();
-  record["share_of_border_states"] = set.share_reached();
-  record["stored_bytes"] = set.bytes();
-  record["estimated_reach"] = share.reached;
-  record["standard_error"] = share.standard_error;
-  record["proved"] = false;
-  return record;
+  return made;
 }
 
 }  // namespace fairway

@@ -3,17 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/certificate/certificate.hpp"
 #include "fairway/plan/plan.hpp"
-#include "fairway/run/stage_clock.hpp"
+#include "fairway/plan/plan_digests.hpp"
 #include "fairway/vehicle/vehicle.hpp"
 #include "fairway/verify/certify.hpp"
 
@@ -22,8 +19,7 @@ namespace fairway {
 /// A certificate of `plan`, and how it came about.
 struct Verification {
   Certificate certificate;
-  Certified outcome;
-  nlohmann::json summary;  ///< docs/formats.md, summary.json of verify; without times
+  Certified outcome;  ///< but for its sections, which the certificate has
 };
 
 /// Proves what flights under `plan` do. `earlier`: a certificate of the same plan and region to go
@@ -32,10 +28,8 @@ struct Verification {
 [[nodiscard]] Verification verify_plan(const Plan& plan, const std::string& where,
                                        const RegionOfInterest& region,
                                        const CertifyOptions& options,
-                                       std::optional<Certificate> earlier, StageClock& clock);
-
-/// What was proved and what was assumed, in one paragraph.
-[[nodiscard]] std::string verification_words(const Verification& verification);
+                                       std::optional<Certificate> earlier = {},
+                                       const CertifyProgress& progress = {});
 
 /// A state whose verdict is not `reach`.
 struct FailingState {
@@ -43,16 +37,29 @@ struct FailingState {
   Verdict verdict = Verdict::undecided;
 };
 
-/// At most so many of each verdict, sampled, in the order collide, leave, trapped, undecided.
+/// At most so many of each verdict, sampled, in the order of verdicts_in_order.
 [[nodiscard]] std::vector<FailingState> failing_states(const Certificate& certificate,
                                                        std::size_t of_each, std::uint64_t seed);
 
 /// The same for `fairway simulate --states`: CSV x_m,y_m,heading_rad,verdict.
 [[nodiscard]] std::string failing_states_csv(const std::vector<FailingState>& states);
 
+/// What the paper's method finds: an estimate, no proof.
+struct BitmapVerification {
+  Grid grid;
+  PlanDigests plan;
+  int samples_per_border = 0;
+  std::uint64_t seed = 1;  ///< of the states behind estimated_reach
+  std::size_t border_states = 0;
+  double share_of_border_states = 0.0;  ///< that reach the region
+  std::size_t stored_bytes = 0;
+  double estimated_reach = 0.0;  ///< share of all states, by samples
+  double standard_error = 0.0;   ///< of estimated_reach
+};
+
 /// The paper's method into a file: the bits of border samples from which the region is reached.
-[[nodiscard]] nlohmann::json write_bitmap(const Plan& plan, const RegionOfInterest& region,
-                                          int samples, std::uint64_t seed,
-                                          const std::filesystem::path& file, Existing existing);
+[[nodiscard]] BitmapVerification write_bitmap(const Plan& plan, const RegionOfInterest& region,
+                                              int samples_per_border, std::uint64_t seed,
+                                              const std::filesystem::path& file, Existing existing);
 
 }  // namespace fairway

@@ -1,7 +1,9 @@
 // The noun of simulation: one flight of a vehicle under a plan.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,8 +12,15 @@
 
 namespace fairway {
 
-/// What ends a flight, by what comes first (docs/model.md, "Outcomes").
-enum class Outcome : std::uint8_t { reach, collide, leave, trapped };
+/// What ends a flight, by what comes first (docs/model.md). Each has the number of its Verdict, so
+/// that outcomes and verdicts can be compared (run/verification.cpp asserts it); none has 0.
+enum class Outcome : std::uint8_t { reach = 1, collide = 2, leave = 3, trapped = 4 };
+
+inline constexpr std::array outcomes_in_order{Outcome::reach, Outcome::collide, Outcome::leave,
+                                              Outcome::trapped};
+
+/// Arrays that are indexed by an outcome's number have this size; [0] belongs to none.
+inline constexpr std::size_t outcome_codes = 5;
 
 /// The name used in files and on screen.
 constexpr const char* name_of(Outcome outcome) {

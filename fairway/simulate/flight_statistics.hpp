@@ -14,7 +14,7 @@ namespace fairway {
 
 /// How many flights ended how.
 struct OutcomeCounts {
-  std::array<std::size_t, 4> by_outcome{};  ///< in the order of Outcome
+  std::array<std::size_t, outcome_codes> by_outcome{};  ///< [Outcome]
 
   void add(Outcome outcome) { ++by_outcome[static_cast<std::size_t>(outcome)]; }
   std::size_t of(Outcome outcome) const { return by_outcome[static_cast<std::size_t>(outcome)]; }

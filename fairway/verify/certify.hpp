@@ -25,10 +25,10 @@ struct CertifyOptions {
   std::size_t memory_limit_bytes = 0;  ///< 0: none
   std::size_t samples = 1000000;       ///< states that measure the volumes, at least one a cell
   std::uint64_t seed = 1;
-  int most_crossings = 3000;  ///< of borders, in one flight to the section
-  int first_level = 2;        ///< a section begins as 2^first_level leaves
-  int stall_levels = 5;       ///< levels without any gain after which to stop
-  int last_level = 26;        ///< and no leaf is smaller than cell_m / 2^last_level
+  int most_crossings = usual_most_crossings;  ///< of borders, in one flight to the section
+  int first_level = 2;                        ///< a section begins as 2^first_level leaves
+  int stall_levels = 5;                       ///< levels without any gain after which to stop
+  int last_level = 26;                        ///< and no leaf is smaller than cell_m / 2^last_level
 };
 
 enum class StoppedBy : std::uint8_t {

@@ -171,7 +171,7 @@ TEST(Certify, follows_weaves_between_opposing_half_planes_to_the_end_and_bounds_
       const VerdictSet found = proof.ask({s})[0];
       if (found.only() == Verdict::undecided) continue;
       const FlightResult flown = flights.fly({{s.x_m, s.y_m}, Heading::from_rad(s.heading_rad)});
-      ASSERT_EQ(static_cast<int>(found.only()), static_cast<int>(flown.outcome) + 1)
+      ASSERT_EQ(static_cast<int>(found.only()), static_cast<int>(flown.outcome))
           << angle << ": " << s.x_m << "," << s.y_m << "," << s.heading_rad;
       if (found.only() != Verdict::reach) continue;
       ++proved;
@@ -194,7 +194,7 @@ TEST(Certify, agrees_with_exact_flights_over_random_plans_and_bounds_their_time)
       if (found[i].only() == Verdict::undecided) continue;
       ++decided;
       const FlightResult flown = flights.fly({{s.x_m, s.y_m}, Heading::from_rad(s.heading_rad)});
-      ASSERT_EQ(static_cast<int>(found[i].only()), static_cast<int>(flown.outcome) + 1)
+      ASSERT_EQ(static_cast<int>(found[i].only()), static_cast<int>(flown.outcome))
           << "plan " << number << ": " << ::testing::PrintToString(s.x_m) << "," << s.y_m << ","
           << s.heading_rad;
       if (found[i].only() == Verdict::reach) {

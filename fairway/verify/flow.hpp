@@ -15,6 +15,10 @@ namespace fairway {
 /// with `reach`, an obstacle with `collide`.
 enum class CellKind : std::uint8_t { ordinary = 0, obstacle = 1, target = 2, outside = 3 };
 
+/// Borders that one flight to the section crosses at most, branches counted, before it is given up
+/// as undecided; unless a caller says otherwise.
+inline constexpr int usual_most_crossings = 3000;
+
 struct Flow {
   Grid grid;
   Vehicle vehicle;

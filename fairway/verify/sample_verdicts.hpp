@@ -18,7 +18,7 @@ struct VerdictMapOptions {
   int states_per_sample = 32;  ///< 0 to 65535
   int most_across = 256;       ///< samples along the longer side, at least 1
   std::uint64_t seed = 1;      ///< of the states' places
-  int most_crossings = 3000;   ///< of borders by one flight, else undecided
+  int most_crossings = usual_most_crossings;  ///< of borders by one flight, else undecided
 };
 
 /// Throws PreconditionViolation when an option is out of range.

@@ -1,7 +1,9 @@
-// What is known of a state (docs/model.md, "Verdicts"): one of the four outcomes, proved, or
-// undecided.
+// What is known of a state (docs/model.md): one of the four outcomes, proved, or undecided. What a
+// verdict is called, whether it is a failure, and where it is listed stand here alone.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace fairway {
@@ -10,10 +12,24 @@ enum class Verdict : std::uint8_t { undecided = 0, reach = 1, collide = 2, leave
 
 inline constexpr int verdict_count = 5;
 
+/// In which pictures, sentences and the page list them.
+inline constexpr std::array<Verdict, verdict_count> verdicts_in_order{
+    Verdict::reach, Verdict::collide, Verdict::leave, Verdict::trapped, Verdict::undecided};
+
 /// The name used in files and on screen.
 constexpr const char* name_of(Verdict verdict) {
   constexpr const char* names[verdict_count]{"undecided", "reach", "collide", "leave", "trapped"};
   return names[static_cast<int>(verdict)];
+}
+
+/// What states of this verdict do, or are: "12 % circle forever".
+constexpr const char* words_of(Verdict verdict) {
+  return verdict == Verdict::trapped ? "circle forever" : name_of(verdict);
+}
+
+/// Proved not to reach.
+constexpr bool fails(Verdict verdict) {
+  return verdict != Verdict::reach && verdict != Verdict::undecided;
 }
 
 }  // namespace fairway

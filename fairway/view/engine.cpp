@@ -8,6 +8,7 @@
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/run/final_legs.hpp"
 #include "fairway/run/path_segments.hpp"
+#include "fairway/run/products.hpp"
 #include "fairway/run/version.hpp"
 #include "fairway/steer/dubins_words.hpp"
 
@@ -48,9 +49,9 @@ const Plan& with_mission(const Plan& plan, const std::string& where) {
 }  // namespace
 
 LiveEngine::LiveEngine(const fs::path& folder)
-    : plan_(read_plan(folder / "plan.safetensors")),
-      flights_(with_mission(plan_, (folder / "plan.safetensors").string())) {
-  const fs::path file = folder / "certificate.safetensors";
+    : plan_(read_plan(folder / product::plan)),
+      flights_(with_mission(plan_, (folder / product::plan).string())) {
+  const fs::path file = folder / product::certificate;
   if (!fs::exists(file)) return;
   // Once as a whole, which checks digests; the answers then come from the mapped file.
   if (read_certificate(file).plan != plan_digests(plan_)) {

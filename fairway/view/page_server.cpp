@@ -16,9 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fairway/base/error.hpp"
-#include "fairway/run/report_page.hpp"
-#include "fairway/run/run_pictures.hpp"
-#include "fairway/run/verdict_pictures.hpp"
+#include "fairway/run/products.hpp"
 #include "fairway/view/engine.hpp"
 #include "fairway/view/question.hpp"
 
@@ -104,22 +102,6 @@ const char* reason_of(int status) {
 
 }  // namespace
 
-const std::vector<std::string>& served_products() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all{
-        report_page_name,    "summary.json", "plan.safetensors", "flights.csv",
-        "flights.geojson",   "outcomes.csv", "failures.csv",     "certificate.safetensors",
-        "bitmap.safetensors"};
-    for (const std::string picture : run_pictures) {
-      all.push_back(picture + ".svg");
-      all.push_back(picture + ".png");
-    }
-    for (std::string& file : verdict_picture_files()) all.push_back(std::move(file));
-    return all;
-  }();
-  return names;
-}
-
 struct PageServer::Parts {
   fs::path folder;
   const LiveEngine& engine;
@@ -155,8 +137,8 @@ struct PageServer::Parts {
         return;
       }
       require_parameters(request.params, {});
-      const std::string name = request.path == "/" ? report_page_name : request.path.substr(1);
-      const auto& names = served_products();
+      const std::string name = request.path == "/" ? product::report_page : request.path.substr(1);
+      static const std::vector<std::string> names = product_names();
       if (std::find(names.begin(), names.end(), name) == names.end()) {
         refuse(response, 404, reason_of(404));
         return;

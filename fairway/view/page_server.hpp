@@ -39,7 +39,4 @@ class PageServer {
   std::unique_ptr<Parts> parts_;
 };
 
-/// The names that are served, "report.html" first.
-[[nodiscard]] const std::vector<std::string>& served_products();
-
 }  // namespace fairway

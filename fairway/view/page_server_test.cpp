@@ -24,7 +24,6 @@
 #include "fairway/map/testing/scratch_folder.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/report/testing/plans_to_draw.hpp"
-#include "fairway/run/stage_clock.hpp"
 #include "fairway/run/verification.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/view/engine.hpp"
@@ -43,11 +42,9 @@ Plan island() {
 }
 
 Certificate certificate_of(const Plan& plan) {
-  const Progress silent;
-  StageClock clock(silent);
   CertifyOptions options;
   options.undecided_max = 0.2;
-  return verify_plan(plan, "test", {}, options, std::nullopt, clock).certificate;
+  return verify_plan(plan, "test", {}, options).certificate;
 }
 
 /// A run's folder with a page, a plan and a certificate; a server over it.

@@ -29,10 +29,10 @@ class Region(IntEnum):
     GOAL = 2
 
 class Outcome(IntEnum):
-    REACH = 0
-    COLLIDE = 1
-    LEAVE = 2
-    TRAPPED = 3
+    REACH = 1
+    COLLIDE = 2
+    LEAVE = 3
+    TRAPPED = 4
 
 class Verdict(IntEnum):
     UNDECIDED = 0

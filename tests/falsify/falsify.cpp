@@ -61,11 +61,14 @@ struct Totals {
     for (std::size_t v = 0; v < by_verdict.size(); ++v) by_verdict[v] += other.by_verdict[v];
   }
   std::string line() const {
-    return fmt::format(
-        "{} states ({} aimed), {} undecided, {} reach, {} collide, {} leave, {} trapped; "
-        "{} contradictions, {} late, {} refuted in 237 bits, {} unknown",
-        states, aimed, undecided, by_verdict[1], by_verdict[2], by_verdict[3], by_verdict[4],
-        contradictions, late, refuted, unknown);
+    std::string text = fmt::format("{} states ({} aimed), {} undecided", states, aimed, undecided);
+    for (const Verdict verdict : verdicts_in_order) {
+      if (verdict == Verdict::undecided) continue;
+      text +=
+          fmt::format(", {} {}", by_verdict[static_cast<std::size_t>(verdict)], name_of(verdict));
+    }
+    return text + fmt::format("; {} contradictions, {} late, {} refuted in 237 bits, {} unknown",
+                              contradictions, late, refuted, unknown);
   }
 };
 
@@ -276,7 +279,7 @@ class Falsifier {
       ++totals_.by_verdict[static_cast<std::size_t>(verdict)];
       if (verdict == Verdict::undecided) {
         ++totals_.undecided;
-      } else if (static_cast<int>(verdict) != static_cast<int>(flown.outcome) + 1) {
+      } else if (static_cast<int>(verdict) != static_cast<int>(flown.outcome)) {
         judge(states[i], verdict, flown, infinite, static_cast<int>(checked.runs[i].ended_by));
       } else if (verdict == Verdict::reach &&
                  checked.verdicts[i].time_s < flown.time_s * (1.0 - 1e-9)) {
@@ -350,7 +353,7 @@ class Falsifier {
     }
   }
 
-  static constexpr std::size_t outcomes = 4;
+  static constexpr std::size_t outcomes = outcome_codes;
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
   std::string name_;

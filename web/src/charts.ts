@@ -1,7 +1,7 @@
 // Heading and distance over time of the flights looked at.
 import uPlot from "uplot";
 import { byId, cssVariable, el, short } from "./dom";
-import { lineOf, type Pose, type ShownFlight } from "./flights";
+import type { Pose, ShownFlight } from "./flights";
 import type { Mission, PageRecord } from "./record";
 
 function distanceToSegment(p: Pose, a: [number, number], b: [number, number]): number {
@@ -68,7 +68,7 @@ export class Charts {
     }
     const [x, y] = flight.record.start;
     const series = this.record.styles.series;
-    return { name: `from (${short(x)}, ${short(y)})`, color: this.flights.length === 1 ? lineOf(flight.record.outcome).color : series[k % series.length],
+    return { name: `from (${short(x)}, ${short(y)})`, color: this.flights.length === 1 ? flight.line.color : series[k % series.length],
       dash: k >= series.length ? [5, 3] : [], t, heading, distance };
   }
 

@@ -1,6 +1,6 @@
 // Flights as pieces of constant curvature: where the vehicle is at a time, and lines on a canvas.
 import type { Numbers } from "./arrays";
-import type { FlightRecord, PageRecord } from "./record";
+import type { FlightRecord, Line, PageRecord } from "./record";
 import type { Viewport } from "./viewport";
 
 export interface Pose { x: number; y: number; h: number }
@@ -79,28 +79,21 @@ export class Track {
   }
 }
 
-export interface ShownFlight { record: FlightRecord; track: Track; leg: Track | null }
+export interface ShownFlight { record: FlightRecord; line: Line; track: Track; leg: Track | null; leg_line: Line }
+
+export function lineOf(record: PageRecord, outcome: string): Line { return record.styles.outcome[outcome] ?? record.styles.outcome.reach; }
 
 export function flightsOf(record: PageRecord, pieces: Record<"x_m" | "y_m" | "heading_rad" | "length_m" | "curvature_per_m", Numbers>): ShownFlight[] {
   const { x0_m, y0_m } = record.grid;
   const track = ([begin, end]: [number, number]) => new Track(
     pieces.x_m.subarray(begin, end), pieces.y_m.subarray(begin, end), pieces.heading_rad.subarray(begin, end),
     pieces.length_m.subarray(begin, end), pieces.curvature_per_m.subarray(begin, end), x0_m, y0_m, record.vehicle.speed_mps);
-  return record.flights.map((flight) => ({ record: flight, track: track(flight.pieces), leg: flight.leg ? track(flight.leg.pieces) : null }));
+  return record.flights.map((flight) => ({
+    record: flight, line: lineOf(record, flight.outcome), track: track(flight.pieces),
+    leg: flight.leg ? track(flight.leg.pieces) : null, leg_line: lineOf(record, "reach") }));
 }
 
-/** Line colour and dash by outcome: deeper than the verdicts' grounds, of the same hues. */
-export const outcome_lines: Record<string, { color: string; dash: number[] }> = {
-  reach: { color: "#1d4f96", dash: [] },
-  collide: { color: "#b8420f", dash: [7, 3] },
-  leave: { color: "#8a5c00", dash: [2, 2.5] },
-  trapped: { color: "#86166f", dash: [8, 2.5, 2, 2.5] },
-};
-
-export function lineOf(outcome: string): { color: string; dash: number[] } { return outcome_lines[outcome] ?? outcome_lines.reach; }
-
-export function strokeTrack(context: CanvasRenderingContext2D, view: Viewport, track: Track, outcome: string, width: number, until_s = Infinity): void {
-  const line = lineOf(outcome);
+export function strokeTrack(context: CanvasRenderingContext2D, view: Viewport, track: Track, line: Line, width: number, until_s = Infinity): void {
   context.beginPath();
   track.trace(context, view, until_s);
   context.strokeStyle = line.color;

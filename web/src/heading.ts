@@ -1,10 +1,7 @@
 // The heading of the vehicle: a slider with, above it, the shares of verdicts at every heading.
 import { byId, cssVariable, degrees, fitted, headingWords, percent, wind } from "./dom";
-import { Code, type PageRecord } from "./record";
+import type { PageRecord } from "./record";
 import type { Tiles } from "./layers";
-
-/** Verdicts in the order of the strip, from below. */
-const order = [Code.reach, Code.collide, Code.leave, Code.trapped, Code.undecided];
 
 export class HeadingSlider {
   index = 0;
@@ -90,7 +87,7 @@ export class HeadingSlider {
     small.textContent = `${this.rad.toFixed(3)} rad, ${wind(this.rad)}`;
     const proved = document.createElement("span");
     const count = this.record.verdicts?.count[this.index];
-    if (count) proved.textContent = `${percent(count[Code.reach] / Math.max(1, count.reduce((a, b) => a + b, 0)))} of places reach`;
+    if (count) proved.textContent = `${percent(count[this.record.codes.reach] / Math.max(1, count.reduce((a, b) => a + b, 0)))} of places reach`;
     output.replaceChildren(big, small, proved);
     this.strip();
   }
@@ -115,6 +112,7 @@ export class HeadingSlider {
 
   private paintShares(canvas: HTMLCanvasElement): ImageData {
     const info = this.record.verdicts!;
+    const { order, undecided } = this.record.codes;
     const { width, height } = canvas;
     const image = new ImageData(width, height);
     const out = new Uint32Array(image.data.buffer);
@@ -126,9 +124,9 @@ export class HeadingSlider {
       const count = info.count[k];
       const all = Math.max(1, count.reduce((a, b) => a + b, 0));
       let y = height, sum = 0;
-      for (const verdict of order) {
+      for (const verdict of order) {  // from below
         sum += count[verdict];
-        const top = verdict === Code.undecided ? 0 : Math.round(height * (1 - sum / all));
+        const top = verdict === undecided ? 0 : Math.round(height * (1 - sum / all));
         while (y > top) {
           --y;
           out[y * width + x] = pixels[verdict * size * size + y % size * size + x % size];

@@ -1,7 +1,7 @@
 // Codes and how they look: every picture of cells is an array of codes and a tile of pixels for
 // each code, a ground colour with a pattern on it. Colours and patterns are those of the pictures.
 import type { Numbers, Arrays } from "./arrays";
-import { Code, no_value, RegionCode, type PageRecord, type VerdictStyle } from "./record";
+import { no_value, RegionCode, type PageRecord, type VerdictStyle } from "./record";
 
 export interface CodeLayer {
   codes: Uint8Array;
@@ -78,9 +78,12 @@ export function unreachableLook(record: PageRecord): Look {
   return { ground: unreachable, pen: unreachable_pattern, pen_px: 0.9, rising: true };
 }
 
-/** Codes 0..6 of the verdict layers. */
+/** By the codes of the verdict layers; there are none between the verdicts' and the others. */
 export function verdictLooks(record: PageRecord): Look[] {
-  return [...record.styles.verdict.map(lookOf), obstacleLook(record), goalLook(record)];
+  const looks = record.styles.verdict.map(lookOf);
+  looks[record.codes.obstacle] = obstacleLook(record);
+  looks[record.codes.target] = goalLook(record);
+  return looks;
 }
 
 // Cost: ramp steps of free cells, the same of buffer cells, then obstacle, goal, unreachable.
@@ -126,11 +129,17 @@ export function shareLooks(record: PageRecord, kind: number): Look[] {
   return [...record.styles.share[kind].map((ground) => ({ ground })), obstacleLook(record), goalLook(record)];
 }
 
+/** The codes of each of share_kinds. */
+export function verdictsOfKind({ codes }: PageRecord, kind: number): number[] {
+  return [[codes.reach], codes.failing, [codes.undecided]][kind];
+}
+
 /** How many of the headings are of a kind, for each sample. */
-export function headingsOfKind(count: Uint8Array, samples: number, kind: number): Uint16Array {
+export function headingsOfKind(record: PageRecord, count: Uint8Array, kind: number): Uint16Array {
+  const { nx, ny } = record.verdicts!;
+  const samples = nx * ny;
   const of = new Uint16Array(samples);
-  const verdicts = kind === 0 ? [Code.reach] : kind === 1 ? [Code.collide, Code.leave, Code.trapped] : [Code.undecided];
-  for (const v of verdicts) {
+  for (const v of verdictsOfKind(record, kind)) {
     for (let i = 0; i < samples; ++i) of[i] += count[v * samples + i];
   }
   return of;
@@ -139,11 +148,12 @@ export function headingsOfKind(count: Uint8Array, samples: number, kind: number)
 export function shareLayer(record: PageRecord, first: Uint8Array, count: Uint8Array, kind: number): CodeLayer {
   const info = record.verdicts!;
   const headings = info.heading_rad.length;
-  const of = headingsOfKind(count, info.nx * info.ny, kind);
+  const { obstacle, target } = record.codes;
+  const of = headingsOfKind(record, count, kind);
   const codes = new Uint8Array(of.length);
   for (let i = 0; i < codes.length; ++i) {
     const n = of[i];
-    codes[i] = first[i] >= Code.obstacle ? first[i] + 1
+    codes[i] = first[i] === obstacle ? share_classes.length : first[i] === target ? share_classes.length + 1
       : n === 0 ? 0 : n === headings ? 5 : 8 * n <= headings ? 1 : 2 * n <= headings ? 2 : 8 * n <= 7 * headings ? 3 : 4;
   }
   return { codes, nx: info.nx, ny: info.ny, cells: info.cells_per_sample };

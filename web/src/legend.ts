@@ -2,9 +2,7 @@
 import { byId, el, grouped, percent, short } from "./dom";
 import { paintSample } from "./base_map";
 import { share_classes, share_kinds, type Tiles } from "./layers";
-import { Code, no_value, type PageRecord } from "./record";
-
-const verdict_order = [Code.reach, Code.collide, Code.leave, Code.trapped, Code.undecided];
+import { no_value, type PageRecord } from "./record";
 
 function entries(items: { code: number; name: string; number?: string }[], tiles: Tiles): { list: HTMLElement; paint: () => void } {
   const samples: [HTMLCanvasElement, number][] = [];
@@ -20,10 +18,10 @@ export function showVerdictLegend(record: PageRecord, tiles: Tiles, heading: num
   const info = record.verdicts!;
   const count = info.count[heading];
   const all = Math.max(1, count.reduce((a, b) => a + b, 0));
-  const words: Record<number, string> = { [Code.trapped]: "proved: circles forever", [Code.undecided]: "undecided" };
+  const { order, undecided, obstacle, target } = record.codes;
   const { list, paint } = entries([
-    ...verdict_order.map((code) => ({ code: code as number, name: words[code] ?? `proved: ${record.styles.verdict[code].name}`, number: percent(count[code] / all) })),
-    { code: Code.obstacle, name: "obstacle" }, { code: Code.target, name: "target" }], tiles);
+    ...order.map((code) => ({ code, name: (code === undecided ? "" : "proved: ") + record.styles.verdict[code].words, number: percent(count[code] / all) })),
+    { code: obstacle, name: "obstacle" }, { code: target, name: "target" }], tiles);
   const per = info.cells_per_sample;
   const each = per === 1 ? "each cell" : `one cell in each block of ${per} × ${per}`;
   byId("legend").replaceChildren(list, el("p", {},
@@ -36,7 +34,8 @@ export function showVerdictLegend(record: PageRecord, tiles: Tiles, heading: num
 export function updateVerdictLegend(record: PageRecord, heading: number): void {
   const count = record.verdicts!.count[heading];
   const all = Math.max(1, count.reduce((a, b) => a + b, 0));
-  document.querySelectorAll("#legend .num").forEach((number, k) => { number.textContent = percent(count[verdict_order[k]] / all); });
+  const { order } = record.codes;
+  document.querySelectorAll("#legend .num").forEach((number, k) => { number.textContent = percent(count[order[k]] / all); });
 }
 
 export function showShareLegend(record: PageRecord, tiles: Tiles, kind: number): void {

@@ -1,7 +1,7 @@
 // The engine behind the page, when `fairway view` serves it: a place and a heading are flown and
 // judged at once, and a pose is steered to.
 import { byId, degrees, el, headingWords, short } from "./dom";
-import { drawVehicle, strokeTrack, Track, type Pose } from "./flights";
+import { drawVehicle, lineOf, strokeTrack, Track, type Pose } from "./flights";
 import type { PageRecord } from "./record";
 import type { Viewport } from "./viewport";
 
@@ -59,7 +59,7 @@ class LiveTool implements Live {
   private turned = false;
   private track: Track | null = null;
   private leg: Track | null = null;
-  private outcome = "reach";
+  private outcome = "reach";  // whose line the track has
   private readonly latest = new Latest();
   private readonly answer = el("div", { class: "answer", "aria-live": "polite" });
   private readonly fields = new Map<string, HTMLInputElement>();
@@ -230,7 +230,7 @@ class LiveTool implements Live {
       context.strokeStyle = "rgb(255 255 255 / 85%)";
       context.lineWidth = 5.5;
       context.stroke();
-      strokeTrack(context, view, track, this.outcome, 2.6);
+      strokeTrack(context, view, track, lineOf(this.record, this.outcome), 2.6);
     }
     if (this.goal && this.mode === "steer") drawVehicle(context, view, this.goal, "#00694b", 11);
     if (this.start && this.mode !== "look") drawVehicle(context, view, this.start, "#16202c", 11);

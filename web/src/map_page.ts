@@ -109,8 +109,7 @@ export class MapPage implements MapHands {
   async needCounts(): Promise<void> {
     if (this.reaching || !this.verdicts) return;
     const [first, all] = await Promise.all([this.verdicts.ask(0), this.arrays.array("verdict_count")]);
-    const { nx, ny } = this.record.verdicts!;
-    this.reaching = headingsOfKind(all as Uint8Array, nx * ny, 0);
+    this.reaching = headingsOfKind(this.record, all as Uint8Array, 0);
     this.share_layers = share_kinds.map((_, kind) => shareLayer(this.record, first, all as Uint8Array, kind));
   }
 

@@ -1,9 +1,7 @@
 // What was found, in words and figures: facts, volumes, assumptions, digests.
 import { byId, el, fitted, grouped, percent, short, term } from "./dom";
 import type { Tiles } from "./layers";
-import { Code, type PageRecord } from "./record";
-
-const verdict_order = [Code.reach, Code.collide, Code.leave, Code.trapped, Code.undecided];
+import type { PageRecord } from "./record";
 
 function missionWords(record: PageRecord): string {
   const { mission } = record;
@@ -24,11 +22,13 @@ export function showFacts(record: PageRecord): void {
   const facts: HTMLElement[] = [];
   const fact = (name: string, ...value: (Node | string)[]) => facts.push(term(name, ...value));
   if (verify.volume_fraction) {
-    fact("of safe-start states with a command proved to reach", percent(verify.volume_fraction_free_commanded.reach, 2));
-    fact("of all states proved to reach", percent(verify.volume_fraction.reach, 2));
-    const failing = verify.volume_fraction.collide + verify.volume_fraction.leave + verify.volume_fraction.trapped;
-    fact("of all states proved to fail", percent(failing, 2));
-    fact("undecided", percent(verify.volume_fraction.undecided, 2));
+    const { reach, failing, undecided } = record.codes;
+    const share = (shares: Record<string, number>, ...codes: number[]) =>
+      percent(codes.reduce((sum, code) => sum + shares[record.styles.verdict[code].name], 0), 2);
+    fact("of safe-start states with a command proved to reach", share(verify.volume_fraction_free_commanded, reach));
+    fact("of all states proved to reach", share(verify.volume_fraction, reach));
+    fact("of all states proved to fail", share(verify.volume_fraction, ...failing));
+    fact("undecided", share(verify.volume_fraction, undecided));
     if (verify.worst_time_s > 0) fact("longest bound to reach, sampled", verify.worst_time_s.toFixed(1), el("small", {}, " s"));
   }
   const random = summary.random_flights;
@@ -51,18 +51,19 @@ export function showVolumes(record: PageRecord, tiles: Tiles): void {
     rows.push(["All states", verify.volume_fraction], ["Safe starts", verify.volume_fraction_free],
       ["Safe starts with a command", verify.volume_fraction_free_commanded], ["Buffer about obstacles", verify.volume_fraction_buffer]);
   }
+  const { order, undecided } = record.codes;
   const paints: (() => void)[] = [];
   byId("volumes").replaceChildren(...rows.map(([name, share]) => {
-    const canvas = el("canvas", { role: "img", "aria-label": `${name}: ` + verdict_order.map((v) => `${percent(share[record.styles.verdict[v].name], 2)} ${record.styles.verdict[v].name}`).join(", ") });
+    const canvas = el("canvas", { role: "img", "aria-label": `${name}: ` + order.map((v) => `${percent(share[record.styles.verdict[v].name], 2)} ${record.styles.verdict[v].name}`).join(", ") });
     paints.push(() => {
       fitted(canvas);
       const image = new ImageData(canvas.width, canvas.height);
       const out = new Uint32Array(image.data.buffer);
       const { size, pixels } = tiles;
       let from = 0, sum = 0;
-      for (const v of verdict_order) {
+      for (const v of order) {
         sum += share[record.styles.verdict[v].name];
-        const to = v === Code.undecided ? canvas.width : Math.round(sum * canvas.width);
+        const to = v === undecided ? canvas.width : Math.round(sum * canvas.width);
         for (let x = from; x < to; ++x) {
           for (let y = 0; y < canvas.height; ++y) out[y * canvas.width + x] = pixels[v * size * size + y % size * size + x % size];
         }
@@ -70,18 +71,13 @@ export function showVolumes(record: PageRecord, tiles: Tiles): void {
       }
       canvas.getContext("2d")!.putImageData(image, 0, 0);
     });
-    const words = verdict_order.filter((v) => share[record.styles.verdict[v].name] > 0)
+    const words = order.filter((v) => share[record.styles.verdict[v].name] > 0)
       .map((v) => `${percent(share[record.styles.verdict[v].name], 2)} ${record.styles.verdict[v].name}`).join(" · ");
     return el("div", { class: "volume" }, el("b", {}, name), canvas, el("span", {}, words));
   }));
   paints.forEach((paint) => paint());
 }
 
-const assumed = [
-  "The vehicle follows the model: constant speed, exact turns at the turning radius towards the commanded heading, exact position and heading. No wind, no delay.",
-  "The map is static and right; an obstacle is the cells that the plan calls so.",
-  "The processor computes IEEE 754 doubles and the compiler does not reorder floating-point operations.",
-];
 const shown = [
   "A verdict on the map is that of one sampled state of a cell at one heading: proved for that very state by the certificate, the same answer that a query of it gives.",
   "Shares of volume are measured on sampled states, each asked of the certificate; the certificate itself speaks of every state.",
@@ -96,7 +92,7 @@ export function showTrust(record: PageRecord): void {
     : verify.checked ? "fairway-check, a separate program that shares no code with the prover, re-proved the certificate."
     : "The certificate was not re-proved by the separate program in this run.";
   byId("trust").replaceChildren(
-    el("h3", {}, "What is assumed"), list(assumed),
+    el("h3", {}, "What is assumed"), list(record.assumptions),
     el("h3", {}, "What is shown"), list(record.verdicts ? shown : shown.slice(2)),
     el("h3", {}, "Who checked it"), list([checked]));
 }

@@ -170,8 +170,8 @@ export class Overlay {
     context.globalAlpha = selected >= 0 ? 0.22 : many ? 0.6 : 0.9;
     for (const [k, flight] of flights.entries()) {
       if (k === selected) continue;
-      strokeTrack(context, view, flight.track, flight.record.outcome, many ? 1 : 1.6);
-      if (flight.leg) strokeTrack(context, view, flight.leg, "reach", many ? 1 : 1.6);
+      strokeTrack(context, view, flight.track, flight.line, many ? 1 : 1.6);
+      if (flight.leg) strokeTrack(context, view, flight.leg, flight.leg_line, many ? 1 : 1.6);
     }
     context.globalAlpha = 1;
     const one = flights[selected];
@@ -182,8 +182,8 @@ export class Overlay {
     context.strokeStyle = "rgb(255 255 255 / 80%)";
     context.lineWidth = 5;
     context.stroke();
-    strokeTrack(context, view, one.track, one.record.outcome, 2.4);
-    if (one.leg) strokeTrack(context, view, one.leg, "reach", 2.4);
+    strokeTrack(context, view, one.track, one.line, 2.4);
+    if (one.leg) strokeTrack(context, view, one.leg, one.leg_line, 2.4);
   }
 }
 

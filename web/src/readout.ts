@@ -1,7 +1,7 @@
 // What plan and certificate say of the place under the cross.
 import { byId, headingWords, short, term } from "./dom";
 import { headingOfCode, type FieldArrays } from "./overlay";
-import { Code, no_value, RegionCode, valueIndex, type PageRecord } from "./record";
+import { no_value, RegionCode, valueIndex, type PageRecord } from "./record";
 
 const region_names = ["buffer", "safe start", "obstacle", "target"];
 
@@ -20,9 +20,9 @@ function verdictTerms(record: PageRecord, cell: Cell, verdicts: ShownVerdicts): 
   const info = record.verdicts!;
   const sample = Math.floor(cell[1] / info.cells_per_sample) * info.nx + Math.floor(cell[0] / info.cells_per_sample);
   const code = verdicts.codes[sample];
-  if (code >= Code.obstacle) return [];
+  if (code === record.codes.obstacle || code === record.codes.target) return [];
   const name = record.styles.verdict[code].name;
-  const terms = [term(`verdict at ${headingWords(verdicts.heading_rad)}`, code === Code.undecided ? name : `proved: ${name}`)];
+  const terms = [term(`verdict at ${headingWords(verdicts.heading_rad)}`, code === record.codes.undecided ? name : `proved: ${name}`)];
   if (verdicts.reaching) terms.push(term("headings that reach", `${verdicts.reaching[sample]} of ${info.heading_rad.length}`));
   return terms;
 }

@@ -3,7 +3,19 @@
 export interface GridShape { nx: number; ny: number; x0_m: number; y0_m: number; cell_m: number }
 
 export interface VerdictStyle {
-  name: string; ground: string; pen: string; pen_pt: number; dotted: boolean; rising: boolean; falling: boolean;
+  name: string; words: string; ground: string; pen: string; pen_pt: number; dotted: boolean; rising: boolean; falling: boolean;
+}
+
+export interface Line { color: string; dash: number[] }
+
+/** Codes of the array `verdict`: those of verdicts, and those of cells without states. */
+export interface Codes {
+  reach: number;
+  failing: number[];
+  undecided: number;
+  order: number[];  // in which verdicts are listed, undecided the last
+  obstacle: number;
+  target: number;
 }
 
 export interface FlightRecord {
@@ -38,22 +50,22 @@ export interface PageRecord {
   mission: Mission;
   cost_step_m: number;
   styles: {
-    verdict: VerdictStyle[];
+    verdict: VerdictStyle[];  // [code]
+    outcome: Record<string, Line>;  // by the outcome's name
     cost_ramp: string[];
     share: string[][];
     series: string[];
     obstacle: string; buffer: string; buffer_pattern: string; free: string;
     goal: string; goal_pattern: string; unreachable: string; unreachable_pattern: string;
   };
+  codes: Codes;
   verdicts: VerdictInfo | null;
   flights: FlightRecord[];
   flights_left_out: Record<string, number>;
   words: string[];
+  assumptions: string[];  // of every proof
   summary: Record<string, any>;
 }
-
-/** Codes of fairway/verify/verdict.hpp, and those of cells without states. */
-export const enum Code { undecided = 0, reach = 1, collide = 2, leave = 3, trapped = 4, obstacle = 5, target = 6 }
 
 /** Codes of the array `region`: those of a plan file plus 1. */
 export const enum RegionCode { buffer = 0, free = 1, obstacle = 2, goal = 3 }
@@ -68,6 +80,6 @@ export const no_value = 65535;
 
 export function recordOfPage(): PageRecord {
   const record = JSON.parse(document.getElementById("record")!.textContent!) as PageRecord;
-  if (record.format_version !== 1) throw new Error(`this page holds data of format ${record.format_version}, not 1`);
+  if (record.format_version !== 2) throw new Error(`this page holds data of format ${record.format_version}, not 2`);
   return record;
 }

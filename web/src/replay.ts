@@ -1,7 +1,7 @@
 // The flights of the run: a table to choose from, and their replay in time.
 import { Charts } from "./charts";
 import { byId, degrees, el, short } from "./dom";
-import { drawVehicle, lineOf, strokeTrack, type ShownFlight } from "./flights";
+import { drawVehicle, strokeTrack, type ShownFlight } from "./flights";
 import type { PageRecord } from "./record";
 import type { Viewport } from "./viewport";
 
@@ -54,9 +54,9 @@ export class Replay {
       return tr;
     };
     this.rows = [row(-1, "all", `${this.flights.length} flights`, "", "")];
-    for (const [k, { record: flight }] of this.flights.entries()) {
+    for (const [k, { record: flight, line }] of this.flights.entries()) {
       const mark = el("span", { class: "mark" });
-      mark.style.background = lineOf(flight.outcome).color;
+      mark.style.background = line.color;
       const [x, y, h] = flight.start;
       this.rows.push(row(k, el("span", {}, mark, flight.outcome, " ", el("small", {}, groups[flight.group] ?? flight.group)),
         `${place(x)}, ${place(y)}, ${Math.round(degrees(h)) % 360}°`,
@@ -130,14 +130,14 @@ export class Replay {
   /** Vehicles where they are now, with the way they have come. */
   draw(context: CanvasRenderingContext2D, view: Viewport): void {
     if (this.time_s <= 0) return;
-    for (const { track, leg, record } of this.shown) {
+    for (const { track, line, leg, leg_line } of this.shown) {
       const on_leg = leg !== null && this.time_s > track.duration_s;
       if (this.selected >= 0 || this.flights.length <= 12) {
-        strokeTrack(context, view, track, record.outcome, 3, this.time_s);
-        if (on_leg) strokeTrack(context, view, leg, "reach", 3, this.time_s - track.duration_s);
+        strokeTrack(context, view, track, line, 3, this.time_s);
+        if (on_leg) strokeTrack(context, view, leg, leg_line, 3, this.time_s - track.duration_s);
       }
       const pose = on_leg ? leg.poseAt(this.time_s - track.duration_s) : track.poseAt(this.time_s);
-      drawVehicle(context, view, pose, lineOf(record.outcome).color, this.selected >= 0 ? 11 : 7);
+      drawVehicle(context, view, pose, line.color, this.selected >= 0 ? 11 : 7);
     }
   }
 }

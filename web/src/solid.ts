@@ -4,18 +4,14 @@ import { BufferAttribute, BufferGeometry, CanvasTexture, Color, DoubleSide, Line
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { oneOf } from "./choices";
 import { byId, cssVariable, el, headingWords, pixelRatio } from "./dom";
-import type { VerdictLayers } from "./layers";
-import { Code, type PageRecord } from "./record";
+import { verdictsOfKind, type VerdictLayers } from "./layers";
+import type { PageRecord } from "./record";
 import { boundary } from "./solid_mesh";
 
 const most_across = 128;
 const height = 0.62;  // of the longer side of the map
 
-const bodies: { name: string; has: (code: number) => boolean; code: number }[] = [
-  { name: "reach", has: (code) => code === Code.reach, code: Code.reach },
-  { name: "fail", has: (code) => code === Code.collide || code === Code.leave || code === Code.trapped, code: Code.collide },
-  { name: "undecided", has: (code) => code === Code.undecided, code: Code.undecided },
-];
+const body_names = ["reach", "fail", "undecided"] as const;  // as share_kinds has them
 
 class Solid {
   private readonly renderer: WebGLRenderer;
@@ -37,7 +33,9 @@ class Solid {
     const { nx, ny } = record.verdicts!;
     this.width = nx / Math.max(nx, ny);
     this.depth = ny / Math.max(nx, ny);
-    this.colors = [...record.styles.verdict.map((style) => style.ground), record.styles.obstacle, record.styles.goal_pattern];
+    this.colors = record.styles.verdict.map((style) => style.ground);
+    this.colors[record.codes.obstacle] = record.styles.obstacle;
+    this.colors[record.codes.target] = record.styles.goal_pattern;
     this.renderer = new WebGLRenderer({ antialias: true, alpha: true });
     this.renderer.setPixelRatio(pixelRatio());
     this.renderer.localClippingEnabled = true;
@@ -151,16 +149,17 @@ class Solid {
     const step = Math.ceil(Math.max(nx, ny) / most_across);
     const [mx, my, mz] = [Math.floor(nx / step), Math.floor(ny / step), heading_rad.length];
     const inside = new Uint8Array(mx * my * mz);
+    const verdicts = verdictsOfKind(this.record, kind);
     for (let k = 0; k < mz; ++k) {
       const codes = await this.layers.ask(k);
       for (let y = 0; y < my; ++y) {
         for (let x = 0; x < mx; ++x) {
-          if (bodies[kind].has(codes[(y * step + (step >> 1)) * nx + x * step + (step >> 1)])) inside[(k * my + y) * mx + x] = 1;
+          if (verdicts.includes(codes[(y * step + (step >> 1)) * nx + x * step + (step >> 1)])) inside[(k * my + y) * mx + x] = 1;
         }
       }
     }
     const quads = boundary({ nx: mx, ny: my, nz: mz, inside });
-    const color = new Color(this.colors[bodies[kind].code]);
+    const color = new Color(this.colors[verdicts[0]]);
     const position = quads.position;
     const tint = new Float32Array(position.length);
     const sx = this.width / mx, sy = this.depth / my, sz = height / mz;
@@ -197,9 +196,11 @@ class Solid {
     const z = height * (heading + 1) / this.layers.length;
     this.cutting.constant = z - 1e-4;
     this.slice.position.z = z;
-    const in_map = (code: number) => code >= Code.obstacle;
+    const { obstacle, target } = this.record.codes;
+    const verdicts = verdictsOfKind(this.record, this.kind);
+    const in_map = (code: number) => code === obstacle || code === target;
     // Of a thin body the cut shows the body alone, so that its inside can be seen.
-    this.paintCells(this.slice, codes, (code) => this.kind === 0 || in_map(code) && heading + 1 === this.layers.length || bodies[this.kind].has(code));
+    this.paintCells(this.slice, codes, (code) => this.kind === 0 || in_map(code) && heading + 1 === this.layers.length || verdicts.includes(code));
     this.paintCells(this.floor, codes, in_map);
     this.redraw();
   }
@@ -234,7 +235,7 @@ export function showSolid(record: PageRecord, layers: VerdictLayers): (heading: 
       box.replaceChildren(el("p", { class: "hint" }, "This browser gives no 3-D canvas (WebGL): the map above shows the same states, heading by heading."));
       return;
     }
-    const tools = oneOf(bodies.map((body) => body.name), "Which states", (kind) => void solid!.show(kind));
+    const tools = oneOf(body_names, "Which states", (kind) => void solid!.show(kind));
     tools.classList.add("solid-tools");
     const cut = el("input", { type: "range", min: 0, max: layers.length - 1, value: first_cut, "aria-label": "Heading of the cut" });
     const words = el("output", {}, "");
