@@ -1,4 +1,10 @@
 // Flights exactly through corners, and exactly along borders into them.
+//
+// Faults planted to see that they are caught, one at a time (motion.cpp), all by the first test:
+//   at_low or at_high never, swapped, or only beyond the corner; what touches a corner lost;
+//   flags lost of straight ways, with or without an arc or a command, of arcs to either hand, of
+//   either pair of sides; ties of events lost.
+// Change nothing told: corners of a way that skims (the side ahead tells the same).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -153,6 +153,56 @@ TEST(ExactFlight, collides_with_the_touch_of_a_corner) {
   }
 }
 
+TEST(ExactFlight, collides_with_either_cell_beyond_a_corner_it_flies_into_along_a_border) {
+  // Along a border into a corner, in all four directions; of the cells beyond one is an obstacle,
+  // the other is a goal cell.
+  for (const bool at_end : {false, true}) {
+    for (const int dx : {-1, 0, 1}) {
+      for (const int dy : {-1, 0, 1}) {
+        if ((dx == 0) == (dy == 0)) continue;  // exact in doubles
+        // The corner lies at (8, 8), or on the grid's edge ahead.
+        const Vec2 corner{at_end && dx != 0 ? 8.0 + 8.0 * dx : 8.0,
+                          at_end && dy != 0 ? 8.0 + 8.0 * dy : 8.0};
+        const Vec2 start = corner - Vec2{3.0 * dx, 3.0 * dy};
+        const double heading_rad = std::atan2(dy, dx);
+        for (const int ox : {-1, 0}) {
+          for (const int oy : {-1, 0}) {
+            Plan plan = plan_of(8, 8, 2.0, 5.0, [](Vec2) { return no_command; });
+            const Cell at{static_cast<int>(corner.x / 2.0), static_cast<int>(corner.y / 2.0)};
+            const Cell blocked{at.ix + ox, at.iy + oy};
+            // Not a cell that it flies through, or along, to the corner.
+            if ((dx > 0   ? ox < 0
+                 : dx < 0 ? ox == 0
+                 : dy > 0 ? oy < 0
+                          : oy == 0) &&
+                (dy > 0   ? oy < 0
+                 : dy < 0 ? oy == 0
+                 : dx > 0 ? ox < 0
+                          : ox == 0)) {
+              continue;
+            }
+            if (!plan.grid.contains(blocked)) continue;
+            for (const int gx : {-1, 0}) {
+              for (const int gy : {-1, 0}) {
+                const Cell goal{at.ix + gx, at.iy + gy};
+                const bool ahead =
+                    (dx == 0 || (dx > 0) == (gx == 0)) && (dy == 0 || (dy > 0) == (gy == 0));
+                if (ahead && plan.grid.contains(goal)) set_region(plan, goal, Region::goal);
+              }
+            }
+            set_region(plan, blocked, Region::obstacle);
+            const FlightResult result =
+                ExactFlights(plan).fly(state(start.x, start.y, heading_rad));
+            EXPECT_EQ(result.outcome, Outcome::collide)
+                << dx << " " << dy << " " << ox << " " << oy << " " << at_end;
+            EXPECT_NEAR(result.length_m, 3.0 * std::hypot(dx, dy), 1e-12);
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(ExactFlight, leaves_from_a_source) {
   const ExactFlights flights(plan_of(32, 32, 2.0, 5.0, [](Vec2 p) {
     return Heading::stored(std::atan2(p.y - 32.0, p.x - 32.0));

@@ -1,4 +1,24 @@
 // Flights through corners, and within cell_m / 2^34 of them, on purpose.
+//
+// Faults planted to see that they are caught, one at a time (section_flight.hpp,
+// cell_enclosure.hpp), and by which test:
+//   low, high corner not told, or swapped; only by the sole side,
+//     or only by one of several; of arcs, of turned-to commands,
+//     of sides across or along, of ends at targets, left out      tells_of_every_cell_around
+//   the cell beside, or across, not told, or on the wrong side    tells_of_every_cell_around
+//   an obstacle beside not told where a target lies across        tells_of_every_cell_around
+//   onwards test reversed, one-sided, or strict at 0              tells_of_every_cell_around
+//   onwards test dropped                                          tells_nothing_of_the_cell_beside
+//   the cell across not entered, or at a wrong place              tells_of_every_cell_around
+//   turning back whatever the heading, or along the border        tells_of_every_cell_around
+//   turning back over the border in it                            follows_a_heading_along
+//   turning back not seen                                         is_not_lost_in_cells
+//   reach of the corner 0; what lies at a corner lost             tells_of_every_cell_around
+//   flags of arcs or of straight departures lost, at either end   tells_of_every_cell_around
+//   flags lost for those who turn already, or hop                 tells_of_the_corner_that_a_hop
+//   the cell beyond a border run along not followed               follows_a_heading_along
+// Change nothing told: the grid's outside told of one of two cells (the other is outside, too);
+// corners of a departure that grazes (the side ahead tells the same).
 #include <gtest/gtest.h>
 
 #include <array>

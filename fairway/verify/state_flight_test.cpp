@@ -163,6 +163,27 @@ TEST(StateFlight, counts_contact_with_a_closed_obstacle_as_a_collision_even_head
   EXPECT_FALSE(tells(told_of(flow, 0.999999, 1.5, pi), Verdict::collide));
 }
 
+TEST(StateFlight, is_no_state_of_a_cell_that_its_heading_points_out_of) {
+  // On the border of a target, heading away: it has not reached it. On the grid's edge, heading in:
+  // it has not left.
+  Plan plan = empty_plan(3, 3, 1.0, 2.0);
+  plan.region[4] = Region::goal;
+  const PlanFlow plan_flow(plan);
+  for (const double tilt : {0.0, 0.6, -0.6}) {
+    for (const Vec2 p : {Vec2{1.0, 1.5}, Vec2{2.0, 1.5}, Vec2{1.5, 1.0}, Vec2{1.5, 2.0},
+                         Vec2{0.0, 1.5}, Vec2{3.0, 1.5}, Vec2{1.5, 0.0}, Vec2{1.5, 3.0}}) {
+      const bool at_edge = p.x == 0.0 || p.x == 3.0 || p.y == 0.0 || p.y == 3.0;
+      const double away = std::atan2(p.y - 1.5, p.x - 1.5) + (at_edge ? pi : 0.0) + tilt;
+      const Told told = told_of(plan_flow.flow(), p.x, p.y, Heading::from_rad(away).rad());
+      for (const Told::End& end : told.ends) {
+        EXPECT_GT(end.length_m, 0.0) << p.x << " " << p.y << " " << away << told.text();
+      }
+      const Told inwards = told_of(plan_flow.flow(), p.x, p.y, Heading::from_rad(away + pi).rad());
+      EXPECT_TRUE(tells(inwards, at_edge ? Verdict::leave : Verdict::reach)) << p.x << " " << p.y;
+    }
+  }
+}
+
 TEST(StateFlight, takes_places_and_headings_computed_in_doubles_for_what_they_stand_for) {
   // Borders at x0 + i d in doubles, for numbers that are not whole: an obstacle beyond is touched.
   Random random(3);
@@ -178,6 +199,14 @@ TEST(StateFlight, takes_places_and_headings_computed_in_doubles_for_what_they_st
     ASSERT_TRUE(tells(told_of(flow, flow.grid.x0_m + 3 * d, y, 0.1), Verdict::collide)) << d;
     ASSERT_TRUE(tells(told_of(flow, flow.grid.x0_m + flow.grid.nx * d, y, 0.1), Verdict::leave))
         << d;
+    Plan upright = empty_plan(2, 5, d, 50.0);
+    upright.grid.y0_m = plan.grid.x0_m;
+    upright.region[4] = upright.region[5] = Region::obstacle;
+    const PlanFlow upright_flow(upright);
+    const Flow up = upright_flow.flow();
+    ASSERT_TRUE(tells(told_of(up, y, up.grid.y0_m + 2 * d, -1.4), Verdict::collide)) << d;
+    ASSERT_TRUE(tells(told_of(up, y, up.grid.y0_m + 3 * d, 1.4), Verdict::collide)) << d;
+    ASSERT_TRUE(tells(told_of(up, y, up.grid.y0_m + up.grid.ny * d, 1.4), Verdict::leave)) << d;
   }
   // A heading opposite to the command in doubles: both turns. Left leaves by the left, right by the
   // right half.
