@@ -146,5 +146,18 @@ TEST(PointFlight, leaves_borders_ties_and_cells_as_large_as_the_radius_to_others
   EXPECT_EQ(told.arrivals.size(), 1U);
 }
 
+TEST(PointFlight, is_not_sure_within_the_margin_of_a_corner) {
+  Plan plan = empty_plan(4, 4, 1.0, 2.0);
+  plan.heading_rad.assign(plan.grid.size(), NAN);
+  const PlanFlow plan_flow(plan);
+  for (const double off : {0x1p-15, -0x1p-15, 0x1p-20, 0x1p-40, 0.0}) {
+    Told told;
+    EXPECT_FALSE(follow_point(plan_flow.flow(), 1.5 + off, 1.5, pi / 4, told)) << off;
+    EXPECT_FALSE(follow_point(plan_flow.flow(), 1.5 + off, 1.5, -3 * pi / 4, told)) << off;
+  }
+  Told told;
+  EXPECT_TRUE(follow_point(plan_flow.flow(), 1.5 + 0x1p-10, 1.5, pi / 4, told));
+}
+
 }  // namespace
 }  // namespace fairway
