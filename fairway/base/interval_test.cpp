@@ -72,7 +72,7 @@ bool is_tight(Interval x) {
   return x.width() <= 4.0 * (std::max(std::abs(x.lo), std::abs(x.hi)) * 0x1p-52 + 0x1p-1000);
 }
 
-TEST(Interval, holds_the_exact_sum_difference_product_and_quotient_of_members) {
+TEST(Interval, HoldsTheExactSumDifferenceProductAndQuotientOfMembers) {
   Random random(1);
   for (int i = 0; i < 40000; ++i) {
     const Interval a = interval(random);
@@ -96,7 +96,7 @@ TEST(Interval, holds_the_exact_sum_difference_product_and_quotient_of_members) {
   }
 }
 
-TEST(Interval, is_no_wider_than_its_error_bound) {
+TEST(Interval, IsNoWiderThanItsErrorBound) {
   Random random(2);
   for (int i = 0; i < 10000; ++i) {
     const Interval a(number(random));
@@ -113,7 +113,7 @@ TEST(Interval, is_no_wider_than_its_error_bound) {
   }
 }
 
-TEST(Interval, holds_exact_squares_and_roots) {
+TEST(Interval, HoldsExactSquaresAndRoots) {
   Random random(3);
   for (int i = 0; i < 40000; ++i) {
     const Interval a = interval(random);
@@ -128,7 +128,7 @@ TEST(Interval, holds_exact_squares_and_roots) {
   }
 }
 
-TEST(Interval, moves_a_double_by_more_than_its_rounding) {
+TEST(Interval, MovesADoubleByMoreThanItsRounding) {
   Random random(4);
   for (int i = 0; i < 40000; ++i) {
     const double x = number(random);
@@ -138,7 +138,7 @@ TEST(Interval, moves_a_double_by_more_than_its_rounding) {
   }
 }
 
-TEST(Interval, says_a_sign_is_certain_only_when_it_is) {
+TEST(Interval, SaysASignIsCertainOnlyWhenItIs) {
   EXPECT_FALSE(Interval(0.0).positive());
   EXPECT_FALSE(Interval(0.0).negative());
   EXPECT_FALSE(Interval(-0.0, 0x1p-1074).positive());
@@ -159,7 +159,7 @@ void expect_unit(double rad) {
   ASSERT_LE(u.y.width(), 2e-15) << rad;
 }
 
-TEST(Interval, holds_sines_and_cosines_of_any_heading) {
+TEST(Interval, HoldsSinesAndCosinesOfAnyHeading) {
   Random random(5);
   for (const double axis : {0.0, pi / 4, pi / 2, 3 * pi / 4, pi, 0x1p-1, 0x1p-30, 1e-300}) {
     for (const double rad : {axis, -axis}) {
@@ -177,7 +177,7 @@ TEST(Interval, holds_sines_and_cosines_of_any_heading) {
   }
 }
 
-TEST(Interval, takes_the_doubles_nearest_to_the_axes_for_the_axes_too) {
+TEST(Interval, TakesTheDoublesNearestToTheAxesForTheAxesToo) {
   EXPECT_TRUE(unit_enclosure(pi / 2).x.contains(0.0));
   EXPECT_TRUE(unit_enclosure(-pi / 2).x.contains(0.0));
   EXPECT_TRUE(unit_enclosure(pi).y.contains(0.0));
@@ -188,7 +188,7 @@ TEST(Interval, takes_the_doubles_nearest_to_the_axes_for_the_axes_too) {
   EXPECT_TRUE(unit_enclosure(std::nextafter(pi / 2, 0.0)).x.positive());
 }
 
-TEST(Interval, crosses_and_dots_sets_of_vectors) {
+TEST(Interval, CrossesAndDotsSetsOfVectors) {
   Random random(6);
   for (int i = 0; i < 20000; ++i) {
     const IntervalVec2 a{interval(random), interval(random)};

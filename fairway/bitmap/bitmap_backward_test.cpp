@@ -76,7 +76,7 @@ std::vector<BorderState> states_of(const BorderBitmap& set) {
   return states;
 }
 
-TEST(BackwardReachableSet, is_that_of_the_iterative_expansion_bit_for_bit) {
+TEST(BackwardReachableSet, IsThatOfTheIterativeExpansionBitForBit) {
   Random random(11);
   int mixed = 0;
   for (int draw = 0; draw < 120; ++draw) {
@@ -93,7 +93,7 @@ TEST(BackwardReachableSet, is_that_of_the_iterative_expansion_bit_for_bit) {
   EXPECT_GT(mixed, 30);
 }
 
-TEST(BackwardReachableSet, is_the_same_for_any_number_of_threads) {
+TEST(BackwardReachableSet, IsTheSameForAnyNumberOfThreads) {
   Random random(5);
   const Plan plan = plan_of(24, 24, 2.5, [&](Vec2 p) {
     return std::atan2(12.0 - p.y, 12.0 - p.x) + random.uniform(-1.2, 1.2);
@@ -109,7 +109,7 @@ TEST(BackwardReachableSet, is_the_same_for_any_number_of_threads) {
   for (const std::size_t threads : {2, 3, 8}) EXPECT_EQ(with_threads(threads), alone);
 }
 
-TEST(BackwardReachableSet, keeps_m_squared_bits_for_each_inner_border) {
+TEST(BackwardReachableSet, KeepsMSquaredBitsForEachInnerBorder) {
   const Plan plan = plan_of(20, 20, 2.5, [](Vec2) { return 0.0; });
   const BorderBitmap set = backward_reachable_set(plan, only(plan, {{19, 10}}), {200});
   EXPECT_EQ(set.borders().count() * set.states_per_border(), 30'400'000U);
@@ -141,7 +141,7 @@ Plan off_axes(Plan plan) {
   return plan;
 }
 
-TEST(BackwardReachableSet, turns_with_the_plan) {
+TEST(BackwardReachableSet, TurnsWithThePlan) {
   Random random(17);
   const int m = 24;
   for (int draw = 0; draw < 20; ++draw) {
@@ -170,7 +170,7 @@ TEST(BackwardReachableSet, turns_with_the_plan) {
   }
 }
 
-TEST(BackwardReachableSet, is_mirrored_with_the_plan) {
+TEST(BackwardReachableSet, IsMirroredWithThePlan) {
   Random random(19);
   const int m = 24;
   for (int draw = 0; draw < 20; ++draw) {
@@ -196,7 +196,7 @@ TEST(BackwardReachableSet, is_mirrored_with_the_plan) {
   }
 }
 
-TEST(BackwardReachableSet, of_a_uniform_field_is_known_in_closed_form) {
+TEST(BackwardReachableSet, OfAUniformFieldIsKnownInClosedForm) {
   // All turn east, then fly on to the last column, unless the turn leads out of the grid.
   const int n = 12;
   const double r = 2.5;
@@ -221,7 +221,7 @@ TEST(BackwardReachableSet, of_a_uniform_field_is_known_in_closed_form) {
   EXPECT_GT(missed, 100'000);
 }
 
-TEST(BackwardReachableSet, a_vortex_never_reaches_its_middle_from_outside) {
+TEST(BackwardReachableSet, AVortexNeverReachesItsMiddleFromOutside) {
   const int n = 24;
   const double r = 2.0;
   const auto middle = [](Vec2 p) { return Vec2{p.x - 12.0, p.y - 12.0}; };
@@ -239,7 +239,7 @@ TEST(BackwardReachableSet, a_vortex_never_reaches_its_middle_from_outside) {
   }
 }
 
-TEST(BackwardReachableSet, a_source_is_reached_from_no_farther_than_a_turn_away) {
+TEST(BackwardReachableSet, ASourceIsReachedFromNoFartherThanATurnAway) {
   const auto middle = [](Vec2 p) { return Vec2{p.x - 8.0, p.y - 8.0}; };
   const double r = 2.0;
   const Plan plan =
@@ -254,7 +254,7 @@ TEST(BackwardReachableSet, a_source_is_reached_from_no_farther_than_a_turn_away)
   }
 }
 
-TEST(BackwardReachableSet, two_opposing_half_planes_lead_along_their_border) {
+TEST(BackwardReachableSet, TwoOpposingHalfPlanesLeadAlongTheirBorder) {
   // Weaving east: every hop leaves by the border it came in by.
   const Plan plan = plan_of(12, 6, 3.0, [](Vec2 p) { return p.y > 3.0 ? -1.0 : 1.0; });
   const auto target = only(plan, {{11, 2}, {11, 3}});
@@ -276,7 +276,7 @@ TEST(BackwardReachableSet, two_opposing_half_planes_lead_along_their_border) {
   EXPECT_GT(returns, 100);
 }
 
-TEST(BackwardReachableSet, of_nothing_is_empty_and_of_everything_is_everything) {
+TEST(BackwardReachableSet, OfNothingIsEmptyAndOfEverythingIsEverything) {
   Random random(23);
   for (int draw = 0; draw < 20; ++draw) {
     const Plan plan = random_plan(random);
@@ -288,7 +288,7 @@ TEST(BackwardReachableSet, of_nothing_is_empty_and_of_everything_is_everything) 
   }
 }
 
-TEST(BackwardReachableSet, of_one_cell_has_no_border) {
+TEST(BackwardReachableSet, OfOneCellHasNoBorder) {
   const Plan plan = plan_of(1, 1, 2.0, [](Vec2) { return 0.5; });
   const BorderBitmap set = backward_reachable_set(plan, {1}, {8});
   EXPECT_EQ(set.borders().count(), 0U);
@@ -296,7 +296,7 @@ TEST(BackwardReachableSet, of_one_cell_has_no_border) {
   EXPECT_EQ(set.share_reached(), 0.0);
 }
 
-TEST(BackwardReachableSet, an_obstacle_in_the_way_is_not_reached_unless_it_is_the_region) {
+TEST(BackwardReachableSet, AnObstacleInTheWayIsNotReachedUnlessItIsTheRegion) {
   Plan plan = plan_of(5, 1, 2.0, [](Vec2) { return 0.0; });
   plan.region[2] = Region::obstacle;
   plan.region[4] = Region::goal;
@@ -314,7 +314,7 @@ TEST(BackwardReachableSet, an_obstacle_in_the_way_is_not_reached_unless_it_is_th
   EXPECT_FALSE(due_east(hits, 2));
 }
 
-TEST(BackwardReachableSet, refuses_what_does_not_fit) {
+TEST(BackwardReachableSet, RefusesWhatDoesNotFit) {
   Plan plan = plan_of(3, 3, 2.0, [](Vec2) { return 0.0; });
   const std::vector<std::uint8_t> target(9, 1);
   EXPECT_THROW(static_cast<void>(backward_reachable_set(plan, {1, 0}, {8})), PreconditionViolation);

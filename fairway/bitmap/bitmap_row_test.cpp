@@ -73,7 +73,7 @@ void compare(const BitmapSamples& samples, const Direction& command, double r, T
   }
 }
 
-TEST(BitmapRow, agrees_with_exact_motion_snapped_to_samples) {
+TEST(BitmapRow, AgreesWithExactMotionSnappedToSamples) {
   Random random(7);
   Tally tally;
   for (const int m : {4, 12, 40, 100}) {
@@ -88,7 +88,7 @@ TEST(BitmapRow, agrees_with_exact_motion_snapped_to_samples) {
   EXPECT_LT(tally.close_calls, tally.same / 100'000);
 }
 
-TEST(BitmapRow, agrees_with_exact_motion_for_commands_along_axes_and_diagonals_and_for_none) {
+TEST(BitmapRow, AgreesWithExactMotionForCommandsAlongAxesAndDiagonalsAndForNone) {
   Tally tally;
   for (const int m : {8, 52}) {
     const BitmapSamples samples(m);
@@ -107,7 +107,7 @@ TEST(BitmapRow, agrees_with_exact_motion_for_commands_along_axes_and_diagonals_a
   EXPECT_GT(tally.same, 100'000);
 }
 
-TEST(BitmapRow, commands_that_are_samples_themselves_and_their_opposites) {
+TEST(BitmapRow, CommandsThatAreSamplesThemselvesAndTheirOpposites) {
   Tally tally;
   const BitmapSamples samples(24);
   for (int k = 0; k < samples.count(); ++k) {
@@ -118,7 +118,7 @@ TEST(BitmapRow, commands_that_are_samples_themselves_and_their_opposites) {
   EXPECT_GT(tally.same, 10'000);
 }
 
-TEST(BitmapSamples, the_sector_of_a_heading_holds_it) {
+TEST(BitmapSamples, TheSectorOfAHeadingHoldsIt) {
   Random random(3);
   for (const int m : {4, 8, 20, 200, 1000, 8192}) {
     const BitmapSamples samples(m);
@@ -136,7 +136,7 @@ TEST(BitmapSamples, the_sector_of_a_heading_holds_it) {
   }
 }
 
-TEST(BitmapSamples, axes_are_ends_of_sectors_and_belong_to_the_sector_counter_clockwise) {
+TEST(BitmapSamples, AxesAreEndsOfSectorsAndBelongToTheSectorCounterClockwise) {
   const BitmapSamples samples(20);
   EXPECT_EQ(samples.heading_bin({1.0, 0.0}), 0);
   EXPECT_EQ(samples.heading_bin({0.0, 1.0}), 5);
@@ -144,7 +144,7 @@ TEST(BitmapSamples, axes_are_ends_of_sectors_and_belong_to_the_sector_counter_cl
   EXPECT_EQ(samples.heading_bin({0.0, -1.0}), 15);
 }
 
-TEST(BitmapSamples, turned_and_mirrored_samples_are_samples_bit_for_bit) {
+TEST(BitmapSamples, TurnedAndMirroredSamplesAreSamplesBitForBit) {
   const int m = 52;
   const BitmapSamples samples(m);
   for (int k = 0; k < m; ++k) {
@@ -154,7 +154,7 @@ TEST(BitmapSamples, turned_and_mirrored_samples_are_samples_bit_for_bit) {
   }
 }
 
-TEST(BitmapSamples, refuses_counts_that_put_samples_on_axes) {
+TEST(BitmapSamples, RefusesCountsThatPutSamplesOnAxes) {
   for (const int m : {0, -4, 2, 6, 7, 8196}) EXPECT_ANY_THROW(BitmapSamples{m}) << m;
 }
 

@@ -34,7 +34,7 @@ Plan swirl(int n) {
   return plan;
 }
 
-TEST(VolumeShare, agrees_with_exact_flights_from_anywhere) {
+TEST(VolumeShare, AgreesWithExactFlightsFromAnywhere) {
   const Plan plan = swirl(20);
   const auto target = target_cells(plan.grid, plan.region, {});
   const BorderBitmap set = backward_reachable_set(plan, target, {200});
@@ -56,7 +56,7 @@ TEST(VolumeShare, agrees_with_exact_flights_from_anywhere) {
   EXPECT_LT(contradictions, draws / 200);  // samples prove nothing; they come close
 }
 
-TEST(VolumeShare, is_that_of_a_loop_over_draws_and_the_same_for_any_number_of_threads) {
+TEST(VolumeShare, IsThatOfALoopOverDrawsAndTheSameForAnyNumberOfThreads) {
   const Plan plan = swirl(12);
   const auto target = target_cells(plan.grid, plan.region, {});
   const BorderBitmap set = backward_reachable_set(plan, target, {40});
@@ -74,7 +74,7 @@ TEST(VolumeShare, is_that_of_a_loop_over_draws_and_the_same_for_any_number_of_th
   EXPECT_NEAR(one.reached, other.reached, 6.0 * one.standard_error);
 }
 
-TEST(VolumeShare, of_a_grid_without_open_cells_is_nothing) {
+TEST(VolumeShare, OfAGridWithoutOpenCellsIsNothing) {
   Plan plan = swirl(2);
   plan.region.assign(4, Region::obstacle);
   const auto target = target_cells(plan.grid, plan.region, {});
@@ -83,7 +83,7 @@ TEST(VolumeShare, of_a_grid_without_open_cells_is_nothing) {
   EXPECT_EQ(volume_share_reached(plan, target, set, 100).draws, 0U);
 }
 
-TEST(BitmapLookup, answers_for_region_obstacle_and_outside_without_a_flight) {
+TEST(BitmapLookup, AnswersForRegionObstacleAndOutsideWithoutAFlight) {
   const Plan plan = swirl(12);
   const auto target = target_cells(plan.grid, plan.region, {});
   const BorderBitmap set = backward_reachable_set(plan, target, {8});
@@ -94,7 +94,7 @@ TEST(BitmapLookup, answers_for_region_obstacle_and_outside_without_a_flight) {
   EXPECT_FALSE(lookup.reaches({{std::nan(""), 20.0}, {}}));
 }
 
-TEST(BitmapLookup, refuses_a_bitmap_of_another_grid) {
+TEST(BitmapLookup, RefusesABitmapOfAnotherGrid) {
   const Plan plan = swirl(12);
   const Plan other = swirl(11);
   const auto target = target_cells(plan.grid, plan.region, {});

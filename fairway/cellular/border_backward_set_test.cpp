@@ -79,7 +79,7 @@ void compare(Vec2 p, const Direction& command, const CellShape& shape, int headi
   }
 }
 
-TEST(BackwardHeadings, of_points_inside_agree_with_exact_motion_for_all_borders) {
+TEST(BackwardHeadings, OfPointsInsideAgreeWithExactMotionForAllBorders) {
   Random random(41);
   Agreement agreement;
   for (int draw = 0; draw < 4000; ++draw) {
@@ -92,7 +92,7 @@ TEST(BackwardHeadings, of_points_inside_agree_with_exact_motion_for_all_borders)
   EXPECT_LT(agreement.near_ends, agreement.agree / 1000);
 }
 
-TEST(BackwardHeadings, of_points_on_borders_agree_with_exact_motion_for_all_borders) {
+TEST(BackwardHeadings, OfPointsOnBordersAgreeWithExactMotionForAllBorders) {
   Random random(43);
   Agreement agreement;
   for (int draw = 0; draw < 4000; ++draw) {
@@ -105,7 +105,7 @@ TEST(BackwardHeadings, of_points_on_borders_agree_with_exact_motion_for_all_bord
   EXPECT_GT(agreement.agree, 1'000'000);
 }
 
-TEST(BackwardHeadings, without_a_command_are_the_directions_to_the_border) {
+TEST(BackwardHeadings, WithoutACommandAreTheDirectionsToTheBorder) {
   Random random(47);
   Agreement agreement;
   for (int draw = 0; draw < 500; ++draw) {
@@ -117,7 +117,7 @@ TEST(BackwardHeadings, without_a_command_are_the_directions_to_the_border) {
   EXPECT_GT(agreement.agree, 50'000);
 }
 
-TEST(BackwardHeadings, of_the_four_borders_share_out_the_circle) {
+TEST(BackwardHeadings, OfTheFourBordersShareOutTheCircle) {
   Random random(53);
   for (int draw = 0; draw < 5000; ++draw) {
     const CellShape shape = drawn_shape(random);
@@ -131,7 +131,7 @@ TEST(BackwardHeadings, of_the_four_borders_share_out_the_circle) {
   }
 }
 
-TEST(BackwardHeadings, for_a_backward_command_can_be_empty) {
+TEST(BackwardHeadings, ForABackwardCommandCanBeEmpty) {
   // Eq. 11: r hardly larger than d, low in the cell, command down: the top is out of reach ...
   const CellShape tight{1.0, 1.05};
   EXPECT_TRUE(backward_headings({0.5, 0.1}, direction(-pi / 2), tight, Side::top).empty());
@@ -141,7 +141,7 @@ TEST(BackwardHeadings, for_a_backward_command_can_be_empty) {
   EXPECT_FALSE(backward_headings({0.5, 0.9}, direction(-pi / 2), tight, Side::top).empty());
 }
 
-TEST(BackwardHeadings, empty_sets_are_met_for_backward_commands_only) {
+TEST(BackwardHeadings, EmptySetsAreMetForBackwardCommandsOnly) {
   Random random(59);
   int empty = 0;
   for (int draw = 0; draw < 20'000; ++draw) {
@@ -157,7 +157,7 @@ TEST(BackwardHeadings, empty_sets_are_met_for_backward_commands_only) {
   EXPECT_GT(empty, 20);
 }
 
-TEST(BackwardHeadings, for_a_backward_command_close_about_the_opposite_heading) {
+TEST(BackwardHeadings, ForABackwardCommandCloseAboutTheOppositeHeading) {
   // Seen from the middle the range holds the heading opposite to the command, where left turns
   // begin and right turns end (the second interval of Fig. 7).
   const HeadingSet set = backward_headings({0.5, 0.5}, direction(-pi / 2), {1.0, 3.0}, Side::top);
@@ -165,7 +165,7 @@ TEST(BackwardHeadings, for_a_backward_command_close_about_the_opposite_heading) 
   EXPECT_NEAR(set.ranges[0].middle_rad(), pi / 2, 1e-12);
 }
 
-TEST(BackwardHeadings, back_to_the_border_of_entry_are_split_in_two) {
+TEST(BackwardHeadings, BackToTheBorderOfEntryAreSplitInTwo) {
   const CellShape shape{1.0, 2.5};
   const HeadingSet set =
       backward_headings_on_border(Side::bottom, 0.4, direction(-pi / 2), shape, Side::bottom);
@@ -180,7 +180,7 @@ TEST(BackwardHeadings, back_to_the_border_of_entry_are_split_in_two) {
   EXPECT_FALSE(set.holds(-0.1));  // does not enter
 }
 
-TEST(BackwardHeadings, on_borders_are_those_that_enter) {
+TEST(BackwardHeadings, OnBordersAreThoseThatEnter) {
   Random random(61);
   int split = 0;
   for (int draw = 0; draw < 2000; ++draw) {
@@ -208,7 +208,7 @@ TEST(BackwardHeadings, on_borders_are_those_that_enter) {
   EXPECT_GT(split, 100);
 }
 
-TEST(BackwardHeadings, turn_with_the_cell) {
+TEST(BackwardHeadings, TurnWithTheCell) {
   Random random(67);
   for (int draw = 0; draw < 2000; ++draw) {
     const CellShape shape = drawn_shape(random);
@@ -228,7 +228,7 @@ TEST(BackwardHeadings, turn_with_the_cell) {
   }
 }
 
-TEST(BackwardHeadings, through_a_corner_are_those_of_equations_4_to_6) {
+TEST(BackwardHeadings, ThroughACornerAreThoseOfEquations4To6) {
   // The centres of Eq. 4 (upper sign: to the right of the way), the rotations of Eqs. 5 and 6.
   const double r = 2.5;
   const Vec2 p{0.3, 0.2};
@@ -248,7 +248,7 @@ TEST(BackwardHeadings, through_a_corner_are_those_of_equations_4_to_6) {
   EXPECT_NEAR(std::remainder(with_right.ranges[0].from_rad - by_right, two_pi), 0.0, 1e-12);
 }
 
-TEST(BackwardHeadings, through_a_corner_and_straight_are_those_of_equations_8_to_10_made_right) {
+TEST(BackwardHeadings, ThroughACornerAndStraightAreThoseOfEquations8To10MadeRight) {
   // Eq. 9 for a point above the line: its root is right for commands heading east, and the printed
   // atan2 is already rotated by a quarter turn: no further pi / 2.
   const double d = 1.0;
@@ -270,7 +270,7 @@ TEST(BackwardHeadings, through_a_corner_and_straight_are_those_of_equations_8_to
   EXPECT_GT(std::abs(std::remainder(from - printed - pi / 2, two_pi)), 1.0);
 }
 
-TEST(BackwardHeadings, through_the_left_corner_take_the_other_root_of_equation_9) {
+TEST(BackwardHeadings, ThroughTheLeftCornerTakeTheOtherRootOfEquation9) {
   // The end of the left turn lies ahead of p: to the west, when the command heads west.
   const double d = 1.0;
   const double r = 2.5;
@@ -290,7 +290,7 @@ TEST(BackwardHeadings, through_the_left_corner_take_the_other_root_of_equation_9
   EXPECT_GT(std::abs(std::remainder(to - heading((-beta + root) / 2), two_pi)), 0.1);  // as printed
 }
 
-TEST(BackwardHeadings, refuse_points_outside_and_wide_cells) {
+TEST(BackwardHeadings, RefusePointsOutsideAndWideCells) {
   const CellShape shape{1.0, 2.0};
   EXPECT_THROW(static_cast<void>(backward_headings({1.1, 0.5}, direction(0), shape, Side::top)),
                PreconditionViolation);

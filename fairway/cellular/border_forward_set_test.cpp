@@ -30,7 +30,7 @@ double drawn_command(Random& random) {
   return random.below(4) == 0 ? axis : random.uniform(-pi, pi);
 }
 
-TEST(ForwardHeadings, hold_every_exit_of_exact_motion) {
+TEST(ForwardHeadings, HoldEveryExitOfExactMotion) {
   Random random(71);
   std::array<std::array<int, 4>, 4> met{};
   for (int draw = 0; draw < 600'000; ++draw) {
@@ -100,7 +100,7 @@ std::optional<CellState> start_before(Side entry, Side exit, Vec2 q, double head
   return std::nullopt;
 }
 
-TEST(ForwardHeadings, are_all_flown) {
+TEST(ForwardHeadings, AreAllFlown) {
   Random random(73);
   int inside = 0;
   int commands = 0;
@@ -149,7 +149,7 @@ TEST(ForwardHeadings, are_all_flown) {
   EXPECT_GT(commands, 200);
 }
 
-TEST(ForwardHeadings, at_the_top_under_a_forward_command_are_those_of_figure_10) {
+TEST(ForwardHeadings, AtTheTopUnderAForwardCommandAreThoseOfFigure10) {
   const CellShape shape{1.0, 2.5};
   const double at = 0.5;
   const auto arc = [&](double corner_x, double turn) {  // exit heading of the arc from a corner
@@ -183,7 +183,7 @@ TEST(ForwardHeadings, at_the_top_under_a_forward_command_are_those_of_figure_10)
   expect(0.5 * (left_r + pi), left_l, left_r);        // c5
 }
 
-TEST(ForwardHeadings, are_a_single_heading_where_only_aligned_paths_arrive) {
+TEST(ForwardHeadings, AreASingleHeadingWhereOnlyAlignedPathsArrive) {
   // Fig. 10c: with a tight turn, right arcs end below the command and left ones above it.
   const CellShape shape{1.0, 1.1};
   const HeadingSet set = forward_headings(Side::bottom, Side::top, 0.5, direction(1.56), shape);
@@ -192,7 +192,7 @@ TEST(ForwardHeadings, are_a_single_heading_where_only_aligned_paths_arrive) {
   EXPECT_NEAR(set.ranges[0].from_rad, 1.56, 1e-12);
 }
 
-TEST(ForwardHeadings, split_in_two_for_backward_commands) {
+TEST(ForwardHeadings, SplitInTwoForBackwardCommands) {
   const CellShape shape{1.0, 2.5};
   const HeadingSet set = forward_headings(Side::bottom, Side::top, 0.5, direction(-pi / 2), shape);
   ASSERT_EQ(set.count, 2U);                           // Fig. 12c
@@ -202,7 +202,7 @@ TEST(ForwardHeadings, split_in_two_for_backward_commands) {
   EXPECT_FALSE(set.holds(pi / 2));
 }
 
-TEST(ForwardHeadings, can_be_empty_for_backward_commands) {
+TEST(ForwardHeadings, CanBeEmptyForBackwardCommands) {
   // The third region of Fig. 11: no left arc begins as far left as the opposite heading, no right
   // arc as far right.
   const auto from_below = [](double r) {
@@ -224,7 +224,7 @@ TEST(ForwardHeadings, can_be_empty_for_backward_commands) {
   EXPECT_GT(empty, 10);
 }
 
-TEST(ForwardHeadings, of_right_turns_on_the_right_border_end_at_equation_16) {
+TEST(ForwardHeadings, OfRightTurnsOnTheRightBorderEndAtEquation16) {
   // Fig. 20: the lower set exists up to y_max = r (1 + sin(theta_cp - pi / 2)).
   const double r = 2.0;
   const double opposite = 0.4;
@@ -237,7 +237,7 @@ TEST(ForwardHeadings, of_right_turns_on_the_right_border_end_at_equation_16) {
   EXPECT_EQ(ranges_at(y_max - 1e-6), ranges_at(y_max + 1e-6) + 1);
 }
 
-TEST(ForwardHeadings, turn_with_the_cell) {
+TEST(ForwardHeadings, TurnWithTheCell) {
   Random random(83);
   for (int draw = 0; draw < 3000; ++draw) {
     const CellShape shape = drawn_shape(random);
@@ -258,7 +258,7 @@ TEST(ForwardHeadings, turn_with_the_cell) {
   }
 }
 
-TEST(ForwardHeadings, refuse_points_beyond_the_border) {
+TEST(ForwardHeadings, RefusePointsBeyondTheBorder) {
   EXPECT_THROW(
       static_cast<void>(forward_headings(Side::bottom, Side::top, 1.01, direction(0), {1.0, 2.0})),
       PreconditionViolation);

@@ -26,7 +26,7 @@ Flight quarter_and_straight() {
   return flight;
 }
 
-TEST(FlightFiles, writes_a_line_per_start_that_reads_back_as_the_same_doubles) {
+TEST(FlightFiles, WritesALinePerStartThatReadsBackAsTheSameDoubles) {
   Random random(3);
   std::vector<State> starts;
   std::vector<FlightResult> results;
@@ -42,7 +42,7 @@ TEST(FlightFiles, writes_a_line_per_start_that_reads_back_as_the_same_doubles) {
   EXPECT_NE(text.find(",trapped,inf,0.1\n"), std::string::npos);
 }
 
-TEST(FlightFiles, samples_trajectories_no_farther_apart_than_asked) {
+TEST(FlightFiles, SamplesTrajectoriesNoFartherApartThanAsked) {
   const std::vector<Flight> flights{quarter_and_straight()};
   std::istringstream lines(trajectories_csv(flights, 4.0, 1.0));
   std::string line;
@@ -84,7 +84,7 @@ Flight with_final_leg() {
   return flight;
 }
 
-TEST(FlightFiles, marks_the_final_leg_that_follows_a_flight) {
+TEST(FlightFiles, MarksTheFinalLegThatFollowsAFlight) {
   const Flight flight = with_final_leg();
   std::istringstream lines(trajectories_csv(std::vector{flight}, 4.0, 1.0));
   std::string line;
@@ -111,7 +111,7 @@ TEST(FlightFiles, marks_the_final_leg_that_follows_a_flight) {
   EXPECT_NEAR(row[3], 21.0, 1e-12);
 }
 
-TEST(FlightFiles, geojson_has_the_final_legs_after_all_flights) {
+TEST(FlightFiles, GeojsonHasTheFinalLegsAfterAllFlights) {
   Flight refused = quarter_and_straight();
   refused.final_leg.state = FinalLegState::none_clear;
   const auto json = nlohmann::json::parse(
@@ -129,7 +129,7 @@ TEST(FlightFiles, geojson_has_the_final_legs_after_all_flights) {
   EXPECT_EQ(features[3]["geometry"]["coordinates"], (nlohmann::json{{11.0, 17.0}, {11.0, 21.0}}));
 }
 
-TEST(FlightFiles, writes_geojson_that_parses_in_metres_and_in_degrees) {
+TEST(FlightFiles, WritesGeojsonThatParsesInMetresAndInDegrees) {
   Flight trapped = quarter_and_straight();
   trapped.result = {Outcome::trapped, infinity, infinity};
   Flight at_once;

@@ -43,7 +43,7 @@ double distance_m(Vec2 p, const std::vector<FlightPoint>& line) {
   return least_m;
 }
 
-TEST(Track, keeps_points_no_farther_apart_than_asked_from_start_to_end) {
+TEST(Track, KeepsPointsNoFartherApartThanAskedFromStartToEnd) {
   Random random(7);
   for (int draw = 0; draw < 50; ++draw) {
     const Flight flight = wandering(random, 1 + draw % 9);
@@ -60,7 +60,7 @@ TEST(Track, keeps_points_no_farther_apart_than_asked_from_start_to_end) {
   }
 }
 
-TEST(Track, thinned_stays_within_the_tolerance_of_every_point_of_the_flight) {
+TEST(Track, ThinnedStaysWithinTheToleranceOfEveryPointOfTheFlight) {
   Random random(11);
   for (int draw = 0; draw < 60; ++draw) {
     const Flight flight = wandering(random, 1 + draw % 12);
@@ -76,14 +76,14 @@ TEST(Track, thinned_stays_within_the_tolerance_of_every_point_of_the_flight) {
   }
 }
 
-TEST(Track, a_whole_circle_is_more_than_its_end_points) {
+TEST(Track, AWholeCircleIsMoreThanItsEndPoints) {
   Flight flight;
   flight.segments = {{flight.start, 0.0, two_pi * 10.0, 0.1}};
   EXPECT_GE(thinned_track(flight, speed_mps, 1.0).size(), 6U);
   EXPECT_GE(thinned_track(flight, speed_mps, 1000.0).size(), 2U);
 }
 
-TEST(Track, straight_lines_need_their_ends_alone) {
+TEST(Track, StraightLinesNeedTheirEndsAlone) {
   Flight flight;
   State at = flight.start;
   for (int i = 0; i < 20; ++i) {
@@ -93,7 +93,7 @@ TEST(Track, straight_lines_need_their_ends_alone) {
   EXPECT_EQ(thinned_track(flight, speed_mps, 0.01).size(), 2U);
 }
 
-TEST(Track, goes_on_along_the_last_leg) {
+TEST(Track, GoesOnAlongTheLastLeg) {
   Random random(13);
   const Flight all = wandering(random, 9);
   Flight flight = all;
@@ -104,7 +104,7 @@ TEST(Track, goes_on_along_the_last_leg) {
             thinned_track(all, speed_mps, 0.5).back().state);
 }
 
-TEST(Track, of_a_flight_without_pieces_is_its_start) {
+TEST(Track, OfAFlightWithoutPiecesIsItsStart) {
   Flight flight;
   flight.start = {{3.0, 4.0}, Heading::from_rad(1.0)};
   ASSERT_EQ(track_of(flight, speed_mps, 1.0).size(), 1U);

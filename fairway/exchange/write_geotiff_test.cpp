@@ -76,7 +76,7 @@ class WriteGeotiff : public ::testing::Test {
   ScratchFolder folder_;
 };
 
-TEST_F(WriteGeotiff, values_read_back_bit_for_bit) {
+TEST_F(WriteGeotiff, ValuesReadBackBitForBit) {
   Random random(5);
   for (int draw = 0; draw < 12; ++draw) {
     const Grid grid{1 + static_cast<int>(random.below(90)), 1 + static_cast<int>(random.below(70)),
@@ -109,7 +109,7 @@ TEST_F(WriteGeotiff, values_read_back_bit_for_bit) {
   }
 }
 
-TEST_F(WriteGeotiff, bytes_read_back_and_255_is_no_value) {
+TEST_F(WriteGeotiff, BytesReadBackAnd255IsNoValue) {
   const Grid grid{3, 2, 0.0, 0.0, 1.0};
   const std::vector<std::uint8_t> codes{0, 1, 2, 3, 4, 255};
   Opened file(write(grid, {}, {{"verdict", "", "", codes}}));
@@ -118,7 +118,7 @@ TEST_F(WriteGeotiff, bytes_read_back_and_255_is_no_value) {
   EXPECT_EQ(file.band(1).GetNoDataValue(nullptr), 255.0);
 }
 
-TEST_F(WriteGeotiff, a_map_in_degrees_lies_where_the_tangent_plane_puts_it) {
+TEST_F(WriteGeotiff, AMapInDegreesLiesWhereTheTangentPlanePutsIt) {
   Random random(6);
   for (int draw = 0; draw < 20; ++draw) {
     const GeodeticPoint reference{random.uniform(-70.0, 70.0), random.uniform(-179.0, 179.0)};
@@ -139,7 +139,7 @@ TEST_F(WriteGeotiff, a_map_in_degrees_lies_where_the_tangent_plane_puts_it) {
   }
 }
 
-TEST_F(WriteGeotiff, a_projected_map_keeps_its_system_and_its_coordinates) {
+TEST_F(WriteGeotiff, AProjectedMapKeepsItsSystemAndItsCoordinates) {
   OGRSpatialReference utm;
   utm.importFromEPSG(32632);
   char* wkt = nullptr;
@@ -168,7 +168,7 @@ TEST_F(WriteGeotiff, a_projected_map_keeps_its_system_and_its_coordinates) {
   EXPECT_FALSE(lon_lat_of({}, "plan"));
 }
 
-TEST_F(WriteGeotiff, a_turned_grid_has_a_turned_transform) {
+TEST_F(WriteGeotiff, ATurnedGridHasATurnedTransform) {
   Frame place;
   place.world_from_grid = {10.0, 20.0, pi / 6};
   const Grid grid{5, 4, 1.0, 2.0, 0.5};
@@ -185,7 +185,7 @@ TEST_F(WriteGeotiff, a_turned_grid_has_a_turned_transform) {
   EXPECT_EQ(file.dataset().GetSpatialRef()->GetLinearUnits(), 1.0);
 }
 
-TEST_F(WriteGeotiff, appears_whole_alone_and_the_same_each_time) {
+TEST_F(WriteGeotiff, AppearsWholeAloneAndTheSameEachTime) {
   const Grid grid{30, 20, 0.0, 0.0, 1.0};
   const std::vector<float> values(grid.size(), 3.0F);
   const std::vector<RasterBand> bands{{"x", "", "", values}};

@@ -62,7 +62,7 @@ class Exchange : public ::testing::Test {
   ScratchFolder folder_;
 };
 
-TEST_F(Exchange, a_plan_reads_back_from_its_raster_bit_for_bit) {
+TEST_F(Exchange, APlanReadsBackFromItsRasterBitForBit) {
   const Plan plan = plan_on(walled(somewhere));
   write_plan_raster(plan, folder_.file("p.tif"), Existing::keep);
   const std::vector<ReadBand> bands = bands_of(folder_.file("p.tif"), plan.grid);
@@ -83,7 +83,7 @@ TEST_F(Exchange, a_plan_reads_back_from_its_raster_bit_for_bit) {
   EXPECT_GT(unreachable, 0U);
 }
 
-TEST_F(Exchange, a_certificate_knows_where_its_plan_lies_and_reads_back) {
+TEST_F(Exchange, ACertificateKnowsWhereItsPlanLiesAndReadsBack) {
   const Plan plan = plan_on(walled(somewhere));
   CertifyOptions options;
   options.undecided_max = 0.5;
@@ -112,7 +112,7 @@ TEST_F(Exchange, a_certificate_knows_where_its_plan_lies_and_reads_back) {
   EXPECT_EQ(bands[1].name, "verdict at heading 2.0944 rad");
 }
 
-TEST_F(Exchange, verdicts_at_a_heading_are_queries_of_its_states) {
+TEST_F(Exchange, VerdictsAtAHeadingAreQueriesOfItsStates) {
   const Plan plan = plan_on(walled({}));
   CertifyOptions options;
   options.undecided_max = 0.5;
@@ -134,7 +134,7 @@ TEST_F(Exchange, verdicts_at_a_heading_are_queries_of_its_states) {
   }
 }
 
-TEST_F(Exchange, missions_read_back_as_lines_within_the_tolerance_of_the_flight) {
+TEST_F(Exchange, MissionsReadBackAsLinesWithinTheToleranceOfTheFlight) {
   const ObstacleMap map = walled(somewhere);
   const Plan plan = plan_on(map);
   const LonLatOf lon_lat = lon_lat_of(frame_in(plan.record), "plan");
@@ -164,7 +164,7 @@ TEST_F(Exchange, missions_read_back_as_lines_within_the_tolerance_of_the_flight)
   EXPECT_GE(read_back, 30);
 }
 
-TEST_F(Exchange, a_mission_has_the_parts_that_ground_stations_ask_for) {
+TEST_F(Exchange, AMissionHasThePartsThatGroundStationsAskFor) {
   const Plan plan = plan_on(walled(somewhere));
   const Flight flight = ExactFlights(plan).record({{-100.0, 60.0}, Heading::from_rad(0.0)});
   const LonLatOf lon_lat = lon_lat_of(frame_in(plan.record), "plan");
@@ -196,7 +196,7 @@ TEST_F(Exchange, a_mission_has_the_parts_that_ground_stations_ask_for) {
   EXPECT_THROW((void)qgc_waypoints_text(flight, 10.0, lon_lat, {1.0, 0.0}), PreconditionViolation);
 }
 
-TEST_F(Exchange, a_projected_plan_has_degrees_and_a_plan_of_nowhere_has_none) {
+TEST_F(Exchange, AProjectedPlanHasDegreesAndAPlanOfNowhereHasNone) {
   ObstacleMap map = walled({});
   EXPECT_FALSE(lon_lat_of(map.frame, "plan"));
   map.frame.projected_crs = wkt_of_epsg(32632);

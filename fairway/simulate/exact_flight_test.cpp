@@ -35,7 +35,7 @@ State state(double x, double y, double heading_rad) {
   return {{x, y}, Heading::from_rad(heading_rad)};
 }
 
-TEST(ExactFlight, crosses_a_uniform_field_to_the_edge_in_closed_form) {
+TEST(ExactFlight, CrossesAUniformFieldToTheEdgeInClosedForm) {
   const ExactFlights flights(plan_of(30, 20, 2.0, 5.0, [](Vec2) { return 0.0F; }));
   const FlightRun run = flights.run(state(10.0, 10.0, pi / 2));
   EXPECT_EQ(run.result.outcome, Outcome::leave);
@@ -45,7 +45,7 @@ TEST(ExactFlight, crosses_a_uniform_field_to_the_edge_in_closed_form) {
   EXPECT_NEAR(run.result.time_s, run.result.length_m / 10.0, 1e-14);
 }
 
-TEST(ExactFlight, never_reaches_in_a_circular_vortex) {
+TEST(ExactFlight, NeverReachesInACircularVortex) {
   // Leaning inwards by 0.3 rad, else the cells' constant headings carry the vehicle slowly out.
   const Plan plan = plan_of(64, 64, 2.0, 5.0, [](Vec2 p) {
     return Heading::stored(std::atan2(p.y - 64.0, p.x - 64.0) + pi / 2 + 0.3);
@@ -92,7 +92,7 @@ std::vector<State> random_starts(std::size_t count, double side_m, std::uint64_t
   return starts;
 }
 
-TEST(ExactFlight, ends_at_once_where_it_starts_outside_in_an_obstacle_or_in_the_goal) {
+TEST(ExactFlight, EndsAtOnceWhereItStartsOutsideInAnObstacleOrInTheGoal) {
   Plan plan = uniform_plan(0.0F);
   set_region(plan, {10, 10}, Region::obstacle);
   set_region(plan, {11, 10}, Region::goal);
@@ -118,14 +118,14 @@ TEST(ExactFlight, ends_at_once_where_it_starts_outside_in_an_obstacle_or_in_the_
   expect_at_once(state(41.0, 40.0, 0.0), Outcome::reach);  // along it: belongs to both
 }
 
-TEST(ExactFlight, stays_inside_when_it_starts_on_the_edge_heading_in_or_along) {
+TEST(ExactFlight, StaysInsideWhenItStartsOnTheEdgeHeadingInOrAlong) {
   const ExactFlights flights(uniform_plan(0.0F));
   EXPECT_EQ(flights.fly(state(0.0, 5.0, 0.0)).length_m, 64.0);
   EXPECT_EQ(flights.fly(state(4.0, 0.0, 0.0)).length_m, 60.0);
   EXPECT_EQ(flights.fly(state(4.0, 64.0, 0.0)).length_m, 60.0);
 }
 
-TEST(ExactFlight, leaves_at_once_when_it_starts_along_the_edge_and_is_commanded_out) {
+TEST(ExactFlight, LeavesAtOnceWhenItStartsAlongTheEdgeAndIsCommandedOut) {
   const ExactFlights up(plan_of(3, 3, 2.0, 5.0, [](Vec2) { return 1.0F; }));
   for (const State& start : {state(3.0, 6.0, 0.0), state(3.0, 6.0, pi), state(6.0, 3.0, pi / 2)}) {
     const FlightRun run = up.run(start);
@@ -136,7 +136,7 @@ TEST(ExactFlight, leaves_at_once_when_it_starts_along_the_edge_and_is_commanded_
   EXPECT_GT(up.run(state(3.0, 0.0, 0.0)).flown_m, 1.0) << "commanded in";
 }
 
-TEST(ExactFlight, collides_with_the_touch_of_a_corner) {
+TEST(ExactFlight, CollidesWithTheTouchOfACorner) {
   // Straight up the diagonal, no commands: between two obstacle cells that share a corner, and past
   // a single one.
   for (const bool both : {true, false}) {
@@ -153,7 +153,57 @@ TEST(ExactFlight, collides_with_the_touch_of_a_corner) {
   }
 }
 
-TEST(ExactFlight, leaves_from_a_source) {
+TEST(ExactFlight, CollidesWithEitherCellBeyondACornerItFliesIntoAlongABorder) {
+  // Along a border into a corner, in all four directions; of the cells beyond one is an obstacle,
+  // the other is a goal cell.
+  for (const bool at_end : {false, true}) {
+    for (const int dx : {-1, 0, 1}) {
+      for (const int dy : {-1, 0, 1}) {
+        if ((dx == 0) == (dy == 0)) continue;  // exact in doubles
+        // The corner lies at (8, 8), or on the grid's edge ahead.
+        const Vec2 corner{at_end && dx != 0 ? 8.0 + 8.0 * dx : 8.0,
+                          at_end && dy != 0 ? 8.0 + 8.0 * dy : 8.0};
+        const Vec2 start = corner - Vec2{3.0 * dx, 3.0 * dy};
+        const double heading_rad = std::atan2(dy, dx);
+        for (const int ox : {-1, 0}) {
+          for (const int oy : {-1, 0}) {
+            Plan plan = plan_of(8, 8, 2.0, 5.0, [](Vec2) { return no_command; });
+            const Cell at{static_cast<int>(corner.x / 2.0), static_cast<int>(corner.y / 2.0)};
+            const Cell blocked{at.ix + ox, at.iy + oy};
+            // Not a cell that it flies through, or along, to the corner.
+            if ((dx > 0   ? ox < 0
+                 : dx < 0 ? ox == 0
+                 : dy > 0 ? oy < 0
+                          : oy == 0) &&
+                (dy > 0   ? oy < 0
+                 : dy < 0 ? oy == 0
+                 : dx > 0 ? ox < 0
+                          : ox == 0)) {
+              continue;
+            }
+            if (!plan.grid.contains(blocked)) continue;
+            for (const int gx : {-1, 0}) {
+              for (const int gy : {-1, 0}) {
+                const Cell goal{at.ix + gx, at.iy + gy};
+                const bool ahead =
+                    (dx == 0 || (dx > 0) == (gx == 0)) && (dy == 0 || (dy > 0) == (gy == 0));
+                if (ahead && plan.grid.contains(goal)) set_region(plan, goal, Region::goal);
+              }
+            }
+            set_region(plan, blocked, Region::obstacle);
+            const FlightResult result =
+                ExactFlights(plan).fly(state(start.x, start.y, heading_rad));
+            EXPECT_EQ(result.outcome, Outcome::collide)
+                << dx << " " << dy << " " << ox << " " << oy << " " << at_end;
+            EXPECT_NEAR(result.length_m, 3.0 * std::hypot(dx, dy), 1e-12);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(ExactFlight, LeavesFromASource) {
   const ExactFlights flights(plan_of(32, 32, 2.0, 5.0, [](Vec2 p) {
     return Heading::stored(std::atan2(p.y - 32.0, p.x - 32.0));
   }));
@@ -176,7 +226,7 @@ double weave_length_m(double a, double width_m, double r) {
   return hops * 2.0 * r * a + r * (a - std::asin(std::sin(a) - rest / r));
 }
 
-TEST(ExactFlight, weaves_between_opposing_half_planes_in_closed_form) {
+TEST(ExactFlight, WeavesBetweenOpposingHalfPlanesInClosedForm) {
   const ExactFlights flights(weave_plan(0.5));
   for (const double a : {0.4, 0.1, 0.01, 1e-3, 1e-5}) {
     const FlightRun run = flights.run(state(0.0, 32.0, a));
@@ -185,7 +235,7 @@ TEST(ExactFlight, weaves_between_opposing_half_planes_in_closed_form) {
   }
 }
 
-TEST(ExactFlight, passes_the_finest_weaves_in_no_more_steps_than_cells_need) {
+TEST(ExactFlight, PassesTheFinestWeavesInNoMoreStepsThanCellsNeed) {
   const ExactFlights flights(weave_plan(0.5));
   for (const double a : {1e-6, 1e-9, 1e-12, 1e-15, 1e-18, 0.0}) {
     const FlightRun run = flights.run(state(0.0, 32.0, a), {0.0, 10000});
@@ -215,7 +265,7 @@ double length_hop_by_hop_m(const Plan& plan, Cell cell, CellState now) {
   return length_m;
 }
 
-TEST(ExactFlight, narrows_a_weave_to_ever_smaller_commands_without_losing_length) {
+TEST(ExactFlight, NarrowsAWeaveToEverSmallerCommandsWithoutLosingLength) {
   for (const double shrinking : {0.5, 1e-2, 1e-4, 1e-6}) {
     const Plan plan = plan_of(32, 32, 2.0, 5.0, [=](Vec2 p) {
       const double angle = 0.004 * std::pow(1.0 - shrinking, p.x / 2.0);
@@ -229,7 +279,7 @@ TEST(ExactFlight, narrows_a_weave_to_ever_smaller_commands_without_losing_length
   }
 }
 
-TEST(ExactFlight, slides_along_a_border_whose_cells_both_turn_towards_it) {
+TEST(ExactFlight, SlidesAlongABorderWhoseCellsBothTurnTowardsIt) {
   const ExactFlights flights(weave_plan(0.5));
   EXPECT_EQ(flights.fly(state(0.0, 32.0, 0.0)).length_m, 64.0);
   // Both turn away from it: it takes the cell on its left.
@@ -238,7 +288,7 @@ TEST(ExactFlight, slides_along_a_border_whose_cells_both_turn_towards_it) {
   EXPECT_GT(flight.segments.front().curvature_per_m, 0.0);
 }
 
-TEST(ExactFlight, turns_left_when_the_command_is_exactly_opposite) {
+TEST(ExactFlight, TurnsLeftWhenTheCommandIsExactlyOpposite) {
   const ExactFlights flights(uniform_plan(0.0F));
   const Flight flight = flights.record(state(32.0, 31.0, pi));
   EXPECT_GT(flight.segments.front().curvature_per_m, 0.0);
@@ -246,7 +296,7 @@ TEST(ExactFlight, turns_left_when_the_command_is_exactly_opposite) {
   EXPECT_NEAR(flight.segments.back().start.position_m.y, 21.0, 1e-12);
 }
 
-TEST(ExactFlight, changes_its_length_continuously_with_the_start) {
+TEST(ExactFlight, ChangesItsLengthContinuouslyWithTheStart) {
   Plan plan = uniform_plan(0.3F);
   const ExactFlights flights(plan);
   Random random(22);
@@ -261,7 +311,7 @@ TEST(ExactFlight, changes_its_length_continuously_with_the_start) {
   }
 }
 
-TEST(ExactFlight, flies_the_mirrored_plan_as_the_mirror_image) {
+TEST(ExactFlight, FliesTheMirroredPlanAsTheMirrorImage) {
   const ExactFlights flights(smooth_plan());
   const ExactFlights mirrored(smooth_plan(true));
   for (const State& start : random_starts(2000, 128.0, 23)) {
@@ -273,7 +323,7 @@ TEST(ExactFlight, flies_the_mirrored_plan_as_the_mirror_image) {
   }
 }
 
-TEST(ExactFlight, agrees_with_small_steps_of_the_differential_equation) {
+TEST(ExactFlight, AgreesWithSmallStepsOfTheDifferentialEquation) {
   const Plan plan = smooth_plan();
   const ExactFlights flights(plan);
   constexpr double step_m = 2e-4;
@@ -301,7 +351,7 @@ TEST(ExactFlight, agrees_with_small_steps_of_the_differential_equation) {
   EXPECT_LT(off_m[30], 2e-3);
 }
 
-TEST(ExactFlight, records_pieces_that_join_end_to_end_and_add_up) {
+TEST(ExactFlight, RecordsPiecesThatJoinEndToEndAndAddUp) {
   const ExactFlights flights(smooth_plan());
   for (const State& start : random_starts(300, 128.0, 25)) {
     const Flight flight = flights.record(start);
@@ -324,7 +374,7 @@ TEST(ExactFlight, records_pieces_that_join_end_to_end_and_add_up) {
   }
 }
 
-TEST(ExactFlight, follows_on_through_goal_cells_for_the_length_asked) {
+TEST(ExactFlight, FollowsOnThroughGoalCellsForTheLengthAsked) {
   Plan plan = uniform_plan(0.0F);
   set_region(plan, {10, 10}, Region::goal);
   const Flight flight = ExactFlights(plan).follow(state(5.0, 21.0, 0.0), 40.0);
@@ -334,7 +384,7 @@ TEST(ExactFlight, follows_on_through_goal_cells_for_the_length_asked) {
   EXPECT_EQ(flight.segments.front().length_m, 40.0);
 }
 
-TEST(ExactFlight, tells_a_repeating_state_from_a_limit) {
+TEST(ExactFlight, TellsARepeatingStateFromALimit) {
   // A command that turns with the vehicle can never be met: a full circle, again and again.
   const ExactFlights circling(plan_of(64, 64, 2.0, 5.0, [](Vec2 p) {
     return Heading::stored(std::atan2(p.y - 64.0, p.x - 64.0) + pi / 2 + 0.3);
@@ -346,7 +396,7 @@ TEST(ExactFlight, tells_a_repeating_state_from_a_limit) {
   EXPECT_EQ(circling.run(start, {0.0, 7}).result.outcome, Outcome::trapped);
 }
 
-TEST(ExactFlight, gives_the_same_results_on_any_number_of_threads) {
+TEST(ExactFlight, GivesTheSameResultsOnAnyNumberOfThreads) {
   const ExactFlights flights(smooth_plan());
   const std::vector<State> starts = random_starts(2000, 128.0, 26);
   const std::vector<FlightResult> together = flights.fly_all(starts);
@@ -361,7 +411,7 @@ TEST(ExactFlight, gives_the_same_results_on_any_number_of_threads) {
   }
 }
 
-TEST(ExactFlight, refuses_cells_not_smaller_than_the_turning_radius) {
+TEST(ExactFlight, RefusesCellsNotSmallerThanTheTurningRadius) {
   EXPECT_THROW(ExactFlights(plan_of(4, 4, 5.0, 5.0, [](Vec2) { return 0.0F; })),
                PreconditionViolation);
 }

@@ -26,7 +26,7 @@ TEST(FlightStatistics, CountsHowManyFlightsEndedHow) {
   EXPECT_EQ(count_outcomes({}).share(Outcome::reach), 0.0);
 }
 
-TEST(FlightStatistics, finds_the_nearest_point_of_a_path) {
+TEST(FlightStatistics, FindsTheNearestPointOfAPath) {
   const PathMission open{{{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}}, false};
   const PathPoint beside = nearest_on_path({4.0, 3.0}, open);
   EXPECT_EQ(beside.position_m, (Vec2{4.0, 0.0}));
@@ -42,7 +42,7 @@ TEST(FlightStatistics, finds_the_nearest_point_of_a_path) {
   EXPECT_NEAR(nearest_on_path({4.0, 6.0}, closed).distance_m, std::sqrt(2.0), 1e-15);
 }
 
-TEST(FlightStatistics, knows_the_goal_set_of_a_path) {
+TEST(FlightStatistics, KnowsTheGoalSetOfAPath) {
   const PathMission path{{{0.0, 0.0}, {100.0, 0.0}}, false, 10.0, 0.5};
   EXPECT_TRUE(on_path(state(50.0, 9.99, 0.49), path));
   EXPECT_FALSE(on_path(state(50.0, 10.0, 0.0), path));  // strictly
@@ -52,7 +52,7 @@ TEST(FlightStatistics, knows_the_goal_set_of_a_path) {
   EXPECT_FALSE(on_path(state(-10.0, 0.0, 0.0), path));
 }
 
-TEST(FlightStatistics, agrees_with_points_sampled_on_the_path) {
+TEST(FlightStatistics, AgreesWithPointsSampledOnThePath) {
   Random random(4);
   for (int i = 0; i < 300; ++i) {
     PathMission path;
@@ -88,7 +88,7 @@ TEST(FlightStatistics, agrees_with_points_sampled_on_the_path) {
   }
 }
 
-TEST(FlightStatistics, samples_a_flight_beside_its_path) {
+TEST(FlightStatistics, SamplesAFlightBesideItsPath) {
   Flight flight;
   flight.start = state(0.0, 3.0, 0.0);
   flight.segments = {{flight.start, 0.0, 30.0, 0.0}, {state(30.0, 3.0, 0.0), 3.0, 10.0, 0.0}};

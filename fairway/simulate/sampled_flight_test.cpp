@@ -32,7 +32,7 @@ State state(double x, double y, double heading_rad) {
   return {{x, y}, Heading::from_rad(heading_rad)};
 }
 
-TEST(SampledFlight, tends_to_the_exact_flight_as_the_control_period_shrinks) {
+TEST(SampledFlight, TendsToTheExactFlightAsTheControlPeriodShrinks) {
   Plan plan = plan_of([](Vec2 p) {
     const double to_goal = std::atan2(64.0 - p.y, 64.0 - p.x);
     return Heading::stored(to_goal + 0.5 * std::sin(p.x / 11.0));
@@ -71,7 +71,7 @@ TEST(SampledFlight, tends_to_the_exact_flight_as_the_control_period_shrinks) {
   EXPECT_LT(errors_m[2], 0.05);
 }
 
-TEST(SampledFlight, drifts_with_the_wind) {
+TEST(SampledFlight, DriftsWithTheWind) {
   const Plan plan = plan_of([](Vec2) { return std::nanf(""); });
   SampledOptions options;
   options.wind_mps = {-2.0, 3.0};
@@ -84,7 +84,7 @@ TEST(SampledFlight, drifts_with_the_wind) {
               1e-9);
 }
 
-TEST(SampledFlight, flies_a_trochoid_when_it_turns_in_the_wind) {
+TEST(SampledFlight, FliesATrochoidWhenItTurnsInTheWind) {
   const Plan plan = uniform_plan();
   SampledOptions options;
   options.law = CustomLaw([](const Measurement&) { return 1.0; });  // rad/s, circle of 10 m in air
@@ -100,7 +100,7 @@ TEST(SampledFlight, flies_a_trochoid_when_it_turns_in_the_wind) {
   }
 }
 
-TEST(SampledFlight, turns_at_its_limit_in_the_buffer_whatever_the_law) {
+TEST(SampledFlight, TurnsAtItsLimitInTheBufferWhateverTheLaw) {
   Plan plan = uniform_plan();
   SampledOptions options;
   options.law = CustomLaw([](const Measurement&) { return 0.0; });
@@ -112,7 +112,7 @@ TEST(SampledFlight, turns_at_its_limit_in_the_buffer_whatever_the_law) {
   EXPECT_EQ(buffer.samples.front().turn_rate_radps, -2.0);  // v / r to the right
 }
 
-TEST(SampledFlight, never_turns_faster_than_the_vehicle_can) {
+TEST(SampledFlight, NeverTurnsFasterThanTheVehicleCan) {
   const Plan plan = uniform_plan();
   SampledOptions options;
   options.law = SaturatedProportional{0.5};
@@ -126,7 +126,7 @@ TEST(SampledFlight, never_turns_faster_than_the_vehicle_can) {
   }
 }
 
-TEST(SampledFlight, blows_gusts_of_the_strength_and_memory_asked) {
+TEST(SampledFlight, BlowsGustsOfTheStrengthAndMemoryAsked) {
   const Plan plan = plan_of([](Vec2) { return std::nanf(""); });
   SampledOptions options;
   options.gust_mps = 1.5;
@@ -149,7 +149,7 @@ TEST(SampledFlight, blows_gusts_of_the_strength_and_memory_asked) {
   EXPECT_NEAR(lagged / square, std::exp(-1.0), 0.06);
 }
 
-TEST(SampledFlight, depends_on_seed_and_index_alone) {
+TEST(SampledFlight, DependsOnSeedAndIndexAlone) {
   const Plan plan = uniform_plan();
   SampledOptions options;
   options.position_noise_m = 1.0;
@@ -167,7 +167,7 @@ TEST(SampledFlight, depends_on_seed_and_index_alone) {
   EXPECT_NE(together[0].length_m, SampledFlights(plan, options).fly(starts[0], 0).length_m);
 }
 
-TEST(SampledFlight, sees_a_single_obstacle_cell_in_its_way) {
+TEST(SampledFlight, SeesASingleObstacleCellInItsWay) {
   Plan plan = plan_of([](Vec2) { return std::nanf(""); });
   plan.region[plan.grid.index({40, 32})] = Region::obstacle;
   SampledOptions options;
@@ -178,7 +178,7 @@ TEST(SampledFlight, sees_a_single_obstacle_cell_in_its_way) {
   EXPECT_EQ(SampledFlights(plan, options).fly(state(10.0, 66.3, 0.0), 0).outcome, Outcome::leave);
 }
 
-TEST(SampledFlight, refuses_options_out_of_range) {
+TEST(SampledFlight, RefusesOptionsOutOfRange) {
   const Plan plan = uniform_plan();
   SampledOptions options;
   options.control_period_s = 0.0;

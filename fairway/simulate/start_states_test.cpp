@@ -20,7 +20,7 @@ Plan patchwork() {
   return plan;
 }
 
-TEST(StartStates, lie_in_the_cells_asked_for) {
+TEST(StartStates, LieInTheCellsAskedFor) {
   const Plan plan = patchwork();
   for (const StartRegion where :
        {StartRegion::safe_start, StartRegion::flyable, StartRegion::not_obstacle}) {
@@ -40,7 +40,7 @@ TEST(StartStates, lie_in_the_cells_asked_for) {
   }
 }
 
-TEST(StartStates, cover_cells_and_headings_evenly) {
+TEST(StartStates, CoverCellsAndHeadingsEvenly) {
   const std::vector<State> states = random_states(patchwork(), StartRegion::flyable, 40000, 6);
   double mean_x = 0.0;
   double cosine = 0.0;
@@ -55,14 +55,14 @@ TEST(StartStates, cover_cells_and_headings_evenly) {
   EXPECT_NEAR(left, 20000, 500);
 }
 
-TEST(StartStates, begin_alike_whatever_their_number) {
+TEST(StartStates, BeginAlikeWhateverTheirNumber) {
   const std::vector<State> few = random_states(patchwork(), StartRegion::flyable, 10, 7);
   const std::vector<State> many = random_states(patchwork(), StartRegion::flyable, 100, 7);
   for (std::size_t i = 0; i < few.size(); ++i) EXPECT_EQ(few[i], many[i]);
   EXPECT_NE(few[0], random_states(patchwork(), StartRegion::flyable, 1, 8)[0]);
 }
 
-TEST(StartStates, are_none_when_there_is_no_such_cell) {
+TEST(StartStates, AreNoneWhenThereIsNoSuchCell) {
   Plan plan = patchwork();
   plan.region.assign(plan.grid.size(), Region::obstacle);
   EXPECT_TRUE(random_states(plan, StartRegion::not_obstacle, 10, 1).empty());

@@ -23,7 +23,7 @@ std::string refusal_of(std::string_view text) {
   return "";
 }
 
-TEST(StateFiles, reads_three_columns_with_and_without_a_header) {
+TEST(StateFiles, ReadsThreeColumnsWithAndWithoutAHeader) {
   const std::vector<State> expected{state(1.5, -2.0, 0.5), state(3.0, 4e2, -1.0)};
   EXPECT_EQ(states_of_csv("1.5,-2,0.5\n3,4e2,-1\n", "s.csv"), expected);
   EXPECT_EQ(states_of_csv("x_m,y_m,heading_rad\n1.5,-2,0.5\n3,4e2,-1", "s.csv"), expected);
@@ -33,13 +33,13 @@ TEST(StateFiles, reads_three_columns_with_and_without_a_header) {
             expected);
 }
 
-TEST(StateFiles, finds_the_columns_of_an_outcomes_file_by_name) {
+TEST(StateFiles, FindsTheColumnsOfAnOutcomesFileByName) {
   const auto states =
       states_of_csv("outcome,heading_rad,y_m,x_m\nreach,0.5,-2,1.5\ncollide,-1,400,3\n", "s.csv");
   EXPECT_EQ(states, (std::vector<State>{state(1.5, -2.0, 0.5), state(3.0, 400.0, -1.0)}));
 }
 
-TEST(StateFiles, reads_degrees_and_wraps) {
+TEST(StateFiles, ReadsDegreesAndWraps) {
   const auto states = states_of_csv("0,0,90deg\n0,0,-90 deg\n0,0,180deg\n0,0,540deg\n0,0,7\n", "s");
   EXPECT_EQ(states[0].heading.rad(), pi / 2);
   EXPECT_EQ(states[1].heading.rad(), -pi / 2);
@@ -48,7 +48,7 @@ TEST(StateFiles, reads_degrees_and_wraps) {
   EXPECT_DOUBLE_EQ(states[4].heading.rad(), 7.0 - two_pi);
 }
 
-TEST(StateFiles, says_where_and_what_is_wrong) {
+TEST(StateFiles, SaysWhereAndWhatIsWrong) {
   EXPECT_THAT(refusal_of("1,2,3\n1,2\n"), HasSubstr("s.csv:2: 2 fields: expected 3"));
   EXPECT_THAT(refusal_of("1,2,3\n\n1,two,3\n"), HasSubstr("s.csv:3: y_m is 'two': expected"));
   EXPECT_THAT(refusal_of("1,2,nan\n"), HasSubstr("s.csv:1: heading_rad is 'nan': expected"));
@@ -64,12 +64,12 @@ TEST(StateFiles, says_where_and_what_is_wrong) {
   EXPECT_THAT(refusal_of("x_m,y_m,heading_rad\n"), HasSubstr("s.csv: no states"));
 }
 
-TEST(StateFiles, refuses_a_file_that_is_not_there) {
+TEST(StateFiles, RefusesAFileThatIsNotThere) {
   EXPECT_THROW((void)read_states("no/such/states.csv"), InputError);
   EXPECT_THROW((void)read_states("."), InputError);
 }
 
-TEST(StateFiles, reads_one_state_of_the_command_line) {
+TEST(StateFiles, ReadsOneStateOfTheCommandLine) {
   EXPECT_EQ(state_of_text("10, 20, 90deg", "--state"), state(10.0, 20.0, pi / 2));
   EXPECT_THROW((void)state_of_text("10,20", "--state"), InputError);
 }

@@ -275,7 +275,7 @@ void expect_told(Random& random, const Draw& d, Count& count) {
   }
 }
 
-TEST(CellEnclosure, holds_every_exact_motion_of_states_drawn_from_the_entry) {
+TEST(CellEnclosure, HoldsEveryExactMotionOfStatesDrawnFromTheEntry) {
   Random random(1);
   Count count;
   for (int i = 0; i < 12000; ++i) {
@@ -288,7 +288,7 @@ TEST(CellEnclosure, holds_every_exact_motion_of_states_drawn_from_the_entry) {
   EXPECT_LT(count.too_wide, count.sets / 5);
 }
 
-TEST(CellEnclosure, tells_of_one_state_no_more_than_it_does) {
+TEST(CellEnclosure, TellsOfOneStateNoMoreThanItDoes) {
   Random random(2);
   int several = 0;
   constexpr int draws = 2000;
@@ -310,7 +310,7 @@ TEST(CellEnclosure, tells_of_one_state_no_more_than_it_does) {
   EXPECT_LT(several, draws / 200);
 }
 
-TEST(CellEnclosure, bounds_the_angle_between_any_two_headings) {
+TEST(CellEnclosure, BoundsTheAngleBetweenAnyTwoHeadings) {
   Random random(3);
   for (int i = 0; i < 4000; ++i) {
     const double a = random.uniform(-pi, pi);
@@ -328,7 +328,7 @@ TEST(CellEnclosure, bounds_the_angle_between_any_two_headings) {
   EXPECT_GE(cell_enclosure::angle_bound(unit_enclosure(0.0), unit_enclosure(pi)), pi);
 }
 
-TEST(CellEnclosure, follows_both_turns_from_the_opposite_heading) {
+TEST(CellEnclosure, FollowsBothTurnsFromTheOppositeHeading) {
   Random random(4);
   for (int i = 0; i < 500; ++i) {
     Draw d;
@@ -345,7 +345,7 @@ TEST(CellEnclosure, follows_both_turns_from_the_opposite_heading) {
   }
 }
 
-TEST(CellEnclosure, tells_of_the_touch_of_a_side) {
+TEST(CellEnclosure, TellsOfTheTouchOfASide) {
   for (const double radius : {1.25, 2.0, 8.0}) {
     // Rises, turning right, to heading 0 exactly at the top, and on down.
     Draw d;

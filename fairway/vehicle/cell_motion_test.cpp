@@ -191,7 +191,7 @@ Draw draw_any(Random& random) {
   return draw;
 }
 
-TEST(CellMotion, exits_where_the_exact_motion_does) {
+TEST(CellMotion, ExitsWhereTheExactMotionDoes) {
   Random random(11);
   for (int i = 0; i < 100000; ++i) {
     expect_exit(draw_any(random));
@@ -219,7 +219,7 @@ struct Symmetry {
   }
 };
 
-TEST(CellMotion, turns_and_mirrors_with_its_cell) {
+TEST(CellMotion, TurnsAndMirrorsWithItsCell) {
   Random random(12);
   for (int i = 0; i < 50000; ++i) {
     Draw draw = draw_any(random);
@@ -254,7 +254,7 @@ TEST(CellMotion, turns_and_mirrors_with_its_cell) {
   }
 }
 
-TEST(CellMotion, turns_left_when_the_command_is_exactly_opposite) {
+TEST(CellMotion, TurnsLeftWhenTheCommandIsExactlyOpposite) {
   const CellShape shape{8.0, 20.0};
   for (const double h : {0.0, pi, pi / 2, -pi / 2, 1.0, -2.5, 3.0}) {
     const CellState start{{4.0, 4.0}, direction(h)};
@@ -264,7 +264,7 @@ TEST(CellMotion, turns_left_when_the_command_is_exactly_opposite) {
   }
 }
 
-TEST(CellMotion, flies_straight_without_a_command) {
+TEST(CellMotion, FliesStraightWithoutACommand) {
   const CellExit exit =
       cross_cell({{1.0, 2.0}, direction(pi / 2)}, Direction::none(), CellShape{8.0, 20.0});
   EXPECT_EQ(exit.path, CellPath::straight);
@@ -273,7 +273,7 @@ TEST(CellMotion, flies_straight_without_a_command) {
   EXPECT_EQ(exit.length_m(), 6.0);
 }
 
-TEST(CellMotion, returns_through_the_side_it_came_in_by_with_the_mirrored_heading) {
+TEST(CellMotion, ReturnsThroughTheSideItCameInByWithTheMirroredHeading) {
   // The chord 2 r sin(0.1) = 0.998 stays within the side.
   const CellShape shape{8.0, 5.0 + 4.0};
   const CellExit exit = cross_cell({{2.0, 0.0}, direction(0.1)}, direction(-1.0), shape);
@@ -284,7 +284,7 @@ TEST(CellMotion, returns_through_the_side_it_came_in_by_with_the_mirrored_headin
   EXPECT_NEAR(exit.arc_m, 9.0 * 0.2, 1e-15);
 }
 
-TEST(CellMotion, reports_a_touch_of_circle_and_side_or_passes_it) {
+TEST(CellMotion, ReportsATouchOfCircleAndSideOrPassesIt) {
   // Circles whose extreme point lies on the right side but for rounding: some touch exactly, some
   // cross, some miss. Whatever they do, the point is the extreme one, or a later exit.
   Random random(13);
@@ -307,7 +307,7 @@ TEST(CellMotion, reports_a_touch_of_circle_and_side_or_passes_it) {
   EXPECT_GT(touches, 0);
 }
 
-TEST(CellMotion, knows_a_corner) {
+TEST(CellMotion, KnowsACorner) {
   const double d = 8.0;
   const Direction diagonal{{std::sqrt(0.5), std::sqrt(0.5)}, pi / 4};
   const CellExit exit = cross_cell({{2.0, 2.0}, diagonal}, diagonal, CellShape{d, 20.0});

@@ -80,7 +80,7 @@ Plan plan_of(int nx, int ny, double cell_m, double turn_radius_m,
   return plan;
 }
 
-TEST(Certify, proves_of_a_uniform_field_what_its_closed_form_says) {
+TEST(Certify, ProvesOfAUniformFieldWhatItsClosedFormSays) {
   // Heading 0 everywhere, a wall of targets on the right: a state turns to 0, then flies on.
   Plan plan = plan_of(24, 10, 1.0, 3.0, [](Vec2) { return 0.0; });
   for (int iy = 0; iy < 10; ++iy) plan.region[plan.grid.index({23, iy})] = Region::goal;
@@ -107,7 +107,7 @@ TEST(Certify, proves_of_a_uniform_field_what_its_closed_form_says) {
   EXPECT_GT(left, 1000);
 }
 
-TEST(Certify, bounds_the_time_in_a_uniform_field) {
+TEST(Certify, BoundsTheTimeInAUniformField) {
   const double command = static_cast<double>(0.1F);
   Plan plan = plan_of(24, 10, 1.0, 3.0, [&](Vec2) { return command; });
   for (int iy = 0; iy < 10; ++iy) plan.region[plan.grid.index({23, iy})] = Region::goal;
@@ -124,7 +124,7 @@ TEST(Certify, bounds_the_time_in_a_uniform_field) {
   }
 }
 
-TEST(Certify, never_reaches_in_a_circular_vortex_that_leans_inwards) {
+TEST(Certify, NeverReachesInACircularVortexThatLeansInwards) {
   const Plan plan = plan_of(
       32, 32, 2.0, 5.0, [](Vec2 p) { return std::atan2(p.y - 32.0, p.x - 32.0) + pi / 2 + 0.3; });
   const Proof proof(plan, 10);
@@ -133,7 +133,7 @@ TEST(Certify, never_reaches_in_a_circular_vortex_that_leans_inwards) {
   EXPECT_GT(proof.share(Verdict::trapped), 0.3);
 }
 
-TEST(Certify, leaves_from_a_source) {
+TEST(Certify, LeavesFromASource) {
   const Plan plan =
       plan_of(30, 30, 2.0, 5.0, [](Vec2 p) { return std::atan2(p.y - 30.0, p.x - 30.0); });
   const Proof proof(plan, 10);
@@ -141,7 +141,7 @@ TEST(Certify, leaves_from_a_source) {
   EXPECT_GT(proof.share(Verdict::leave), 0.97);
 }
 
-TEST(Certify, does_not_reach_a_goal_that_is_walled_in) {
+TEST(Certify, DoesNotReachAGoalThatIsWalledIn) {
   Plan plan = plan_of(19, 19, 2.0, 5.0, [](Vec2 p) { return std::atan2(19.0 - p.y, 19.0 - p.x); });
   for (int iy = 7; iy <= 11; ++iy) {
     for (int ix = 7; ix <= 11; ++ix) {
@@ -160,7 +160,7 @@ TEST(Certify, does_not_reach_a_goal_that_is_walled_in) {
   EXPECT_GT(proof.share(Verdict::collide), 0.5);
 }
 
-TEST(Certify, follows_weaves_between_opposing_half_planes_to_the_end_and_bounds_their_time) {
+TEST(Certify, FollowsWeavesBetweenOpposingHalfPlanesToTheEndAndBoundsTheirTime) {
   for (const double angle : {0.4, 0.05, 1e-3}) {
     Plan plan = plan_of(12, 6, 1.0, 2.5, [&](Vec2 p) { return p.y < 3.0 ? angle : -angle; });
     for (int iy = 0; iy < 6; ++iy) plan.region[plan.grid.index({11, iy})] = Region::goal;
@@ -181,7 +181,7 @@ TEST(Certify, follows_weaves_between_opposing_half_planes_to_the_end_and_bounds_
   }
 }
 
-TEST(Certify, agrees_with_exact_flights_over_random_plans_and_bounds_their_time) {
+TEST(Certify, AgreesWithExactFlightsOverRandomPlansAndBoundsTheirTime) {
   int decided = 0;
   for (std::uint64_t number = 500; number < 530; ++number) {
     const Plan plan = random_plan(number);
@@ -235,7 +235,7 @@ Plan turned(const Plan& plan) {
   return image;
 }
 
-TEST(Certify, says_of_the_mirrored_plan_the_same_mirrored) {
+TEST(Certify, SaysOfTheMirroredPlanTheSameMirrored) {
   int decided = 0;
   int differ = 0;
   for (std::uint64_t number = 600; number < 618; ++number) {
@@ -266,7 +266,7 @@ TEST(Certify, says_of_the_mirrored_plan_the_same_mirrored) {
   EXPECT_LT(differ, decided / 100);  // one undecided: leaves begin at the other end
 }
 
-TEST(Certify, says_of_the_turned_plan_the_same_turned) {
+TEST(Certify, SaysOfTheTurnedPlanTheSameTurned) {
   int decided = 0;
   int contradict = 0;
   for (std::uint64_t number = 624; number < 642; ++number) {
@@ -292,7 +292,7 @@ TEST(Certify, says_of_the_turned_plan_the_same_turned) {
   EXPECT_LT(contradict, decided / 50);
 }
 
-TEST(Certify, refined_only_decides_more_and_changes_no_verdict) {
+TEST(Certify, RefinedOnlyDecidesMoreAndChangesNoVerdict) {
   for (std::uint64_t number = 700; number < 712; ++number) {
     const Plan plan = random_plan(number);
     const std::vector<Place> places = random_places(plan, 400, number);
@@ -316,7 +316,7 @@ TEST(Certify, refined_only_decides_more_and_changes_no_verdict) {
   }
 }
 
-TEST(Certify, resumed_keeps_every_verdict_and_goes_on) {
+TEST(Certify, ResumedKeepsEveryVerdictAndGoesOn) {
   for (std::uint64_t number = 720; number < 730; ++number) {
     const Plan plan = random_plan(number);
     const Proof first(plan, 5);
@@ -340,7 +340,7 @@ TEST(Certify, resumed_keeps_every_verdict_and_goes_on) {
   }
 }
 
-TEST(Certify, gives_the_same_leaves_on_any_number_of_threads) {
+TEST(Certify, GivesTheSameLeavesOnAnyNumberOfThreads) {
   for (const std::uint64_t number : {1, 2, 6, 9}) {
     const Plan plan = random_plan(number);
     const auto with = [&](std::size_t threads) {
@@ -359,7 +359,7 @@ TEST(Certify, gives_the_same_leaves_on_any_number_of_threads) {
   }
 }
 
-TEST(Certify, crosses_cells_without_commands_straight) {
+TEST(Certify, CrossesCellsWithoutCommandsStraight) {
   Plan plan = empty_plan(12, 9, 1.0, 2.0);
   plan.heading_rad.assign(plan.grid.size(), no_command);
   plan.region[plan.grid.index({9, 4})] = Region::goal;
@@ -387,7 +387,7 @@ TEST(Certify, crosses_cells_without_commands_straight) {
   }
 }
 
-TEST(Certify, answers_for_a_map_of_one_cell) {
+TEST(Certify, AnswersForAMapOfOneCell) {
   Plan plan = empty_plan(1, 1, 1.0, 1.5);
   plan.heading_rad[0] = 1.0F;
   const Proof free(plan, 6);
@@ -405,7 +405,7 @@ TEST(Certify, answers_for_a_map_of_one_cell) {
   EXPECT_EQ(blocked.ask(0.5, 0.5, 2.0), Verdict::collide);
 }
 
-TEST(Certify, reaches_nothing_without_a_target) {
+TEST(Certify, ReachesNothingWithoutATarget) {
   for (std::uint64_t number = 740; number < 760; ++number) {
     Plan plan = random_plan(number);
     for (Region& region : plan.region) {
@@ -419,7 +419,7 @@ TEST(Certify, reaches_nothing_without_a_target) {
   }
 }
 
-TEST(Certify, says_what_stopped_it_and_what_it_has_is_proved_all_the_same) {
+TEST(Certify, SaysWhatStoppedItAndWhatItHasIsProvedAllTheSame) {
   const Plan plan = random_plan(3);
   CertifyOptions options = options_to(20);
   options.time_limit_s = 1e-9;
@@ -441,7 +441,7 @@ TEST(Certify, says_what_stopped_it_and_what_it_has_is_proved_all_the_same) {
   for (std::size_t i = 0; i < places.size(); ++i) EXPECT_EQ(a[i].only(), b[i].only());
 }
 
-TEST(Certify, shares_sum_to_one_where_there_are_cells) {
+TEST(Certify, SharesSumToOneWhereThereAreCells) {
   for (std::uint64_t number = 760; number < 770; ++number) {
     const Plan plan = random_plan(number);
     const Proof proof(plan, 5);
@@ -453,7 +453,7 @@ TEST(Certify, shares_sum_to_one_where_there_are_cells) {
   }
 }
 
-TEST(Certify, counts_safe_starts_with_a_command_apart) {
+TEST(Certify, CountsSafeStartsWithACommandApart) {
   // All cells command east but those of the first column, which command nothing.
   Plan plan = empty_plan(3, 4, 1.0, 2.0);
   for (int iy = 0; iy < 4; ++iy) plan.heading_rad[plan.grid.index({0, iy})] = NAN;

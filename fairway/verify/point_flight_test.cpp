@@ -50,7 +50,7 @@ void expect_right(const Flow& flow, const WideCommands<Wide>& commands, Random& 
                              << text_of(met) << told.text();
 }
 
-TEST(PointFlight, tells_what_the_exact_flight_meets_wherever_it_is_sure) {
+TEST(PointFlight, TellsWhatTheExactFlightMeetsWhereverItIsSure) {
   Random random(1);
   Counts counts;
   for (std::uint64_t number = 0; number < 150; ++number) {
@@ -71,7 +71,7 @@ TEST(PointFlight, tells_what_the_exact_flight_meets_wherever_it_is_sure) {
 
 /// States that come back to a place exactly: flown backwards from a corner, a border's tangent, an
 /// alignment on a border, so that the event lies at a distance `off` from the degenerate one.
-TEST(PointFlight, is_not_sure_where_a_hair_decides_and_right_where_it_is) {
+TEST(PointFlight, IsNotSureWhereAHairDecidesAndRightWhereItIs) {
   Random random(2);
   Counts counts;
   Counts far;
@@ -105,7 +105,7 @@ TEST(PointFlight, is_not_sure_where_a_hair_decides_and_right_where_it_is) {
   EXPECT_GT(far.sure, far.all / 3);
 }
 
-TEST(PointFlight, crosses_many_cells_without_a_command_as_straight_as_the_exact_flight) {
+TEST(PointFlight, CrossesManyCellsWithoutACommandAsStraightAsTheExactFlight) {
   Random random(3);
   Counts counts;
   for (int i = 0; i < 60; ++i) {
@@ -128,7 +128,7 @@ TEST(PointFlight, crosses_many_cells_without_a_command_as_straight_as_the_exact_
   EXPECT_GT(counts.sure, counts.all * 9 / 10);
 }
 
-TEST(PointFlight, leaves_borders_ties_and_cells_as_large_as_the_radius_to_others) {
+TEST(PointFlight, LeavesBordersTiesAndCellsAsLargeAsTheRadiusToOthers) {
   const Plan plan = empty_plan(4, 4, 1.0, 2.0);
   const PlanFlow plan_flow(plan);
   const Flow flow = plan_flow.flow();  // commands of 0 rad
@@ -144,6 +144,19 @@ TEST(PointFlight, leaves_borders_ties_and_cells_as_large_as_the_radius_to_others
   EXPECT_TRUE(told.nothing());
   EXPECT_TRUE(follow_point(flow, 1.5, 1.5, 0.2, told));
   EXPECT_EQ(told.arrivals.size(), 1U);
+}
+
+TEST(PointFlight, IsNotSureWithinTheMarginOfACorner) {
+  Plan plan = empty_plan(4, 4, 1.0, 2.0);
+  plan.heading_rad.assign(plan.grid.size(), NAN);
+  const PlanFlow plan_flow(plan);
+  for (const double off : {0x1p-15, -0x1p-15, 0x1p-20, 0x1p-40, 0.0}) {
+    Told told;
+    EXPECT_FALSE(follow_point(plan_flow.flow(), 1.5 + off, 1.5, pi / 4, told)) << off;
+    EXPECT_FALSE(follow_point(plan_flow.flow(), 1.5 + off, 1.5, -3 * pi / 4, told)) << off;
+  }
+  Told told;
+  EXPECT_TRUE(follow_point(plan_flow.flow(), 1.5 + 0x1p-10, 1.5, pi / 4, told));
 }
 
 }  // namespace

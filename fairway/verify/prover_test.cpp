@@ -93,7 +93,7 @@ void turn_to_a_vortex(Plan& plan) {
   }
 }
 
-TEST(Prover, keeps_the_rule_for_every_leaf_it_proves) {
+TEST(Prover, KeepsTheRuleForEveryLeafItProves) {
   std::size_t decided = 0;
   std::size_t trapped = 0;
   for (std::uint64_t number = 0; number < 40; ++number) {
@@ -117,7 +117,7 @@ TEST(Prover, keeps_the_rule_for_every_leaf_it_proves) {
   EXPECT_GT(trapped, 10U);
 }
 
-TEST(Prover, proves_of_places_what_exact_flights_do_and_within_the_time) {
+TEST(Prover, ProvesOfPlacesWhatExactFlightsDoAndWithinTheTime) {
   Random random(2);
   int flown = 0;
   for (std::uint64_t number = 0; number < 40; ++number) {
@@ -160,7 +160,7 @@ TEST(Prover, proves_of_places_what_exact_flights_do_and_within_the_time) {
   EXPECT_GT(flown, 500);
 }
 
-TEST(Prover, concludes_nothing_from_nothing) {
+TEST(Prover, ConcludesNothingFromNothing) {
   EXPECT_EQ(VerdictSet{}.only(), Verdict::undecided);
   const SectionVerdicts none = undecided_sections(Flow{}, 0);
   EXPECT_EQ(verdicts_of(Image{}, none.view()).only(), Verdict::undecided);
@@ -181,7 +181,7 @@ TEST(Prover, concludes_nothing_from_nothing) {
   EXPECT_EQ(both.only(), Verdict::undecided);
 }
 
-TEST(Prover, frees_all_of_a_trap_by_one_leak) {
+TEST(Prover, FreesAllOfATrapByOneLeak) {
   // A vortex, leaning inwards: all its section is trapped; with one cell blocked less is, and what
   // flies into that cell is not.
   Plan plan = empty_plan(16, 16, 2.0, 5.0);
@@ -209,7 +209,7 @@ TEST(Prover, frees_all_of_a_trap_by_one_leak) {
   EXPECT_GT(count(after, Verdict::reach), 100);
 }
 
-TEST(Prover, stopped_says_undecided_and_nothing_else) {
+TEST(Prover, StoppedSaysUndecidedAndNothingElse) {
   const Plan plan = random_plan(5);
   const PlanFlow plan_flow(plan);
   const Flow flow = plan_flow.flow();
@@ -218,7 +218,7 @@ TEST(Prover, stopped_says_undecided_and_nothing_else) {
   EXPECT_EQ(prover.graph().undecided(), prover.graph().leaves());
 }
 
-TEST(LeastMove, is_the_move_of_the_end_that_was_not_cut) {
+TEST(LeastMove, IsTheMoveOfTheEndThatWasNotCut) {
   const auto move = [](UnitRange hop, UnitRange leaf) {
     return least_move({0, hop, 0.0F, true}, leaf);
   };
@@ -230,7 +230,7 @@ TEST(LeastMove, is_the_move_of_the_end_that_was_not_cut) {
   EXPECT_EQ(move({0, 25}, {0, 40}), 15.0);                  // and at its begin
 }
 
-TEST(Units, hold_the_places_they_came_from_and_one_more_either_side) {
+TEST(Units, HoldThePlacesTheyCameFromAndOneMoreEitherSide) {
   Random random(6);
   for (int i = 0; i < 20000; ++i) {
     const double d = std::exp(random.uniform(-3.0, 5.0));

@@ -59,7 +59,7 @@ double member(Random& random, Interval x) {
   return std::min(x.hi, x.lo + random.unit() * x.width());
 }
 
-TEST(SectionFlight, meets_one_of_the_things_told_from_every_place_of_the_start) {
+TEST(SectionFlight, MeetsOneOfTheThingsToldFromEveryPlaceOfTheStart) {
   Random random(1);
   int flown = 0;
   int given_up = 0;
@@ -104,7 +104,7 @@ Plan weave(double below_rad, double above_rad, double ratio) {
   return plan;
 }
 
-TEST(SectionFlight, hops_move_every_place_by_the_same_distance) {
+TEST(SectionFlight, HopsMoveEveryPlaceByTheSameDistance) {
   Random random(2);
   int hops = 0;
   for (const double angle : {0.3, 0.1, 0.01, 1e-3, 1e-4, 1e-5}) {
@@ -147,7 +147,7 @@ TEST(SectionFlight, hops_move_every_place_by_the_same_distance) {
   EXPECT_GT(hops, 60);
 }
 
-TEST(SectionFlight, leaps_over_waves_to_where_flying_them_one_by_one_comes) {
+TEST(SectionFlight, LeapsOverWavesToWhereFlyingThemOneByOneComes) {
   Random random(3);
   int leapt = 0;
   for (const double angle : {0.02, 5e-3, 1e-3, 3e-4}) {
@@ -176,7 +176,7 @@ TEST(SectionFlight, leaps_over_waves_to_where_flying_them_one_by_one_comes) {
   EXPECT_GT(leapt, 20);
 }
 
-TEST(SectionFlight, recognises_a_circle_and_only_that) {
+TEST(SectionFlight, RecognisesACircleAndOnlyThat) {
   // A command always behind the vehicle keeps it on one circle: cells on a ring of radius 2.5.
   Plan plan = empty_plan(8, 8, 1.0, 2.5);
   for (std::size_t i = 0; i < plan.grid.size(); ++i) {
@@ -229,7 +229,7 @@ Plan silent_plan() {
   return plan;
 }
 
-TEST(SectionFlight, tells_of_every_cell_around_a_corner_it_passes_through) {
+TEST(SectionFlight, TellsOfEveryCellAroundACornerItPassesThrough) {
   const double diagonal = std::sqrt(0.5);
   const Interval plus{below(diagonal), above(diagonal)};
   for (const int dx : {-1, 1}) {
@@ -262,7 +262,7 @@ TEST(SectionFlight, tells_of_every_cell_around_a_corner_it_passes_through) {
   }
 }
 
-TEST(SectionFlight, touches_what_lies_beyond_a_border_it_runs_along) {
+TEST(SectionFlight, TouchesWhatLiesBeyondABorderItRunsAlong) {
   // Exactly along the upper border of the middle row, towards a cell above or below it ahead.
   for (const double heading : {1.0, -1.0}) {
     for (const double y : {0.0, 1.0}) {
@@ -288,7 +288,7 @@ TEST(SectionFlight, touches_what_lies_beyond_a_border_it_runs_along) {
   }
 }
 
-TEST(SectionFlight, gives_up_rather_than_say_half) {
+TEST(SectionFlight, GivesUpRatherThanSayHalf) {
   const Plan plan = random_plan(0);
   const PlanFlow plan_flow(plan);
   const Flow flow = plan_flow.flow();

@@ -88,7 +88,7 @@ bool turns_out(const WideVec<Wide>& p, const WideVec<Wide>& u, const WideVec<Wid
          (p.y == 0 && u.y == 0 && command.y < 0) || (p.y == d && u.y == 0 && command.y > 0);
 }
 
-TEST(StateFlight, meets_one_of_the_things_told_from_every_cell_the_state_belongs_to) {
+TEST(StateFlight, MeetsOneOfTheThingsToldFromEveryCellTheStateBelongsTo) {
   Random random(1);
   int flown = 0;
   for (std::uint64_t number = 0; number < 120; ++number) {
@@ -148,7 +148,7 @@ Told told_of(const Flow& flow, double x_m, double y_m, double heading_rad) {
   return told;
 }
 
-TEST(StateFlight, counts_contact_with_a_closed_obstacle_as_a_collision_even_heading_away) {
+TEST(StateFlight, CountsContactWithAClosedObstacleAsACollisionEvenHeadingAway) {
   Plan plan = empty_plan(3, 3, 1.0, 2.0);
   plan.region[4] = Region::obstacle;
   const PlanFlow plan_flow(plan);
@@ -163,7 +163,28 @@ TEST(StateFlight, counts_contact_with_a_closed_obstacle_as_a_collision_even_head
   EXPECT_FALSE(tells(told_of(flow, 0.999999, 1.5, pi), Verdict::collide));
 }
 
-TEST(StateFlight, takes_places_and_headings_computed_in_doubles_for_what_they_stand_for) {
+TEST(StateFlight, IsNoStateOfACellThatItsHeadingPointsOutOf) {
+  // On the border of a target, heading away: it has not reached it. On the grid's edge, heading in:
+  // it has not left.
+  Plan plan = empty_plan(3, 3, 1.0, 2.0);
+  plan.region[4] = Region::goal;
+  const PlanFlow plan_flow(plan);
+  for (const double tilt : {0.0, 0.6, -0.6}) {
+    for (const Vec2 p : {Vec2{1.0, 1.5}, Vec2{2.0, 1.5}, Vec2{1.5, 1.0}, Vec2{1.5, 2.0},
+                         Vec2{0.0, 1.5}, Vec2{3.0, 1.5}, Vec2{1.5, 0.0}, Vec2{1.5, 3.0}}) {
+      const bool at_edge = p.x == 0.0 || p.x == 3.0 || p.y == 0.0 || p.y == 3.0;
+      const double away = std::atan2(p.y - 1.5, p.x - 1.5) + (at_edge ? pi : 0.0) + tilt;
+      const Told told = told_of(plan_flow.flow(), p.x, p.y, Heading::from_rad(away).rad());
+      for (const Told::End& end : told.ends) {
+        EXPECT_GT(end.length_m, 0.0) << p.x << " " << p.y << " " << away << told.text();
+      }
+      const Told inwards = told_of(plan_flow.flow(), p.x, p.y, Heading::from_rad(away + pi).rad());
+      EXPECT_TRUE(tells(inwards, at_edge ? Verdict::leave : Verdict::reach)) << p.x << " " << p.y;
+    }
+  }
+}
+
+TEST(StateFlight, TakesPlacesAndHeadingsComputedInDoublesForWhatTheyStandFor) {
   // Borders at x0 + i d in doubles, for numbers that are not whole: an obstacle beyond is touched.
   Random random(3);
   for (int i = 0; i < 2000; ++i) {
@@ -178,6 +199,14 @@ TEST(StateFlight, takes_places_and_headings_computed_in_doubles_for_what_they_st
     ASSERT_TRUE(tells(told_of(flow, flow.grid.x0_m + 3 * d, y, 0.1), Verdict::collide)) << d;
     ASSERT_TRUE(tells(told_of(flow, flow.grid.x0_m + flow.grid.nx * d, y, 0.1), Verdict::leave))
         << d;
+    Plan upright = empty_plan(2, 5, d, 50.0);
+    upright.grid.y0_m = plan.grid.x0_m;
+    upright.region[4] = upright.region[5] = Region::obstacle;
+    const PlanFlow upright_flow(upright);
+    const Flow up = upright_flow.flow();
+    ASSERT_TRUE(tells(told_of(up, y, up.grid.y0_m + 2 * d, -1.4), Verdict::collide)) << d;
+    ASSERT_TRUE(tells(told_of(up, y, up.grid.y0_m + 3 * d, 1.4), Verdict::collide)) << d;
+    ASSERT_TRUE(tells(told_of(up, y, up.grid.y0_m + up.grid.ny * d, 1.4), Verdict::leave)) << d;
   }
   // A heading opposite to the command in doubles: both turns. Left leaves by the left, right by the
   // right half.
@@ -195,7 +224,7 @@ TEST(StateFlight, takes_places_and_headings_computed_in_doubles_for_what_they_st
   }
 }
 
-TEST(StateFlight, follows_a_heading_along_a_border_in_both_cells) {
+TEST(StateFlight, FollowsAHeadingAlongABorderInBothCells) {
   Plan plan = empty_plan(6, 2, 1.0, 2.0);
   for (int ix = 0; ix < 6; ++ix) {
     plan.heading_rad[plan.grid.index({ix, 0})] = -0.5F;
@@ -215,7 +244,7 @@ TEST(StateFlight, follows_a_heading_along_a_border_in_both_cells) {
   EXPECT_TRUE(lower && upper) << told.text();
 }
 
-TEST(StateFlight, answers_leave_outside_the_grid_and_reach_in_a_target) {
+TEST(StateFlight, AnswersLeaveOutsideTheGridAndReachInATarget) {
   Plan plan = empty_plan(3, 3, 1.0, 2.0);
   plan.region[4] = Region::goal;
   const PlanFlow plan_flow(plan);
