@@ -10,6 +10,7 @@
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/exchange/plan_rasters.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/vehicle/vehicle_json.hpp"
 
 namespace fairway::python {
 namespace {
@@ -58,10 +59,7 @@ void bind_plan(py::module_& m) {
           "(x low, x high, y low, y high), metres: matplotlib's `extent`, with origin=\"lower\".")
       .def_property_readonly(
           "vehicle",
-          [](const HeldPlan& p) {
-            return py::dict("speed_mps"_a = p.plan.vehicle.speed_mps,
-                            "turn_radius_m"_a = p.plan.vehicle.turn_radius_m);
-          },
+          [](const HeldPlan& p) { return python_of_json(json_of(p.plan.vehicle).dump()); },
           "{\"speed_mps\": metres per second, \"turn_radius_m\": metres}.")
       .def_property_readonly(
           "record", [](const HeldPlan& p) { return python_of_json(json_text(p.plan.record)); },

@@ -24,11 +24,6 @@ using nlohmann::json;
 constexpr const char* format_name = "fairway-certificate";
 constexpr int format_version = 1;
 
-Geometry geometry_of(const Certificate& c) {
-  return {c.grid.x0_m,         c.grid.y0_m,   c.grid.cell_m, c.vehicle.turn_radius_m,
-          c.vehicle.speed_mps, units_per_side};
-}
-
 /// Wide types first, so that every array is aligned.
 std::vector<Tensor> tensors_of(const Certificate& c, const Geometry& geometry) {
   const std::vector<std::uint64_t> cells{static_cast<std::uint64_t>(c.grid.ny),
@@ -175,7 +170,7 @@ std::string record_text(const Certificate& c) {
 
 void write_certificate(const Certificate& c, const std::filesystem::path& path, Existing existing) {
   AtomicFile file(path, existing);
-  const Geometry geometry = geometry_of(c);
+  const Geometry geometry = Geometry::of(c.grid, c.vehicle);
   const std::vector<Tensor> tensors = tensors_of(c, geometry);
   json record = record_of(c);
   record["format"] = format_name;

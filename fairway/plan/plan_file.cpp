@@ -20,6 +20,7 @@
 #include "fairway/base/safetensors.hpp"
 #include "fairway/base/strict_json.hpp"
 #include "fairway/plan/plan_record_json.hpp"
+#include "fairway/vehicle/vehicle_json.hpp"
 
 namespace fairway {
 namespace {
@@ -103,8 +104,7 @@ json metadata_of(const Plan& plan, const std::vector<Tensor>& tensors) {
   record["format_version"] = format_version;
   record["origin_m"] = {plan.grid.x0_m, plan.grid.y0_m};
   record["cell_m"] = plan.grid.cell_m;
-  record["vehicle"] = {{"speed_mps", plan.vehicle.speed_mps},
-                       {"turn_radius_m", plan.vehicle.turn_radius_m}};
+  record["vehicle"] = json_of(plan.vehicle);
   for (std::size_t i = 0; i < tensors.size(); ++i) record["sha256"][tensors[i].name] = digest[i];
   return record;
 }
@@ -162,10 +162,7 @@ void take_geometry(const json& record, const std::string& where, Plan& plan) {
   plan.grid.x0_m = origin[0].get<double>();
   plan.grid.y0_m = origin[1].get<double>();
   plan.grid.cell_m = finite_number(record, "cell_m", where);
-  const json& vehicle = member(record, "vehicle", where);
-  require_known_keys(vehicle, {"speed_mps", "turn_radius_m"}, where + ".vehicle");
-  plan.vehicle.speed_mps = finite_number(vehicle, "speed_mps", where + ".vehicle");
-  plan.vehicle.turn_radius_m = finite_number(vehicle, "turn_radius_m", where + ".vehicle");
+  plan.vehicle = vehicle_of(member(record, "vehicle", where), where + ".vehicle");
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "fairway/report/page_template.hpp"
 #include "fairway/report/verdict_style.hpp"
 #include "fairway/vehicle/mission_json.hpp"
+#include "fairway/vehicle/vehicle_json.hpp"
 
 namespace fairway {
 namespace {
@@ -146,9 +147,7 @@ json record_of(const PageContent& content) {
            {{"nx", g.nx}, {"ny", g.ny}, {"x0_m", g.x0_m}, {"y0_m", g.y0_m}, {"cell_m", g.cell_m}}},
           {"values",
            {{"nx", values.nx}, {"ny", values.ny}, {"cells_per_value", values.cells_per_value}}},
-          {"vehicle",
-           {{"speed_mps", content.plan.vehicle.speed_mps},
-            {"turn_radius_m", content.plan.vehicle.turn_radius_m}}},
+          {"vehicle", json_of(content.plan.vehicle)},
           {"mission", json_of(content.mission)},
           {"cost_step_m", page_cost_step_m(content.plan)},
           {"styles", styles_json()},

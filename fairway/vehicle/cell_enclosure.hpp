@@ -20,199 +20,23 @@
 //   2. At the exactly opposite heading both turns are followed; a touch of a side is a departure;
 //      a set that straddles a corner departs through both sides, each part cut at the corner.
 //   3. length_m bounds what any state flies inside the cell.
-// No include but the standard's and the project's own toolboxes, no heap, no exception. One file on
-// purpose, long as it is: it is the whole of what lemmas 2 and 3 of docs/trust.md are about.
+// No include but the standard's and the project's own toolboxes, no heap, no exception. Lemmas 2
+// and 3 of docs/trust.md are about this file and the two it builds on, cell_sets.hpp and
+// arc_crossing.hpp.
 #pragma once
 
 #include <cmath>
 
 #include "fairway/base/interval.hpp"
 #include "fairway/base/short_list.hpp"
+#include "fairway/vehicle/arc_crossing.hpp"
+#include "fairway/vehicle/cell_sets.hpp"
 #include "fairway/vehicle/cell_shape.hpp"
 #include "fairway/vehicle/side.hpp"
 
 namespace fairway {
 
-/// A set of states in a closed cell, in the cell's own coordinates.
-struct CellEntry {
-  IntervalVec2 position_m;
-  IntervalVec2 heading;   ///< unit vectors
-  int turn = 0;           ///< +1, -1: every state is on its circle of this sign; 0: none is known
-  IntervalVec2 centre_m;  ///< of those circles
-};
-
-/// What the cell tells its states to do.
-struct CellOrder {
-  IntervalVec2 heading;        ///< unit vectors, one direction
-  bool has_command = true;     ///< false: straight on
-  bool already_there = false;  ///< the states' heading is the command itself, the same number
-};
-
-struct CellDeparture {
-  Side side = Side::right;
-  Interval along_m;          ///< along the side, within [0, cell_m]
-  bool low_corner = false;   ///< may pass through the corner at 0 ...
-  bool high_corner = false;  ///< ... or at cell_m
-  bool grazes = false;       ///< may run along the side, straight
-  bool aligned = false;      ///< the heading is the command itself
-  IntervalVec2 heading;
-  int turn = 0;  ///< as in CellEntry
-  IntervalVec2 centre_m;
-  double length_m = 0.0;
-};
-
-struct CellDepartures {
-  ShortList<CellDeparture, 16> of;
-  bool too_wide = false;  ///< the entry is too large to say anything
-
-  const CellDeparture* begin() const { return of.begin(); }
-  const CellDeparture* end() const { return of.end(); }
-  int count() const { return of.size(); }
-  void add(const CellDeparture& departure) {
-    if (!of.add(departure)) too_wide = true;
-  }
-};
-
 namespace cell_enclosure {
-
-constexpr bool is_vertical(Side side) { return side == Side::right || side == Side::left; }
-constexpr bool is_far(Side side) { return side == Side::right || side == Side::top; }
-/// Components across and along a side.
-inline const Interval& across(const IntervalVec2& v, Side s) { return is_vertical(s) ? v.x : v.y; }
-inline const Interval& along(const IntervalVec2& v, Side s) { return is_vertical(s) ? v.y : v.x; }
-inline IntervalVec2 from_parts(Interval across, Interval along, Side s) {
-  return is_vertical(s) ? IntervalVec2{across, along} : IntervalVec2{along, across};
-}
-/// Places this near an end of a side count as its corner too, so that other arithmetic, whose
-/// rounding differs, sees no corner that was not reckoned with.
-inline double corner_reach_m(double cell_m) { return cell_m * 0x1p-34; }
-inline double line_of(Side side, double cell_m) { return is_far(side) ? cell_m : 0.0; }
-/// Outward component.
-inline Interval outward_part(const IntervalVec2& v, Side s) {
-  return is_far(s) ? across(v, s) : -across(v, s);
-}
-
-/// Upper bound of the angle between unit vectors less than 180 degrees apart, one of each set.
-/// Huygens: 3 x <= 2 sin x + tan x, for x half the angle; sin and cos of x from the cosine.
-inline double angle_bound(const IntervalVec2& a, const IntervalVec2& b) {
-  const double cosine = std::clamp(dot(a, b).lo, -1.0, 1.0);
-  const double half_cos = below(std::sqrt(below(0.5 * below(1.0 + cosine))));
-  const double half_sin = above(std::sqrt(above(0.5 * above(1.0 - cosine))));
-  if (!(half_cos >= 0.1)) return 3.2;  // perhaps not a number: the root of less than 0
-  return above(2.0 / 3.0 * above(above(2.0 * half_sin) + above(half_sin / half_cos)));
-}
-
-/// An event on an arc: the heading there tells its order. For one that is `possible` also where
-/// the side is left.
-struct ArcEvent {
-  IntervalVec2 heading;
-  bool possible = false;  ///< some state may meet it as its first
-  bool certain = false;   ///< every state meets it or another before turning 90 degrees
-  Side side = Side::right;
-  bool low_corner = false;
-  bool high_corner = false;
-  Interval along_m;
-  IntervalVec2 centre_m;
-};
-
-struct Turn {
-  const CellEntry& entry;
-  const CellOrder& order;
-  const CellShape& shape;
-  int sign;
-  bool may_align;   ///< some state may reach the command within 90 degrees
-  bool must_align;  ///< every state would
-  IntervalVec2 centre_m;
-};
-
-/// Outward and tangential part of the headings with which a side is crossed.
-struct ExitHeading {
-  Interval across;
-  Interval along;
-
-  bool empty() const { return across.empty() || along.empty(); }
-  IntervalVec2 of(Side side) const {
-    return from_parts(is_far(side) ? across : -across, along, side);
-  }
-  /// Keeps what lies on the unit circle: each part bounds the other.
-  void to_circle() {
-    if (empty()) return;
-    across = intersection(across, sqrt(Interval(1.0) - square(along)));
-    if (across.empty()) return;
-    const Interval size = sqrt(Interval(1.0) - square(across));
-    if (along.positive()) along = intersection(along, size);
-    if (along.negative()) along = intersection(along, -size);
-  }
-};
-
-/// Keeps the headings from the entry's to the command's. Along an arc of less than 90 degrees a
-/// component runs from one end's value to the other's, unless the arc passes that axis; it does not
-/// when the other component has one sign at both ends.
-inline void cut_at_command(const Turn& turn, Side side, ExitHeading& exit) {
-  const IntervalVec2& u = turn.entry.heading;
-  const IntervalVec2& c = turn.order.heading;
-  const Interval u_across = outward_part(u, side);
-  const Interval c_across = outward_part(c, side);
-  const Interval& u_along = along(u, side);
-  const Interval& c_along = along(c, side);
-  if ((u_along.positive() && c_along.positive()) || (u_along.negative() && c_along.negative())) {
-    exit.across = intersection(exit.across, hull(u_across, c_across));
-  }
-  if (u_across.positive() && c_across.positive()) {
-    exit.along = intersection(exit.along, hull(u_along, c_along));
-  }
-  exit.to_circle();
-}
-
-/// Where the arc crosses the line of `side` outwards: (b) and (c).
-inline void crossing(const Turn& turn, Side side, ArcEvent& event) {
-  const double d = turn.shape.cell_m;
-  const double r = turn.shape.turn_radius_m;
-  const double k = is_vertical(side) ? turn.sign : -turn.sign;
-  const double outwards = is_far(side) ? 1.0 : -1.0;
-  const Interval line = line_of(side, d);
-  const Interval tangent = with_sign(k, line - across(turn.centre_m, side)) / r;
-  if (tangent.lo > 1.0 || tangent.hi < -1.0) return;
-  ExitHeading exit;
-  exit.along = intersection(tangent, {-1.0, 1.0});
-  exit.across = sqrt(Interval(1.0) - square(exit.along));
-  Interval offset = (-k * r * outwards) * exit.across;
-  Interval place = along(turn.centre_m, side) + offset;
-  // Off the side: whoever gets there has left through another side before.
-  if (place.hi < 0.0 || place.lo > d) return;
-  event.heading = exit.of(side);
-  const Interval turned = with_sign(turn.sign, cross(turn.entry.heading, event.heading));
-  const Interval ahead = dot(turn.entry.heading, event.heading);
-  if (turned.hi < 0.0 || ahead.hi < 0.0) return;
-  event.certain = tangent.lo > -1.0 && tangent.hi < 1.0 && turned.lo >= 0.0 && ahead.lo > 0.0;
-  if (turn.must_align) {
-    cut_at_command(turn, side, exit);
-    if (exit.empty()) return;
-    offset = (-k * r * outwards) * exit.across;
-    place = along(turn.centre_m, side) + offset;
-  }
-  event.along_m = intersection(place, {0.0, d});
-  if (event.along_m.empty()) return;
-  event.side = side;
-  event.low_corner = place.lo <= corner_reach_m(d);
-  event.high_corner = place.hi >= d - corner_reach_m(d);
-  if (event.low_corner || event.high_corner) {
-    // What passes between the corners tells the headings that do ...
-    exit.across = intersection(
-        exit.across, (event.along_m - along(turn.centre_m, side)) / Interval(-k * r * outwards));
-    exit.to_circle();
-    if (exit.empty()) return;
-    offset = (-k * r * outwards) * exit.across;
-  }
-  // ... and the centres: along the side at once, across it through the heading.
-  const Interval centre_along = intersection(along(turn.centre_m, side), event.along_m - offset);
-  const Interval centre_across =
-      intersection(across(turn.centre_m, side), line - (k * r) * exit.along);
-  if (centre_along.empty() || centre_across.empty()) return;
-  event.possible = true;
-  event.heading = exit.of(side);
-  event.centre_m = from_parts(centre_across, centre_along, side);
-}
 
 /// Straight on from `from` (a part of the closed cell) along `model.heading` to every side that may
 /// be met first; each departure is `model` but for where it leaves.

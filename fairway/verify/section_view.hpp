@@ -27,6 +27,10 @@ struct Geometry {
   double speed_mps;
   double units;  ///< units_per_side, so that a reader knows what places mean
 
+  static Geometry of(const Grid& grid, const Vehicle& vehicle) {
+    return {grid.x0_m,         grid.y0_m,     grid.cell_m, vehicle.turn_radius_m,
+            vehicle.speed_mps, units_per_side};
+  }
   bool is_valid() const {
     return std::isfinite(x0_m) && std::isfinite(y0_m) && std::isfinite(turn_radius_m) &&
            std::isfinite(speed_mps) && cell_m > 0.0 && turn_radius_m > cell_m && speed_mps > 0.0 &&
