@@ -33,6 +33,18 @@ std::optional<std::array<double, 6>> GdalRaster::geotransform() {
   return transform;
 }
 
+std::vector<std::string> GdalRaster::warnings() const {
+  std::vector<std::string> warnings;
+  for (const std::string& said : session_.warnings()) {
+    std::string_view what = said;
+    const std::string open_name = std::filesystem::absolute(file_).string() + ":";
+    if (what.starts_with(open_name)) what.remove_prefix(open_name.size());
+    warnings.push_back(file_.string() + ": " + std::string(trimmed(what)) +
+                       (what.ends_with('.') ? "" : "."));
+  }
+  return warnings;
+}
+
 void GdalRaster::fail(const std::string& what) const {
   throw InputError(file_.string(),
                    session_.message().empty() ? what : what + ": " + session_.message());

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fairway/map/gdal_session.hpp"
 
@@ -25,6 +26,9 @@ class GdalRaster {
   /// The six numbers of GDAL's affine transform (corner-based: PixelIsPoint is already shifted),
   /// for files that carry one inside.
   std::optional<std::array<double, 6>> geotransform();
+
+  /// What GDAL warned of so far, each with the file's name.
+  [[nodiscard]] std::vector<std::string> warnings() const;
 
   /// Throws InputError: `what`, then what GDAL said last.
   [[noreturn]] void fail(const std::string& what) const;
