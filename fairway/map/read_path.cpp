@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/number_text.hpp"
 #include "fairway/map/fence_sources.hpp"
 #include "fairway/map/frame_from_degrees.hpp"
 #include "fairway/map/path_vertex.hpp"
@@ -73,16 +74,10 @@ std::vector<PathVertex> vertices_of(const std::filesystem::path& file, const Obs
 }
 
 void require_on_map(const std::vector<PathVertex>& vertices, const Grid& grid) {
-  const double right_m = grid.x0_m + grid.width_m();
-  const double top_m = grid.y0_m + grid.height_m();
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Vec2 p = vertices[i].point_m;
-    if (p.x >= grid.x0_m && p.x <= right_m && p.y >= grid.y0_m && p.y <= top_m) continue;
-    throw InputError(
-        vertices[i].where,
-        fmt::format("vertex {} ({:.10g}, {:.10g}) lies outside the map, which covers x "
-                    "from {:.10g} to {:.10g} and y from {:.10g} to {:.10g} m",
-                    i, p.x, p.y, grid.x0_m, right_m, grid.y0_m, top_m));
+    if (is_within(grid, p)) continue;
+    throw InputError(vertices[i].where, fmt::format("vertex {} {}", i, outside_text(p, grid)));
   }
 }
 
@@ -96,12 +91,18 @@ void require_extent(const std::vector<Vec2>& vertices, const std::filesystem::pa
   const double extent_m = std::max(right->x - left->x, high->y - low->y);
   if (extent_m < cell_m)
     throw InputError(file.string(),
-                     fmt::format("the path spans {:.3g} m, less than a cell of {} m; are these "
+                     fmt::format("the path spans {} m, less than a cell of {} m; are these "
                                  "degrees where metres belong?",
-                                 extent_m, cell_m));
+                                 length_text(extent_m), length_text(cell_m)));
 }
 
 }  // namespace
+
+std::vector<Vec2> path_vertices(const std::filesystem::path& file, const ObstacleMap& frame) {
+  std::vector<Vec2> path;
+  for (const PathVertex& vertex : vertices_of(file, frame)) path.push_back(vertex.point_m);
+  return path;
+}
 
 std::vector<Vec2> read_path(const std::filesystem::path& file, const ObstacleMap& frame,
                             bool closed) {
@@ -115,9 +116,9 @@ std::vector<Vec2> read_path(const std::filesystem::path& file, const ObstacleMap
   if (path.empty()) throw InputError(file.string(), "has no vertex, a path has at least two");
   if (path.size() == 1)
     throw InputError(vertices.back().where,
-                     fmt::format("the path has no length: it ends at ({:.10g}, {:.10g}) and was "
-                                 "nowhere else, expected at least two distinct vertices",
-                                 path.front().x, path.front().y));
+                     fmt::format("the path has no length: it ends at {} and was nowhere else, "
+                                 "expected at least two distinct vertices",
+                                 place_text(path.front())));
   require_extent(path, file, frame.grid.cell_m);
   return path;
 }
