@@ -14,6 +14,7 @@
 #include "fairway/app/command.hpp"
 #include "fairway/app/terminal_progress.hpp"
 #include "fairway/base/error.hpp"
+#include "fairway/base/number_text.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/exchange/flight_files.hpp"
 #include "fairway/exchange/qgc_mission.hpp"
@@ -155,8 +156,8 @@ std::string words(const std::vector<State>& starts, const Flown& flown) {
   for (std::size_t i = 0; i < starts.size() && starts.size() <= most_listed; ++i) {
     const State& s = starts[i];
     const FlightResult& r = flown.results[i];
-    text += fmt::format("({:g}, {:g}, {:g} rad): {}", s.position_m.x, s.position_m.y,
-                        s.heading.rad(), name_of(r.outcome));
+    text += fmt::format("({}, {}, {:g} rad): {}", coordinate_text(s.position_m.x),
+                        coordinate_text(s.position_m.y), s.heading.rad(), name_of(r.outcome));
     if (std::isfinite(r.time_s))
       text += fmt::format(" after {:.2f} s, {:.1f} m", r.time_s, r.length_m);
     text += "\n";
@@ -252,6 +253,7 @@ int simulate_command(const SimulateArguments& arguments, const Session& session)
   }
   if (!arguments.qgc.empty()) {
     write_whole(arguments.qgc, session.existing(), mission_text(arguments, plan, flown.recorded));
+    for (const std::string& warning : mission_warnings(flown.recorded)) session.warn(warning);
   }
   if (!arguments.outcomes.empty()) {
     stdout_used |= put(arguments.outcomes, session, outcomes_csv(starts, flown.results));
