@@ -149,6 +149,21 @@ TEST_F(Fences, HeightsBelowTheAltitudeAreFreeAndUnknownHeightsAreNot) {
   EXPECT_TRUE(blocked(read_map(request), {-30, 0}));
 }
 
+TEST_F(Fences, HeightsThatCannotBeStayObstacles) {
+  for (const char* none : {"-9999", "-32768", "-3.4e38", "-20000"}) {
+    MapRequest request = this->request(
+        "a.geojson",
+        collection(feature(polygon(square(-30, 0, 5)), R"({"height":)" + std::string(none) + "}") +
+                   "," + feature(polygon(square(30, 0, 5)), R"({"height":3})")));
+    request.altitude_m = 20.0;
+    const ObstacleMap map = read_map(request);
+    EXPECT_TRUE(blocked(map, {-30, 0})) << none;
+    EXPECT_FALSE(blocked(map, {30, 0}));
+    EXPECT_THAT(map.warnings,
+                ::testing::Contains(HasSubstr("1 features have heights that cannot")));
+  }
+}
+
 TEST_F(Fences, AFootprintGrowsObstacles) {
   MapRequest request = this->request("a.geojson", polygon(square(0, 0, 10)));
   request.footprint_radius_m = 15.0;

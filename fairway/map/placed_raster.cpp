@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,7 +14,9 @@
 
 #include "fairway/base/digest.hpp"
 #include "fairway/base/error.hpp"
+#include "fairway/base/heading.hpp"
 #include "fairway/map/gdal_raster.hpp"
+#include "fairway/map/ground_height.hpp"
 #include "fairway/map/image_rows.hpp"
 #include "fairway/map/map_sources.hpp"
 #include "fairway/map/occupancy.hpp"
@@ -29,6 +32,7 @@ struct Place {
   std::optional<Transform> transform;
   std::optional<std::string> projected_crs;
   std::vector<InputFile> inputs;
+  std::vector<std::string> warnings;
 };
 
 GeodeticPoint centre_of(const Transform& t, int width, int height) {
@@ -75,6 +79,22 @@ std::optional<GeodeticPoint> on_wgs84(const OGRSpatialReference& system, Geodeti
   return GeodeticPoint{y, x};
 }
 
+// Its metres are those of the equator: away from it lengths, and so turning radii, are too short.
+void warn_of_mercator(const std::string& file, const OGRSpatialReference& system,
+                      GeodeticPoint centre, Place& place) {
+  const char* method = system.GetAttrValue("PROJECTION");
+  const std::string_view name = method == nullptr ? "" : method;
+  if (!name.starts_with("Mercator") && name.find("Pseudo_Mercator") == name.npos) return;
+  const auto there = on_wgs84(system, centre);
+  if (!there) return;
+  const double scale = 1.0 / std::cos(there->latitude_deg * (pi / 180.0));
+  if (scale < 1.01) return;
+  place.warnings.push_back(
+      fmt::format("{}: is in Mercator's projection, where a metre on the ground is {:.2f} m of the "
+                  "map; {}.",
+                  file, scale, gdalwarp_advice(there)));
+}
+
 void require_metres(const MapRequest& request, GDALDataset& dataset, Place& place) {
   const OGRSpatialReference* system = dataset.GetSpatialRef();
   if (system == nullptr || !place.transform) return;
@@ -90,6 +110,7 @@ void require_metres(const MapRequest& request, GDALDataset& dataset, Place& plac
     throw InputError(file, fmt::format("is in units of {} ({} m), expected metres; {}", unit,
                                        metres, gdalwarp_advice(on_wgs84(*system, centre))));
   if (!system->IsProjected()) return;
+  warn_of_mercator(file, *system, centre, place);
   char* wkt = nullptr;
   const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
   if (system->exportToWkt(&wkt, options) == OGRERR_NONE && wkt != nullptr)
@@ -183,7 +204,7 @@ class Voids {
   bool take(double sample, double height_m) {
     if (has_nodata_ && (sample == nodata_ || (std::isnan(sample) && std::isnan(nodata_))))
       return true;
-    if (is_ground(sample, height_m)) return false;
+    if (can_be_ground(height_m) && !stands_for_none(sample)) return false;
     ++untagged_;
     const std::string value = fmt::format("{}", static_cast<float>(sample));
     if (values_.size() < 3 && std::find(values_.begin(), values_.end(), value) == values_.end())
@@ -200,15 +221,6 @@ class Voids {
   }
 
  private:
-  // From below the deepest sea to above the highest mountain; and what is written for "none".
-  static bool is_ground(double sample, double height_m) {
-    if (!(height_m >= -12'000.0 && height_m <= 9'000.0)) return false;
-    for (const double none :
-         {-999.0, -9'999.0, -10'000.0, -32'767.0, -32'768.0, 32'767.0, 65'535.0})
-      if (sample == none) return false;
-    return std::abs(sample) < 1e30;
-  }
-
   std::string file_;
   double nodata_ = 0.0;
   bool has_nodata_ = false;
@@ -279,6 +291,7 @@ SourceRaster read_placed_raster(const MapRequest& request) {
           raster.warnings.end())
         raster.warnings.push_back(std::move(warning));
   }
+  raster.warnings.insert(raster.warnings.end(), place.warnings.begin(), place.warnings.end());
   require_no_degrees_in_disguise(request, raster, place);
   raster.inputs.push_back({request.file.string(), sha256_file(request.file)});
   put_in_place(raster, place, request);
