@@ -34,6 +34,9 @@ class GdalRaster {
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
+  /// GDAL's words, with the file's name as the user gave it.
+  [[nodiscard]] std::string in_our_words(std::string said) const;
+
   GdalSession session_;
   std::filesystem::path file_;
   GDALDataset* dataset_ = nullptr;

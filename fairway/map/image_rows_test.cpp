@@ -227,6 +227,9 @@ TEST(GdalImage, DamagedFilesAreRefusedAndNothingIsPrinted) {
   }
   EXPECT_THAT(input_error_of([&] { (void)load(folder.write("x.tif", "II*\0nonsense")); }),
               StartsWith("x.tif: cannot be opened as TIFF, PNG, BMP or JPEG"));
+  EXPECT_THAT(
+      input_error_of([&] { (void)load(folder.write("x.png", "# by hand\nP5 1 1 255\na")); }),
+      StartsWith("x.png: cannot be opened as TIFF, PNG, BMP or JPEG: `x.png' not recogni"));
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
 }

@@ -200,8 +200,7 @@ ObstacleMap read_kind(const MapRequest& request) {
   const bool of_a_key = error.where().starts_with("map.");
   const std::string place = request.place_of(of_a_key ? error.where() : "map.file");
   if (of_a_key) throw InputError(place, error.what());
-  const std::string reason = std::string(error.what()).substr(error.where().size() + 2);
-  throw InputError(error.where(), fmt::format("{} (map.file of {})", reason, place));
+  throw InputError(error.where(), fmt::format("{} (map.file of {})", reason_of(error), place));
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "fairway/base/digest.hpp"
-#include "fairway/base/error.hpp"
 #include "fairway/base/plain_text.hpp"
 
 namespace fairway {
@@ -63,6 +62,11 @@ SourceText read_source(const std::filesystem::path& file, std::uint64_t max_byte
 
 std::string at_line(const std::filesystem::path& file, std::size_t line) {
   return fmt::format("{}:{}", file.string(), line);
+}
+
+std::string reason_of(const InputError& error) {
+  const std::string text = error.what();
+  return error.where().empty() ? text : text.substr(error.where().size() + 2);
 }
 
 std::vector<Line> lines_of(std::string_view text) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fairway/base/error.hpp"
 #include "fairway/map/obstacle_map.hpp"
 
 namespace fairway {
@@ -34,6 +35,9 @@ void require_regular_file(const std::filesystem::path& file);
 
 /// "FILE:LINE", the place of an error.
 [[nodiscard]] std::string at_line(const std::filesystem::path& file, std::size_t line);
+
+/// What an error says, without the place in front.
+[[nodiscard]] std::string reason_of(const InputError& error);
 
 /// One line of a plain text without its end; numbers count from 1.
 struct Line {

@@ -8,6 +8,7 @@
 #include "fairway/base/error.hpp"
 #include "fairway/base/number_text.hpp"
 #include "fairway/map/read_path.hpp"
+#include "fairway/map/source_text.hpp"
 #include "fairway/map/tangent_plane.hpp"
 
 namespace fairway {
@@ -78,8 +79,7 @@ PathMission path_on_map(const Scenario& scenario, const ObstacleMap& map) {
     return {read_path(*asked.path_file, map, asked.closed), asked.closed, asked.delta_position_m,
             asked.delta_heading_rad};
   } catch (const InputError& error) {
-    const std::string reason = std::string(error.what()).substr(error.where().size() + 2);
-    throw InputError(error.where(), fmt::format("{} (mission.path_file of {})", reason,
+    throw InputError(error.where(), fmt::format("{} (mission.path_file of {})", reason_of(error),
                                                 scenario.place_of("mission.path_file")));
   }
 }
@@ -98,8 +98,7 @@ Mission mission_on_map(const Scenario& scenario, const ObstacleMap& map) {
     }
     return GoalMission{goal_m, asked.goal_heading_rad};
   } catch (const InputError& error) {
-    const std::string reason = std::string(error.what()).substr(error.where().size() + 2);
-    throw WarnedInputError(error.where(), reason, map.warnings);
+    throw WarnedInputError(error.where(), reason_of(error), map.warnings);
   }
 }
 
