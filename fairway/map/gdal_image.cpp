@@ -126,7 +126,8 @@ std::vector<std::string> read_image(const std::filesystem::path& file, std::uint
     char head[40] = {};
     const std::size_t got = stream == nullptr ? 0 : std::fread(head, 1, sizeof head, stream);
     if (stream != nullptr) std::fclose(stream);
-    if (is_pnm({head, got}) || (is_pnm_file(file) && !is_gdal_image({head, got})))
+    if (is_pnm({head, got}) ||
+        ((is_pnm_file(file) || head[0] == '#') && !is_gdal_image({head, got})))
       return read_pnm(read_bytes(file, std::uint64_t{4} << 30), max_pixels, take_row);
   }
   GdalRaster raster(file);

@@ -118,6 +118,8 @@ TEST(Pnm, AFileThatBeginsOtherwiseIsToldHowAPgmBegins) {
     EXPECT_EQ(input_error_of([&] { (void)load(folder.write("a.PGM", begin)); }),
               std::string("a.PGM:1: begins with ") + shown +
                   ", a PGM begins with P5 or P2 and a PPM with P6 or P3, before any comment");
+  EXPECT_THAT(input_error_of([&] { (void)load(folder.write("map.png", "# x\nP5 1 1 255\na")); }),
+              StartsWith("map.png:1: begins with \"# x\", a PGM begins with"));
 }
 
 TEST(Pnm, WhatIsWrongIsNamed) {
@@ -227,9 +229,8 @@ TEST(GdalImage, DamagedFilesAreRefusedAndNothingIsPrinted) {
   }
   EXPECT_THAT(input_error_of([&] { (void)load(folder.write("x.tif", "II*\0nonsense")); }),
               StartsWith("x.tif: cannot be opened as TIFF, PNG, BMP or JPEG"));
-  EXPECT_THAT(
-      input_error_of([&] { (void)load(folder.write("x.png", "# by hand\nP5 1 1 255\na")); }),
-      StartsWith("x.png: cannot be opened as TIFF, PNG, BMP or JPEG: `x.png' not recogni"));
+  EXPECT_THAT(input_error_of([&] { (void)load(folder.write("x.png", "by hand")); }),
+              StartsWith("x.png: cannot be opened as TIFF, PNG, BMP or JPEG: `x.png' not recogni"));
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
 }
