@@ -24,40 +24,64 @@ std::vector<PathVertex> from_mission(const SourceText& source, const ObstacleMap
   return vertices;
 }
 
-void find_lines(const JsonPlace& place, std::vector<JsonPlace>& lines) {
+// The parts of one line: more than one where it was cut at the antimeridian (RFC 7946, 3.1.9).
+using Parts = std::vector<JsonPlace>;
+
+bool goes_on_beyond_antimeridian(const JsonPlace& part, const JsonPlace& next) {
+  if (part.size() == 0 || next.size() == 0) return false;
+  const GeodeticPoint end = part.at(part.size() - 1).longitude_latitude();
+  const GeodeticPoint begin = next.at(std::size_t{0}).longitude_latitude();
+  return std::abs(end.longitude_deg) == 180.0 && begin.longitude_deg == -end.longitude_deg &&
+         std::abs(begin.latitude_deg - end.latitude_deg) < 1e-6;
+}
+
+void add_parts(const JsonPlace& parts, bool degrees, std::vector<Parts>& lines) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool goes_on =
+        i > 0 && degrees && goes_on_beyond_antimeridian(parts.at(i - 1), parts.at(i));
+    if (!goes_on) lines.emplace_back();
+    lines.back().push_back(parts.at(i));
+  }
+}
+
+void find_lines(const JsonPlace& place, bool degrees, std::vector<Parts>& lines) {
   const std::string type = place.at("type").text();
   if (type == "FeatureCollection") {
     const JsonPlace features = place.at("features");
-    for (std::size_t i = 0; i < features.size(); ++i) find_lines(features.at(i), lines);
+    for (std::size_t i = 0; i < features.size(); ++i) find_lines(features.at(i), degrees, lines);
   } else if (type == "Feature") {
     const JsonPlace geometry = place.at("geometry");
-    if (!geometry.value().is_null()) find_lines(geometry, lines);
+    if (!geometry.value().is_null()) find_lines(geometry, degrees, lines);
   } else if (type == "LineString") {
-    lines.push_back(place.at("coordinates"));
+    lines.push_back({place.at("coordinates")});
+  } else if (type == "MultiLineString") {
+    add_parts(place.at("coordinates"), degrees, lines);
   }
 }
 
 std::vector<PathVertex> from_geojson(const SourceText& source, const nlohmann::json& json,
                                      const ObstacleMap& frame) {
-  std::vector<JsonPlace> lines;
-  find_lines(JsonPlace(json, source.file.string() + ": "), lines);
+  const bool degrees = has_geographic_frame(frame);
+  std::vector<Parts> lines;
+  find_lines(JsonPlace(json, source.file.string() + ": "), degrees, lines);
   if (lines.size() != 1)
     throw InputError(source.file.string(),
                      fmt::format("has {} LineStrings, expected one", lines.size()));
-  const JsonPlace& line = lines.front();
   std::vector<PathVertex> vertices;
   std::optional<FrameFromDegrees> to_frame;
-  if (has_geographic_frame(frame)) to_frame.emplace(frame, source.file);
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const JsonPlace position = line.at(i);
-    if (to_frame) {
+  if (degrees) to_frame.emplace(frame, source.file);
+  for (const JsonPlace& line : lines.front()) {
+    for (std::size_t i = vertices.empty() ? 0 : 1; i < line.size(); ++i) {
+      const JsonPlace position = line.at(i);
+      if (to_frame) {
+        vertices.push_back(
+            {position.where(), to_frame->point_m(position.where(), position.longitude_latitude())});
+        continue;
+      }
+      if (position.size() < 2) position.fail("is too short, expected [x_m, y_m]");
       vertices.push_back(
-          {position.where(), to_frame->point_m(position.where(), position.longitude_latitude())});
-      continue;
+          {position.where(), {position.at(std::size_t{0}).number(), position.at(1).number()}});
     }
-    if (position.size() < 2) position.fail("is too short, expected [x_m, y_m]");
-    vertices.push_back(
-        {position.where(), {position.at(std::size_t{0}).number(), position.at(1).number()}});
   }
   return vertices;
 }

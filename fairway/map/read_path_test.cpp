@@ -157,6 +157,27 @@ TEST_F(ReadPath, GeoJsonIsInMetresOnAMapWithoutDegrees) {
             "a.geojson: has 0 LineStrings, expected one");
 }
 
+TEST_F(ReadPath, ALineCutAtTheAntimeridianIsOneLine) {
+  ObstacleMap map;
+  map.grid = {400, 400, -2000.0, -2000.0, 10.0};
+  map.frame.geo = GeoReference{-17.0, 179.999, 0.0};
+  const auto read_parts = [&](const std::string& parts) {
+    return read_path(
+        folder_.write("a.geojson", R"({"type":"MultiLineString","coordinates":)" + parts + "}"),
+        map);
+  };
+  const auto path =
+      read_parts("[[[179.995,-17],[180,-17.001]],[[-180,-17.001],[-179.998,-17.002]]]");
+  ASSERT_EQ(path.size(), 3U);
+  EXPECT_LT(path[0].x, path[1].x);
+  EXPECT_LT(path[1].x, path[2].x);
+  EXPECT_LT(path[2].x - path[0].x, 800.0);
+  EXPECT_EQ(input_error_of([&] {
+              (void)read_parts("[[[179.995,-17],[179.999,-17]],[[-180,-17],[-179.998,-17]]]");
+            }),
+            "a.geojson: has 2 LineStrings, expected one");
+}
+
 TEST_F(ReadPath, APlansMissionIsAPath) {
   const std::string text = R"({"fileType":"Plan","mission":{"items":[
     {"type":"SimpleItem","command":22,"frame":3,"params":[15,0,0,null,47.3977,8.5456,50]},
