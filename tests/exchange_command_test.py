@@ -117,7 +117,11 @@ class Exchange(unittest.TestCase):
         self.assertTrue(report["on_earth"])  # the certificate alone says where it lies
         self.expect(0, "export", "c.safetensors", "-o", "eight.tif")
         self.expect(64, "export", "c.safetensors", "-o", "x.tif", "--heading", "north")
-        self.expect(65, "export", "s.toml", "-o", "x.tif")
+        self.assertIn("s.toml: is a scenario: `fairway plan` makes a plan of it",
+                      self.expect(65, "export", "s.toml", "-o", "x.tif").stderr)
+        self.assertIn("expected a name that ends in .tif or .tiff",
+                      self.expect(64, "export", "p.safetensors", "-o", "p.png").stderr)
+        self.expect(0, "export", "p.safetensors", "-o", "capitals.TIFF")
         if shutil.which("gdalinfo"):
             info = json.loads(subprocess.run(["gdalinfo", "-json", self.folder / "p.tif"],
                                              check=True, capture_output=True).stdout)

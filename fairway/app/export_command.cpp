@@ -106,6 +106,15 @@ Action declare_export(CLI::App& options) {
       ->type_name("PLAN|CERT");
   options.add_option("-o,--output", a.output, "the GeoTIFF to write")
       ->required()
+      ->check(CLI::Validator(
+          [](const std::string& file) {
+            const std::string ending = CLI::detail::to_lower(fs::path(file).extension().string());
+            return ending == ".tif" || ending == ".tiff"
+                       ? std::string()
+                       : file +
+                             " is written as GeoTIFF, expected a name that ends in .tif or .tiff";
+          },
+          ""))
       ->type_name("FILE.tif");
   options
       .add_option("--heading", a.headings,

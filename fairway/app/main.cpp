@@ -15,6 +15,7 @@
 #include "fairway/app/ending.hpp"
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/base/error.hpp"
+#include "fairway/run/mission_on_map.hpp"
 #include "fairway/run/scenario_keys.hpp"
 #include "fairway/run/version.hpp"
 
@@ -70,6 +71,9 @@ int perform(const Action& action, const Session& session) {
   }
   try {
     return action(session);
+  } catch (const WarnedInputError& error) {
+    for (const std::string& warning : error.warnings) session.warn(warning);
+    return fail(session, exit_input, error.where(), error.what());
   } catch (const InputError& error) {
     return fail(session, exit_input, error.where(), error.what());
   } catch (const std::bad_alloc&) {

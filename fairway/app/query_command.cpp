@@ -9,6 +9,7 @@
 #include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
 #include "fairway/base/error.hpp"
+#include "fairway/base/file_kind.hpp"
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/certificate/certificate_file.hpp"
@@ -43,6 +44,7 @@ int query_command(const QueryArguments& a, const Session& session) {
   const MappedFile file(a.certificate);
   runtime::Certificate certificate;
   if (certificate.open(file.bytes().data(), file.bytes().size()) != runtime::Status::ok) {
+    refuse_other_kind(file.bytes(), FileKind::certificate, a.certificate.string());
     throw InputError(a.certificate.string(), "is not a certificate");
   }
   const std::vector<State> states = states_of(a);

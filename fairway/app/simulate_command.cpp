@@ -120,6 +120,7 @@ int simulate_command(const SimulateArguments& arguments, const Session& session)
   }
   if (!arguments.qgc.empty()) {
     write_whole(arguments.qgc, session.existing(), mission_text(arguments, plan, flown.recorded));
+    for (const std::string& warning : mission_warnings(flown.recorded)) session.warn(warning);
   }
   if (!arguments.outcomes.empty()) {
     stdout_used |= put(arguments.outcomes, session, outcomes_csv(starts, flown.results));

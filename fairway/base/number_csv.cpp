@@ -11,24 +11,32 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/heading.hpp"
+#include "fairway/base/plain_text.hpp"
 
 namespace fairway {
 namespace {
 
 std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
+  const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+char separator_of(std::string_view line) {
+  for (const char c : {';', ',', '\t'}) {
+    if (line.find(c) != std::string_view::npos) return c;
+  }
+  return ',';
 }
 
 /// Replaces `fields`: one vector serves every line.
-void split(std::string_view line, std::vector<std::string_view>& fields) {
+void split(std::string_view line, char separator, std::vector<std::string_view>& fields) {
   fields.clear();
   for (;;) {
-    const auto comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return;
-    line.remove_prefix(comma + 1);
+    const auto end = line.find(separator);
+    fields.push_back(csv_field(line.substr(0, end)));
+    if (end == std::string_view::npos) return;
+    line.remove_prefix(end + 1);
   }
 }
 
@@ -124,7 +132,9 @@ void CsvPlace::refuse(const std::string& what) const {
 
 void for_csv_lines(std::string_view text, const std::string& where,
                    std::span<const CsvColumn> columns, const char* lines, const CsvTake& take) {
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  const std::string plain = plain_text(text, where);
+  text = plain;
+  char separator = 0;  // that of the first line which is no comment
   Fields fields = fields_without_header(columns.size());
   std::vector<std::string_view> words;
   std::vector<double> values;
@@ -136,7 +146,8 @@ void for_csv_lines(std::string_view text, const std::string& where,
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     if (line.empty() || line.starts_with('#')) continue;
     const CsvPlace place{where, line_number};
-    split(line, words);
+    if (separator == 0) separator = separator_of(line);
+    split(line, separator, words);
     // A header names at least one of the columns; anything else is taken for numbers gone wrong.
     const bool is_header =
         header_possible && std::any_of(columns.begin(), columns.end(), [&](const CsvColumn& c) {
@@ -159,7 +170,8 @@ void for_csv_lines(std::string_view text, const std::string& where,
 std::vector<double> csv_values(std::string_view line, const std::string& where,
                                std::span<const CsvColumn> columns) {
   std::vector<std::string_view> words;
-  split(trimmed(line), words);
+  line = trimmed(line);
+  split(line, separator_of(line), words);
   std::vector<double> values;
   read_values(words, fields_without_header(columns.size()), columns, {where, 0}, values);
   return values;

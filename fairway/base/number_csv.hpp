@@ -1,9 +1,9 @@
 // CSV files of places and headings, read strictly: states, pairs of poses, waypoints.
 //
 // With a header, columns are found by name and others are passed over; without one, a line has
-// exactly the columns asked for. Blank lines and lines that start with # are skipped. A heading is
-// in radians, or degrees with the suffix deg, and comes back wrapped into (-pi, pi]. Every number
-// is finite. Line ends may be CRLF, and a byte order mark may come first.
+// exactly the columns asked for. Commas, semicolons or tabs separate; names and numbers may stand
+// in quotes. Blank lines and lines that start with # are skipped. A heading is in radians, or
+// degrees with the suffix deg, and comes back wrapped into (-pi, pi]. Every number is finite.
 #pragma once
 
 #include <cstddef>

@@ -45,6 +45,16 @@ TEST(NumberCsv, ReadsColumnsInTheirOrderAndByName) {
             expected);
 }
 
+TEST(NumberCsv, TakesSemicolonsTabsQuotesAndEveryLineEnd) {
+  const Rows expected{{1.0, 0.5, -2e3}, {4.0, pi, 6.0}};
+  EXPECT_EQ(rows_of("1;0.5;-2e3\r4;540deg;6\r"), expected);
+  EXPECT_EQ(rows_of("a_m\tturn_rad\tb_m\n1\t0.5\t-2e3\n4\t540deg\t6\n"), expected);
+  EXPECT_EQ(rows_of("\"a_m\",\"turn_rad\",\"b_m\"\n\"1\",\"0.5\",\"-2e3\"\n4,'540deg',6\n"),
+            expected);
+  EXPECT_EQ(csv_values("1; \"0.5\" ;-2e3", "state", columns), expected[0]);
+  EXPECT_THAT(refusal_of("1,2,3\r\r1,2\r"), HasSubstr("f.csv:3: 2 fields"));
+}
+
 TEST(NumberCsv, SaysTheLineAndWhatIsWrong) {
   EXPECT_THAT(refusal_of("1,2,3\n1,2\n"), HasSubstr("f.csv:2: 2 fields: expected 3 (a_m,turn_rad"));
   EXPECT_THAT(refusal_of("1,2,3\n#\n1,2,\n"), HasSubstr("f.csv:3: b_m is '': expected a finite"));

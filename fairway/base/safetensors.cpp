@@ -100,6 +100,8 @@ std::pair<std::string_view, std::span<const std::byte>> split(std::span<const st
   for (std::size_t i = 8; i-- > 0;)
     length = (length << 8) | std::to_integer<std::uint64_t>(bytes[i]);
   if (length > longest || length > bytes.size() - 8) {
+    if (bytes.size() == 8 || bytes[8] != std::byte{'{'})
+      throw InputError(where, "is not a safetensors file, as plans and certificates are");
     throw InputError(where, "is not a whole safetensors file: its header would be " +
                                 std::to_string(length) + " bytes, the file has " +
                                 std::to_string(bytes.size()));

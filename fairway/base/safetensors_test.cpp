@@ -45,5 +45,15 @@ TEST(SafetensorsLayout, AFileWithoutArraysIsWhole) {
   EXPECT_THROW((void)parse_safetensors(bytes(header + " "), "f"), InputError);
 }
 
+TEST(Safetensors, TextIsNotTakenForACutHeader) {
+  const std::string text = "[map]\nfile = \"a\"\n";
+  try {
+    (void)parse_safetensors(std::as_bytes(std::span(text)), "s.toml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "s.toml: is not a safetensors file, as plans and certificates are");
+  }
+}
+
 }  // namespace
 }  // namespace fairway

@@ -10,6 +10,7 @@
 
 #include "fairway/base/digest.hpp"
 #include "fairway/base/error.hpp"
+#include "fairway/base/file_kind.hpp"
 #include "fairway/base/frame_json.hpp"
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/base/parallel.hpp"
@@ -183,10 +184,10 @@ void write_certificate(const Certificate& c, const std::filesystem::path& path, 
   file.commit();
 }
 
-Certificate read_certificate(const std::filesystem::path& path) {
-  const MappedFile mapped(path);
-  const std::string where = path.string();
-  const Safetensors file = parse_safetensors(mapped.bytes(), where);
+namespace {
+
+Certificate certificate_of_bytes(std::span<const std::byte> bytes, const std::string& where) {
+  const Safetensors file = parse_safetensors(bytes, where);
   const auto text = file.metadata.find("fairway");
   if (text == file.metadata.end()) {
     throw InputError(where, "is not a certificate: __metadata__ has no string \"fairway\"");
@@ -227,6 +228,18 @@ Certificate read_certificate(const std::filesystem::path& path) {
   }
   c.evidence_json = record.dump();
   return c;
+}
+
+}  // namespace
+
+Certificate read_certificate(const std::filesystem::path& path) {
+  const MappedFile mapped(path);
+  try {
+    return certificate_of_bytes(mapped.bytes(), path.string());
+  } catch (const InputError&) {
+    refuse_other_kind(mapped.bytes(), FileKind::certificate, path.string());
+    throw;
+  }
 }
 
 }  // namespace fairway

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "fairway/base/error.hpp"
 
@@ -42,42 +43,87 @@ void for_steps(const FlightSegment& piece, double step_m, const Visit& visit) {
   visit(piece, piece.length_m);
 }
 
-void append_position(std::string& text, Vec2 p, const LonLatOf& lon_lat_of) {
+/// Degrees where the frame has a place on Earth, else metres.
+Vec2 coordinates_of(Vec2 p, const LonLatOf& lon_lat_of) {
+  if (!lon_lat_of) return p;
+  const LonLat place = lon_lat_of(p);
+  return {place.longitude_deg, place.latitude_deg};
+}
+
+void append_position(std::string& text, Vec2 coordinates, bool degrees) {
+  const int decimals = degrees ? 9 : 4;  // 0.1 mm
   text += '[';
-  if (lon_lat_of) {
-    const LonLat place = lon_lat_of(p);
-    append_fixed(text, place.longitude_deg, 9);  // 0.1 mm
-    text += ',';
-    append_fixed(text, place.latitude_deg, 9);
-  } else {
-    append_fixed(text, p.x, 4);
-    text += ',';
-    append_fixed(text, p.y, 4);
-  }
+  append_fixed(text, coordinates.x, decimals);
+  text += ',';
+  append_fixed(text, coordinates.y, decimals);
   text += ']';
 }
 
-/// A LineString along the pieces, or a Point when there are none.
+using Line = std::vector<Vec2>;
+
+/// A line in degrees, cut where it crosses the antimeridian (RFC 7946, 3.1.9): two neighbours there
+/// are more than half the world apart.
+std::vector<Line> cut_at_antimeridian(const Line& line) {
+  std::vector<Line> parts(1);
+  for (Vec2 next : line) {
+    Line& part = parts.back();
+    if (part.empty() || std::abs(next.x - part.back().x) <= 180.0) {
+      part.push_back(next);
+      continue;
+    }
+    const Vec2 from = part.back();
+    const double side = from.x < 0.0 ? -180.0 : 180.0;
+    if (next.x == -side) {  // it ends on the antimeridian, which has two names
+      part.push_back({side, next.y});
+      continue;
+    }
+    const double to_side = std::abs(side - from.x);
+    const double beyond = std::abs(next.x + side);
+    const double y = from.y + to_side / (to_side + beyond) * (next.y - from.y);
+    if (to_side > 0.0) part.push_back({side, y});
+    if (part.size() == 1) part.clear();  // it began on the antimeridian
+    if (!part.empty()) parts.emplace_back();
+    parts.back() = {{-side, y}, next};
+  }
+  return parts;
+}
+
+void append_lines(std::string& text, const std::vector<Line>& lines, bool degrees) {
+  text += lines.size() == 1 ? "{\"type\":\"LineString\",\"coordinates\":"
+                            : "{\"type\":\"MultiLineString\",\"coordinates\":[";
+  const char* between = "";
+  for (const Line& line : lines) {
+    text += std::exchange(between, ",");
+    const char* before = "[";
+    for (const Vec2 p : line) {
+      text += std::exchange(before, ",");
+      append_position(text, p, degrees);
+    }
+    text += ']';
+  }
+  text += lines.size() == 1 ? "}" : "]}";
+}
+
+/// A line along the pieces, or a Point when there are none.
 void append_geometry(std::string& text, const State& start, std::span<const FlightSegment> segments,
                      double step_m, const LonLatOf& lon_lat_of) {
+  const bool degrees = static_cast<bool>(lon_lat_of);
   if (segments.empty()) {
     text += "{\"type\":\"Point\",\"coordinates\":";
-    append_position(text, start.position_m, lon_lat_of);
+    append_position(text, coordinates_of(start.position_m, lon_lat_of), degrees);
     text += '}';
     return;
   }
-  text += "{\"type\":\"LineString\",\"coordinates\":[";
-  append_position(text, segments.front().start.position_m, lon_lat_of);
+  Line line{coordinates_of(segments.front().start.position_m, lon_lat_of)};
   for (const FlightSegment& piece : segments) {
     // A straight line needs its end alone.
     const double chord_m = piece.curvature_per_m == 0.0 ? piece.length_m : step_m;
     for_steps(piece, chord_m, [&](const FlightSegment& p, double along_m) {
       if (along_m == 0.0) return;
-      text += ',';
-      append_position(text, state_at(p, along_m).position_m, lon_lat_of);
+      line.push_back(coordinates_of(state_at(p, along_m).position_m, lon_lat_of));
     });
   }
-  text += "]}";
+  append_lines(text, degrees ? cut_at_antimeridian(line) : std::vector<Line>{line}, degrees);
 }
 
 void append_or_null(std::string& text, double value) {

@@ -27,8 +27,9 @@ namespace fairway {
 /// A FeatureCollection (RFC 7946): per flight a LineString (a Point when it does not move) with the
 /// properties flight, outcome, time_s, length_m (null when trapped) and, when the goal has a
 /// heading and the flight reaches, final_leg. After all of them, per final leg a LineString with
-/// the properties flight, final_leg, word, time_s, length_m. Arcs become chords of at most
-/// `step_m`. Without `lon_lat_of` coordinates are metres and a member `note` says so.
+/// the properties flight, final_leg, word, time_s, length_m. A line across the antimeridian is a
+/// MultiLineString, cut there. Arcs become chords of at most `step_m`. Without `lon_lat_of`
+/// coordinates are metres and a member `note` says so.
 [[nodiscard]] std::string flights_geojson(std::span<const Flight> flights, double step_m,
                                           const LonLatOf& lon_lat_of = {});
 

@@ -159,5 +159,42 @@ TEST(FlightFiles, WritesGeojsonThatParsesInMetresAndInDegrees) {
             (nlohmann::json{8.00011, 50.00017}));
 }
 
+TEST(FlightFiles, geojson_is_cut_at_the_antimeridian) {
+  Flight flight;
+  flight.start = {{0.0, 0.0}, Heading::from_rad(0.0)};
+  flight.result = {Outcome::reach, 1.0, 40.0};
+  const auto straight = [](double x, double y, double length_m, double heading_rad) {
+    return FlightSegment{{{x, y}, Heading::from_rad(heading_rad)}, 0.0, length_m, 0.0};
+  };
+  // A degree of longitude for each metre, from `west_deg` on.
+  const auto geometry = [&](double west_deg, std::vector<FlightSegment> segments) {
+    flight.segments = std::move(segments);
+    const auto place = [&](Vec2 p) {
+      const double longitude = west_deg + p.x;
+      return LonLat{longitude > 180.0 ? longitude - 360.0 : longitude, p.y};
+    };
+    const auto json = nlohmann::json::parse(flights_geojson(std::vector{flight}, 100.0, place));
+    return json["features"][0]["geometry"];
+  };
+  using nlohmann::json;
+  EXPECT_EQ(geometry(170.0, {straight(0, 0, 5, 0)}),
+            (json{{"type", "LineString"}, {"coordinates", {{170.0, 0.0}, {175.0, 0.0}}}}));
+  const json across = geometry(170.0, {straight(0, 0, 20, 0), straight(20, 0, 20, pi)});
+  EXPECT_EQ(across["type"], "MultiLineString");
+  EXPECT_EQ(across["coordinates"], (json{{{170.0, 0.0}, {180.0, 0.0}},
+                                         {{-180.0, 0.0}, {-170.0, 0.0}, {-180.0, 0.0}},
+                                         {{180.0, 0.0}, {170.0, 0.0}}}));
+  // Where it crosses is between its points: 20 degrees along of 30 and up.
+  const json slanted = geometry(160.0, {straight(0, 0, 50, std::atan2(4, 3))});
+  EXPECT_NEAR(slanted["coordinates"][0][1][1].get<double>(), 40.0 * 20.0 / 30.0, 1e-8);
+  // Beginning or ending on it makes no part of one point.
+  EXPECT_EQ(geometry(180.0, {straight(0, 0, 5, 0)})["coordinates"],
+            (json{{-180.0, 0.0}, {-175.0, 0.0}}));
+  EXPECT_EQ(geometry(170.0, {straight(0, 0, 10, 0)})["coordinates"],
+            (json{{170.0, 0.0}, {180.0, 0.0}}));
+  EXPECT_EQ(geometry(175.0, {straight(10, 0, 5, pi)})["coordinates"],
+            (json{{-175.0, 0.0}, {-180.0, 0.0}}));
+}
+
 }  // namespace
 }  // namespace fairway

@@ -49,6 +49,30 @@ std::string plan_item(std::size_t number, double altitude_m, const LonLat& place
 
 }  // namespace
 
+std::vector<std::string> mission_warnings(std::span<const Flight> flights) {
+  std::vector<std::string> warnings;
+  for (const Flight& flight : flights) {
+    const FlightResult& r = flight.result;
+    const std::string after =
+        std::isfinite(r.time_s) ? fmt::format(" after {:.2f} s", r.time_s) : std::string();
+    switch (r.outcome) {
+      case Outcome::reach:
+        break;
+      case Outcome::collide:
+        warnings.push_back("the flight collides" + after + ", and the mission leads there, too.");
+        break;
+      case Outcome::leave:
+        warnings.push_back("the flight leaves the map" + after +
+                           ", and the mission leads there, too.");
+        break;
+      case Outcome::trapped:
+        warnings.push_back("the flight never reaches the goal, nor does the mission, which ends.");
+        break;
+    }
+  }
+  return warnings;
+}
+
 std::string qgc_plan_text(const Flight& flight, double speed_mps, const LonLatOf& lon_lat_of,
                           const QgcMissionOptions& options) {
   const std::vector<LonLat> waypoints = waypoints_of(flight, speed_mps, lon_lat_of, options);

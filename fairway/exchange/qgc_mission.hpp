@@ -12,7 +12,9 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "fairway/base/frame.hpp"
 #include "fairway/simulate/flight.hpp"
@@ -24,6 +26,9 @@ struct QgcMissionOptions {
   double altitude_m = 50.0;  ///< above home, >= 0
   double tolerance_m = 1.0;  ///< > 0
 };
+
+/// A sentence for each flight that does not reach: its mission leads where it ends, too.
+[[nodiscard]] std::vector<std::string> mission_warnings(std::span<const Flight> flights);
 
 /// QGroundControl's .plan, version 1. Throws PreconditionViolation when an option is out of range
 /// or `lon_lat_of` is empty.

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/number_text.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/field/distance_transform.hpp"
 #include "fairway/field/octile.hpp"
@@ -64,7 +65,7 @@ void mark_buffer_paper(CompleteMap& complete, const ObstacleMap& map, const Vehi
 }
 
 MissionRefusal refusal(Reason reason, std::string message, double lacks_m = 0.0) {
-  return {reason, std::move(message), lacks_m};
+  return {reason, std::move(message), lacks_m, {}};
 }
 
 // The cell centre nearest to the goal whose disc fits into the safe start, for the user's next try.
@@ -92,7 +93,14 @@ std::optional<Vec2> nearest_place_that_fits(const Grid& grid, const std::vector<
     if (best && norm2(p - goal_m) >= norm2(*best - goal_m)) continue;
     if (fits(i, p)) best = p;
   }
-  return best;
+  if (!best) return best;
+  // As it will be printed, when it fits there, too.
+  const Vec2 printed{std::round(100.0 * best->x) / 100.0, std::round(100.0 * best->y) / 100.0};
+  const std::vector<std::uint32_t> cells = cells_inside_disc(grid, printed, wide_m);
+  const bool fits_printed =
+      !cells.empty() &&
+      std::all_of(cells.begin(), cells.end(), [&](std::uint32_t c) { return taken[c] == 0; });
+  return fits_printed ? printed : best;
 }
 
 // Distances to the nearest obstacle in the metric whose circles are squares, in cells: what
@@ -159,6 +167,20 @@ Shortage shortage_of(const CompleteMap& complete, const ObstacleMap& map, const 
   return s;
 }
 
+// "[x, y]", as a scenario has it.
+std::string pair_text(Vec2 p) {
+  return "[" + coordinate_text(p.x) + ", " + coordinate_text(p.y) + "]";
+}
+
+// The same of a place that must be met: in more digits where centimetres do not do.
+std::string exact_pair_text(Vec2 p) {
+  const auto text = [](double x) {
+    return std::abs(std::round(100.0 * x) / 100.0 - x) < 1e-9 ? coordinate_text(x)
+                                                              : fmt::format("{:.12g}", x);
+  };
+  return "[" + text(p.x) + ", " + text(p.y) + "]";
+}
+
 bool all_free(const CompleteMap& complete) {
   return std::all_of(complete.goal_cells.begin(), complete.goal_cells.end(),
                      [&](std::uint32_t i) { return complete.region[i] == Region::free; });
@@ -173,50 +195,41 @@ std::optional<MissionRefusal> place_goal(CompleteMap& complete, const ObstacleMa
                                          const GoalMission& goal, const Vehicle& vehicle,
                                          const FieldOptions& options) {
   const Grid& grid = map.grid;
-  const double x = goal.goal_m.x;
-  const double y = goal.goal_m.y;
   const double radius = options.beta * vehicle.turn_radius_m;
-  if (!(x >= grid.x0_m && x <= grid.x0_m + grid.width_m() && y >= grid.y0_m &&
-        y <= grid.y0_m + grid.height_m())) {
-    return refusal(
-        Reason::outside_map,
-        fmt::format("the goal [{:.12g}, {:.12g}] lies outside the map, which covers x {:.12g} "
-                    "to {:.12g} m and y {:.12g} to {:.12g} m",
-                    x, y, grid.x0_m, grid.x0_m + grid.width_m(), grid.y0_m,
-                    grid.y0_m + grid.height_m()));
+  if (!is_within(grid, goal.goal_m)) {
+    return refusal(Reason::outside_map, "the goal " + outside_text(goal.goal_m, grid));
   }
   Cell cell = grid.cell_of(goal.goal_m);
   cell = {std::min(cell.ix, grid.nx - 1), std::min(cell.iy, grid.ny - 1)};
   complete.goal_cells = cells_inside_disc(grid, goal.goal_m, radius);
   const auto next_try = [&]() -> std::string {
     const auto fits = nearest_place_that_fits(grid, complete.region, goal.goal_m, radius);
+    if (std::find(map.obstacle.begin(), map.obstacle.end(), 0) == map.obstacle.end())
+      return "no cell of this map is free, so that no alpha, beta or turn_radius_m would do";
     if (!fits)
       return "such a goal fits about no cell of this map: reduce alpha, beta or turn_radius_m";
-    return fmt::format("the nearest goal that fits is [{:.12g}, {:.12g}]", fits->x, fits->y);
+    return "the nearest goal that fits is " + exact_pair_text(*fits);
   };
   if (complete.region[grid.index(cell)] == Region::obstacle) {
-    return refusal(
-        Reason::in_obstacle,
-        fmt::format("the goal [{:.12g}, {:.12g}] lies in an obstacle; {}", x, y, next_try()));
+    return refusal(Reason::in_obstacle, fmt::format("the goal {} lies in an obstacle; {}",
+                                                    pair_text(goal.goal_m), next_try()));
   }
   if (complete.goal_cells.empty()) {
-    return refusal(
-        Reason::goal_too_small,
-        fmt::format("no cell lies wholly inside the goal disc of radius beta * "
-                    "turn_radius_m = {:.6g} m about [{:.12g}, {:.12g}]: cells are {:.6g} m "
-                    "wide; enlarge beta or reduce cell_m",
-                    radius, x, y, grid.cell_m));
+    return refusal(Reason::goal_too_small,
+                   fmt::format("no cell lies wholly inside the goal disc of radius beta * "
+                               "turn_radius_m = {:.6g} m about {}: cells are {:.6g} m "
+                               "wide; enlarge beta or reduce cell_m",
+                               radius, pair_text(goal.goal_m), grid.cell_m));
   }
   if (all_free(complete)) return std::nullopt;
   const Shortage shortage = shortage_of(complete, map, vehicle, options);
-  return refusal(
-      Reason::in_buffer,
-      fmt::format("the goal disc (radius beta * turn_radius_m = {:.6g} m about [{:.12g}, "
-                  "{:.12g}]) reaches into the buffer: it comes within {:.6g} m of an "
-                  "obstacle, {}, so {} (Assumption 1); {}",
-                  radius, x, y, shortage.clearance_m, shortage.needs, lack_words(shortage),
-                  next_try()),
-      shortage.lacks_m);
+  return refusal(Reason::in_buffer,
+                 fmt::format("the goal disc (radius beta * turn_radius_m = {:.6g} m about {}"
+                             ") reaches into the buffer: it comes within {:.6g} m of an "
+                             "obstacle, {}, so {} (Assumption 1); {}",
+                             radius, pair_text(goal.goal_m), shortage.clearance_m, shortage.needs,
+                             lack_words(shortage), next_try()),
+                 shortage.lacks_m);
 }
 
 std::optional<MissionRefusal> place_path(CompleteMap& complete, const ObstacleMap& map,
@@ -225,13 +238,9 @@ std::optional<MissionRefusal> place_path(CompleteMap& complete, const ObstacleMa
   const Grid& grid = map.grid;
   for (std::size_t k = 0; k < path.vertices_m.size(); ++k) {
     const Vec2 p = path.vertices_m[k];
-    if (p.x >= grid.x0_m && p.x <= grid.x0_m + grid.width_m() && p.y >= grid.y0_m &&
-        p.y <= grid.y0_m + grid.height_m()) {
-      continue;
-    }
+    if (is_within(grid, p)) continue;
     return refusal(Reason::outside_map,
-                   fmt::format("vertex {} of the path, [{:.12g}, {:.12g}], lies outside the map",
-                               k + 1, p.x, p.y));
+                   fmt::format("vertex {} of the path: {}", k + 1, outside_text(p, grid)));
   }
   complete.path_cells = cells_on_path(grid, path);
   require(!complete.path_cells.empty(), "a path has at least two distinct vertices");
@@ -240,9 +249,7 @@ std::optional<MissionRefusal> place_path(CompleteMap& complete, const ObstacleMa
   const Shortage shortage = shortage_of(complete, map, vehicle, options);
   const Vec2 where = grid.center(grid.cell_at(shortage.index));
   if (shortage.clearance_m == 0.0) {
-    return refusal(
-        Reason::in_obstacle,
-        fmt::format("the path crosses an obstacle near [{:.12g}, {:.12g}]", where.x, where.y));
+    return refusal(Reason::in_obstacle, "the path crosses an obstacle near " + pair_text(where));
   }
   std::string next_try = fmt::format("alpha below {:.4g} would do", shortage.largest_alpha);
   if (options.metric == Metric::paper) {
@@ -250,13 +257,12 @@ std::optional<MissionRefusal> place_path(CompleteMap& complete, const ObstacleMa
                    ? fmt::format("alpha up to {:.4f} would do", shortage.largest_alpha)
                    : "no alpha would do";
   }
-  return refusal(
-      Reason::in_buffer,
-      fmt::format("the path enters the buffer near [{:.12g}, {:.12g}]: it comes within {:.6g} m "
-                  "of an obstacle, {}, so {} (Assumption 1); {}",
-                  where.x, where.y, shortage.clearance_m, shortage.needs, lack_words(shortage),
-                  next_try),
-      shortage.lacks_m);
+  return refusal(Reason::in_buffer,
+                 fmt::format("the path enters the buffer near {}: it comes within {:.6g} m "
+                             "of an obstacle, {}, so {} (Assumption 1); {}",
+                             pair_text(where), shortage.clearance_m, shortage.needs,
+                             lack_words(shortage), next_try),
+                 shortage.lacks_m);
 }
 
 }  // namespace
@@ -277,10 +283,13 @@ std::variant<CompleteMap, MissionRefusal> complete_map(const ObstacleMap& map,
   }
 
   const auto* goal = std::get_if<GoalMission>(&mission);
-  const std::optional<MissionRefusal> refused =
+  std::optional<MissionRefusal> refused =
       goal != nullptr ? place_goal(complete, map, *goal, vehicle, options)
                       : place_path(complete, map, std::get<PathMission>(mission), vehicle, options);
-  if (refused) return *refused;
+  if (refused) {
+    refused->warnings = map.warnings;
+    return *std::move(refused);
+  }
   for (const std::uint32_t i : complete.goal_cells) complete.region[i] = Region::goal;  // line 20
   return complete;
 }

@@ -134,7 +134,7 @@ FieldOrRefusal compute_field(const ObstacleMap& map, const Vehicle& vehicle, con
                options.metric == Metric::paper ? 0.0 : options.axis_capture_rad);
   if (!goal_is_reached_from_elsewhere(out)) {
     return MissionRefusal{MissionRefusal::Reason::unreachable,
-                          "no safe-start cell outside the goal can reach it", 0.0};
+                          "no safe-start cell outside the goal can reach it", 0.0, map.warnings};
   }
   return out;
 }

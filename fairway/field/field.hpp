@@ -65,7 +65,8 @@ struct MissionRefusal {
   enum class Reason { outside_map, in_obstacle, in_buffer, goal_too_small, unreachable };
   Reason reason;
   std::string message;
-  double lacks_m = 0.0;  ///< in_buffer: the clearance that is missing (Assumption 1)
+  double lacks_m = 0.0;               ///< in_buffer: the clearance that is missing (Assumption 1)
+  std::vector<std::string> warnings;  ///< of the map: the reason may stand there
 };
 
 using FieldOrRefusal = std::variant<Field, MissionRefusal>;

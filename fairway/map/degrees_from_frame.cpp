@@ -3,10 +3,10 @@
 #include <cmath>
 #include <memory>
 
-#include <fmt/format.h>
 #include <ogr_spatialref.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/number_text.hpp"
 #include "fairway/map/gdal_session.hpp"
 #include "fairway/map/tangent_plane.hpp"
 
@@ -48,8 +48,7 @@ LonLatOf lon_lat_of(const Frame& frame, const std::string& where) {
     double x = position_m.x;
     double y = position_m.y;
     if (projection->Transform(1, &x, &y) == 0 || !std::isfinite(x) || !std::isfinite(y)) {
-      throw InputError(where, fmt::format("({:g}, {:g}) lies outside its reference system",
-                                          position_m.x, position_m.y));
+      throw InputError(where, place_text(position_m) + " lies outside its reference system");
     }
     return LonLat{x, y};
   };

@@ -30,6 +30,11 @@ struct FenceSet {
   std::optional<GeoReference> geo;
   std::vector<InputFile> inputs;
   std::vector<std::string> warnings;
+
+  bool names_a_place() const {
+    return !keep_out.empty() || !keep_out_circles.empty() || !keep_in.empty() ||
+           !keep_in_circles.empty() || !places_m.empty();
+  }
 };
 
 }  // namespace fairway

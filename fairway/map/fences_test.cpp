@@ -149,6 +149,21 @@ TEST_F(Fences, HeightsBelowTheAltitudeAreFreeAndUnknownHeightsAreNot) {
   EXPECT_TRUE(blocked(read_map(request), {-30, 0}));
 }
 
+TEST_F(Fences, HeightsThatCannotBeStayObstacles) {
+  for (const char* none : {"-9999", "-32768", "-3.4e38", "-20000"}) {
+    MapRequest request = this->request(
+        "a.geojson",
+        collection(feature(polygon(square(-30, 0, 5)), R"({"height":)" + std::string(none) + "}") +
+                   "," + feature(polygon(square(30, 0, 5)), R"({"height":3})")));
+    request.altitude_m = 20.0;
+    const ObstacleMap map = read_map(request);
+    EXPECT_TRUE(blocked(map, {-30, 0})) << none;
+    EXPECT_FALSE(blocked(map, {30, 0}));
+    EXPECT_THAT(map.warnings,
+                ::testing::Contains(HasSubstr("1 features have heights that cannot")));
+  }
+}
+
 TEST_F(Fences, AFootprintGrowsObstacles) {
   MapRequest request = this->request("a.geojson", polygon(square(0, 0, 10)));
   request.footprint_radius_m = 15.0;
@@ -292,8 +307,10 @@ TEST_F(Fences, APlanThatIsWrongIsNamedWithItsPlace) {
             "a.plan: geoFence.circles[0].circle: the key \"radius\" is missing");
   EXPECT_EQ(error("a.plan", plan("", "", R"({"type":"SimpleItem","command":16,"params":[0]})")),
             "a.plan: mission.items[0].params: has 1 elements, expected 7");
-  EXPECT_EQ(error("a.plan", plan("", "", R"({"type":"SimpleItem","command":1e300,"params":[0]})")),
-            "a.plan: mission.items[0].command: is 1e+300, expected a whole number");
+  EXPECT_EQ(
+      error("a.plan", plan("", "", R"({"type":"SimpleItem","command":1e300,"params":[0]})")),
+      "a.plan: mission.items[0].command: is 1e+300, expected a whole number from -1000000000 to "
+      "1000000000");
   EXPECT_EQ(
       error("a.plan", plan("", "", R"({"type":"ComplexItem","complexItemType":"StructureScan"})")),
       "a.plan: mission.items[0]: is a complex item of kind \"StructureScan\" without plain "
@@ -354,9 +371,65 @@ TEST_F(Fences, AWaypointFileMayHoldFences) {
             "a.txt:2: field 3 is \"x\", expected a number");
 }
 
+TEST_F(Fences, WithoutAKeepInFenceTheWorldHoldsTheMission) {
+  folder_.write("out.geojson", feature(polygon(square(0, 0, 50))));
+  MapRequest request;
+  request.file = folder_.file("out.geojson");
+  request.cell_m = 10.0;
+  request.world_margin_m = 30.0;
+  request.outside_is_obstacle = false;
+  const auto holds = [](const Grid& g, Vec2 p, double room_m) {
+    return p.x - room_m >= g.x0_m - 0.5 && p.x + room_m <= g.x0_m + g.width_m() + 0.5 &&
+           p.y - room_m >= g.y0_m - 0.5 && p.y + room_m <= g.y0_m + g.height_m() + 0.5;
+  };
+  const Grid alone = read_map(request).grid;
+  EXPECT_FALSE(holds(alone, {600, 0}, 0));
+  request.also_hold_m = {{600, -20}};
+  request.also_hold_deg = {at(-30, 700)};
+  request.also_hold_path = folder_.write("p.csv", "x_m,y_m\n0,0\n-900,10\n");
+  const ObstacleMap map = read_map(request);
+  for (const Vec2 p : {Vec2{600, -20}, Vec2{-30, 700}, Vec2{-900, 10}})
+    EXPECT_TRUE(holds(map.grid, p, 30.0)) << p.x << " " << p.y;
+  EXPECT_NEAR(map.frame.geo->latitude_deg, 47.3977, 1e-6) << "the plane stays where the file is";
+  EXPECT_GE(map.frame.geo->worst_error_m, TangentPlane(at(0, 0)).worst_error_m(at(-900, 10)));
+  // What is on another continent, or cannot be read, is told by the one who reads the mission.
+  request.also_hold_m = {{1e7, 0}};
+  request.also_hold_deg = {{-33.0, 151.0}};
+  request.also_hold_path = folder_.file("none.csv");
+  EXPECT_EQ(read_map(request).grid, alone);
+  // A keep-in fence is the world.
+  folder_.write("in.geojson", feature(polygon(square(0, 0, 200)), R"({"inclusion":true})"));
+  request.file = folder_.file("in.geojson");
+  request.also_hold_m = {{600, 0}};
+  EXPECT_FALSE(holds(read_map(request).grid, {600, 0}, 0));
+}
+
+TEST_F(Fences, ErrorsSayTheScenariosLineToo) {
+  MapRequest request;
+  request.place_of = [](std::string_view key) {
+    return key == "map.file" ? std::string("s.toml:2") : "s.toml:3";
+  };
+  const auto error = [&] { return input_error_of([&] { (void)read_map(request); }); };
+  request.file = folder_.file("gone.geojson");
+  EXPECT_EQ(error(), "gone.geojson: no such file (map.file of s.toml:2)");
+  request.file = folder_.write("a.geojson", "{\n]");
+  EXPECT_THAT(error(), AllOf(StartsWith("a.geojson:2: is no JSON"), HasSubstr("of s.toml:2)")));
+  request.file = folder_.write("b.geojson", feature(polygon(square(0, 0, 5000))));
+  request.cell_m = 1e-3;
+  EXPECT_THAT(error(), StartsWith("s.toml:3: map.cell_m: 0.001 m cells on a map of 1"));
+}
+
+TEST_F(Fences, OtherFilesOfOursAreToldByName) {
+  MapRequest request;
+  request.file = folder_.write("s.toml", "[map]\nfile = \"a\"\n[mission]\nkind = \"goal\"\n");
+  EXPECT_EQ(input_error_of([&] { (void)read_map(request); }),
+            "s.toml: is a scenario: `fairway plan` makes a plan of it");
+}
+
 TEST_F(Fences, FilesOfNoKnownKindAreRefused) {
-  EXPECT_THAT(error("a.xyz", "hello"),
-              StartsWith("a.xyz: is of no known kind, expected a ROS map"));
+  EXPECT_THAT(
+      error("a.xyz", "hello"),
+      StartsWith("a.xyz: is of no known kind, expected ROS map_server .yaml, QGC waypoints, "));
 }
 
 }  // namespace

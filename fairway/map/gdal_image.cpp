@@ -111,16 +111,24 @@ void tidy_row(const Layout& layout, std::span<std::uint16_t> samples) {
 
 }  // namespace
 
-void read_image(const std::filesystem::path& file, std::uint64_t max_pixels,
-                const TakeRow& take_row) {
+bool is_gdal_image(std::string_view head) {
+  using namespace std::string_view_literals;
+  return head.starts_with("\x89PNG"sv) || head.starts_with("BM"sv) || head.starts_with("II*\0"sv) ||
+         head.starts_with("MM\0*"sv) || head.starts_with("II+\0"sv) ||
+         head.starts_with("MM\0+"sv) || head.starts_with("\xff\xd8\xff"sv);
+}
+
+std::vector<std::string> read_image(const std::filesystem::path& file, std::uint64_t max_pixels,
+                                    const TakeRow& take_row) {
   require_regular_file(file);
   {
     std::FILE* stream = std::fopen(file.string().c_str(), "rb");
-    char head[3] = {0, 0, 0};
-    const std::size_t got = stream == nullptr ? 0 : std::fread(head, 1, 3, stream);
+    char head[40] = {};
+    const std::size_t got = stream == nullptr ? 0 : std::fread(head, 1, sizeof head, stream);
     if (stream != nullptr) std::fclose(stream);
-    if (is_pnm({head, got}))
-      return read_pnm(read_source(file, std::uint64_t{4} << 30), max_pixels, take_row);
+    if (is_pnm({head, got}) ||
+        ((is_pnm_file(file) || head[0] == '#') && !is_gdal_image({head, got})))
+      return read_pnm(read_bytes(file, std::uint64_t{4} << 30), max_pixels, take_row);
   }
   GdalRaster raster(file);
   require_image_size(file, raster.dataset().GetRasterXSize(), raster.dataset().GetRasterYSize(),
@@ -152,6 +160,7 @@ void read_image(const std::filesystem::path& file, std::uint64_t max_pixels,
       }
     }
   }
+  return raster.warnings();
 }
 
 }  // namespace fairway

@@ -33,9 +33,28 @@ std::optional<std::array<double, 6>> GdalRaster::geotransform() {
   return transform;
 }
 
+std::string GdalRaster::in_our_words(std::string said) const {
+  const std::string absolute = std::filesystem::absolute(file_).string();
+  const std::string given = file_.string();
+  for (std::size_t at = said.find(absolute); at != said.npos;
+       at = said.find(absolute, at + given.size()))
+    said.replace(at, absolute.size(), given);
+  const std::string twice = given + ":";  // where GDAL begins with the name, we do, too
+  return said.starts_with(twice) ? std::string(trimmed(said.substr(twice.size()))) : said;
+}
+
+std::vector<std::string> GdalRaster::warnings() const {
+  std::vector<std::string> warnings;
+  for (const std::string& said : session_.warnings()) {
+    const std::string words = in_our_words(said);
+    warnings.push_back(file_.string() + ": " + words + (words.ends_with('.') ? "" : "."));
+  }
+  return warnings;
+}
+
 void GdalRaster::fail(const std::string& what) const {
-  throw InputError(file_.string(),
-                   session_.message().empty() ? what : what + ": " + session_.message());
+  const std::string said = in_our_words(session_.message());
+  throw InputError(file_.string(), said.empty() ? what : what + ": " + said);
 }
 
 }  // namespace fairway

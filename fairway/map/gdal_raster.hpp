@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fairway/map/gdal_session.hpp"
 
@@ -26,10 +27,16 @@ class GdalRaster {
   /// for files that carry one inside.
   std::optional<std::array<double, 6>> geotransform();
 
+  /// What GDAL warned of so far, each with the file's name.
+  [[nodiscard]] std::vector<std::string> warnings() const;
+
   /// Throws InputError: `what`, then what GDAL said last.
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
+  /// GDAL's words, with the file's name as the user gave it.
+  [[nodiscard]] std::string in_our_words(std::string said) const;
+
   GdalSession session_;
   std::filesystem::path file_;
   GDALDataset* dataset_ = nullptr;

@@ -1,5 +1,6 @@
 #include "fairway/map/gdal_session.hpp"
 
+#include <algorithm>
 #include <mutex>
 
 #include <cpl_conv.h>
@@ -26,7 +27,9 @@ void register_drivers_once() {
 
 void take_error(CPLErr severity, CPLErrorNum, const char* message) {
   auto* session = static_cast<GdalSession*>(CPLGetErrorHandlerUserData());
-  if (session != nullptr && severity >= CE_Failure) session->remember(message);
+  if (session == nullptr) return;
+  if (severity >= CE_Failure) session->remember(message);
+  if (severity == CE_Warning) session->remember_warning(message);
 }
 
 }  // namespace
@@ -36,9 +39,17 @@ GdalSession::GdalSession() {
   CPLPushErrorHandlerEx(&take_error, this);
   CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", "NO");
   CPLSetThreadLocalConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");
+  // A GeoTIFF that says its rows run north is believed; by default GDAL reads it upside down.
+  CPLSetThreadLocalConfigOption("GTIFF_HONOUR_NEGATIVE_SCALEY", "YES");
+}
+
+void GdalSession::remember_warning(const char* message) {
+  if (std::find(warnings_.begin(), warnings_.end(), message) == warnings_.end())
+    warnings_.emplace_back(message);
 }
 
 GdalSession::~GdalSession() {
+  CPLSetThreadLocalConfigOption("GTIFF_HONOUR_NEGATIVE_SCALEY", nullptr);
   CPLSetThreadLocalConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", nullptr);
   CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", nullptr);
   CPLPopErrorHandler();

@@ -4,6 +4,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/map/fence_sources.hpp"
+#include "fairway/map/ground_height.hpp"
 
 namespace fairway {
 
@@ -29,6 +30,7 @@ class GeoJsonReader {
   std::size_t lines = 0;
   std::size_t bare_points = 0;
   std::size_t low_areas = 0;
+  std::size_t untold_heights = 0;
 
  private:
   void read_feature(const JsonPlace& feature) {
@@ -54,12 +56,16 @@ class GeoJsonReader {
   }
 
   // Heights in metres above what altitude_m is measured from; unknown heights stay obstacles.
-  bool is_low(const JsonPlace& properties) const {
+  bool is_low(const JsonPlace& properties) {
     if (!request_.altitude_m || !properties.is_object()) return false;
     for (const auto& [key, value] : properties.value().items()) {
       const std::string name = lower(key);
-      if ((name == "height" || name == "height_m") && value.is_number())
-        return value.get<double>() <= *request_.altitude_m - request_.margin_m;
+      if ((name != "height" && name != "height_m") || !value.is_number()) continue;
+      const auto height_m = value.get<double>();
+      if (can_be_ground(height_m) && !stands_for_none(height_m))
+        return height_m <= *request_.altitude_m - request_.margin_m;
+      ++untold_heights;
+      return false;
     }
     return false;
   }
@@ -169,6 +175,10 @@ GeodeticFences read_geojson(const SourceText& source, const nlohmann::json& json
   if (reader.bare_points > 0)
     fences.warnings.push_back(
         fmt::format("{}: {} points without radius_m are ignored.", name, reader.bare_points));
+  if (reader.untold_heights > 0)
+    fences.warnings.push_back(
+        fmt::format("{}: {} features have heights that cannot be; they are unknown, and obstacles.",
+                    name, reader.untold_heights));
   if (reader.low_areas > 0)
     fences.warnings.push_back(fmt::format("{}: {} features are not higher than {} m and are free.",
                                           name, reader.low_areas,

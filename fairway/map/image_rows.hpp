@@ -7,6 +7,8 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "fairway/map/source_text.hpp"
 
@@ -26,16 +28,25 @@ struct ImageFormat {
 using TakeRow =
     std::function<void(const ImageFormat&, int row, std::span<const std::uint16_t> samples)>;
 
-/// Throws InputError: missing, malformed, truncated, no samples of 8 or 16 bits, or more than
-/// `max_pixels`, which is checked before anything is allocated.
-void read_image(const std::filesystem::path& file, std::uint64_t max_pixels,
-                const TakeRow& take_row);
+/// Gives warnings: what a user should know of the file. Throws InputError: missing, malformed,
+/// truncated, no samples of 8 or 16 bits, or more than `max_pixels`, which is checked before
+/// anything is allocated.
+[[nodiscard]] std::vector<std::string> read_image(const std::filesystem::path& file,
+                                                  std::uint64_t max_pixels,
+                                                  const TakeRow& take_row);
 
 /// True when the first bytes are those of a PGM or PPM file (P2, P3, P5, P6).
 [[nodiscard]] bool is_pnm(std::string_view head);
 
-/// The kinds by hand; `source` is the whole file.
-void read_pnm(const SourceText& source, std::uint64_t max_pixels, const TakeRow& take_row);
+/// True when the first bytes are those of a PNG, BMP, JPEG or TIFF file.
+[[nodiscard]] bool is_gdal_image(std::string_view head);
+
+/// True when the name says PGM, PPM, PNM or PBM, whatever the file begins with.
+[[nodiscard]] bool is_pnm_file(const std::filesystem::path& file);
+
+/// The kinds by hand; `source` is the whole file. Gives warnings.
+[[nodiscard]] std::vector<std::string> read_pnm(const SourceText& source, std::uint64_t max_pixels,
+                                                const TakeRow& take_row);
 
 /// Throws InputError unless both sides are at least 1 and the area is at most `max_pixels`.
 void require_image_size(const std::filesystem::path& file, std::int64_t width, std::int64_t height,

@@ -25,12 +25,12 @@ struct Image {
 Image load(const std::filesystem::path& file, std::uint64_t max_pixels = 1 << 20) {
   Image image;
   int next_row = 0;
-  read_image(file, max_pixels,
-             [&](const ImageFormat& format, int row, std::span<const std::uint16_t> samples) {
-               EXPECT_EQ(row, next_row++);
-               image.format = format;
-               image.samples.insert(image.samples.end(), samples.begin(), samples.end());
-             });
+  (void)read_image(file, max_pixels,
+                   [&](const ImageFormat& format, int row, std::span<const std::uint16_t> samples) {
+                     EXPECT_EQ(row, next_row++);
+                     image.format = format;
+                     image.samples.insert(image.samples.end(), samples.begin(), samples.end());
+                   });
   EXPECT_EQ(next_row, image.format.height);
   return image;
 }
@@ -82,6 +82,46 @@ TEST(Pnm, EveryKindReadsTheSamePixels) {
             (std::vector<int>{'a', 'b', 'c'}));
 }
 
+TEST(Pnm, CommentsStandAnywhereInTheHeader) {
+  const ScratchFolder folder;
+  const std::vector<int> expected = {'a', 'b'};
+  for (const char* text :
+       {"P5 # c\n2 1 255\nab", "P5\n# c\n# d\n2 1\n# 9 9\n255\nab", "P5 2# c\n1# c\n255\nab",
+        "P5 2 1 255# touching\nab", "P5\r# c\r2 1\r255\rab", "P5#c\n2 1 255\nab"})
+    EXPECT_EQ(load(folder.write("a.pgm", text)).samples, expected) << text;
+}
+
+TEST(Pnm, BytesLeftOverAreWarnedAbout) {
+  const ScratchFolder folder;
+  const auto warnings = [&](std::string_view bytes) {
+    const auto ignore = [](const ImageFormat&, int, std::span<const std::uint16_t>) {};
+    return read_image(folder.write("a.pgm", bytes), 100, ignore);
+  };
+  for (const char* exact : {"P5 2 1 255\nab", "P2 2 1 255 1 2", "P2 2 1 255 1 2\n\n# end\n"})
+    EXPECT_THAT(warnings(exact), ::testing::IsEmpty()) << exact;
+  // By the letter the comment is the first pixels, as other readers have it.
+  EXPECT_THAT(warnings("P5 2 1 255 # x\nab"),
+              ::testing::ElementsAre(::testing::AllOf(
+                  HasSubstr("a.pgm: 4 bytes behind the last pixel are ignored"),
+                  HasSubstr("a comment behind the maximum value is taken for pixels"))));
+  EXPECT_THAT(warnings("P5 2 1 255\r\nab"),
+              ::testing::ElementsAre(HasSubstr("1 byte behind the last pixel is ignored")));
+  EXPECT_THAT(warnings("P2 2 1 255 1 2 3"), ::testing::ElementsAre(HasSubstr("1 byte")));
+}
+
+TEST(Pnm, AFileThatBeginsOtherwiseIsToldHowAPgmBegins) {
+  const ScratchFolder folder;
+  for (const auto& [begin, shown] : {std::pair("# by hand\nP5 1 1 255\na", "\"# by hand\""),
+                                     {"P4\n8 1\n\xff", "\"P4\""},
+                                     {"\nP5 1 1 255\na", "\"\""},
+                                     {"<html>", "\"<html>\""}})
+    EXPECT_EQ(input_error_of([&] { (void)load(folder.write("a.PGM", begin)); }),
+              std::string("a.PGM:1: begins with ") + shown +
+                  ", a PGM begins with P5 or P2 and a PPM with P6 or P3, before any comment");
+  EXPECT_THAT(input_error_of([&] { (void)load(folder.write("map.png", "# x\nP5 1 1 255\na")); }),
+              StartsWith("map.png:1: begins with \"# x\", a PGM begins with"));
+}
+
 TEST(Pnm, WhatIsWrongIsNamed) {
   const ScratchFolder folder;
   const auto error = [&](std::string_view bytes) {
@@ -96,6 +136,8 @@ TEST(Pnm, WhatIsWrongIsNamed) {
   EXPECT_EQ(error("P5\n1 1\n0\na"), "a.pgm:3: the maximum value is 0, expected 1 to 65535");
   EXPECT_EQ(error("P5\n1 1\n70000\na"),
             "a.pgm:3: the maximum value is 70000, expected at most 65535");
+  EXPECT_EQ(error("P5\n99999999999 1\n255\na"),
+            "a.pgm:2: the width is 99999999999, expected at most 1073741824");
   EXPECT_EQ(error("P2\n1 1\n9\n12"), "a.pgm:4: the pixel value is 12, expected at most 9");
   EXPECT_EQ(error("P2\n9 9\n9\n1 2"), "a.pgm:3: is truncated: 12 bytes cannot hold 9 by 9 pixels");
   EXPECT_THAT(error("P5\n1 1\n9\nz"), HasSubstr("has a value above the maximum 9"));
@@ -187,6 +229,8 @@ TEST(GdalImage, DamagedFilesAreRefusedAndNothingIsPrinted) {
   }
   EXPECT_THAT(input_error_of([&] { (void)load(folder.write("x.tif", "II*\0nonsense")); }),
               StartsWith("x.tif: cannot be opened as TIFF, PNG, BMP or JPEG"));
+  EXPECT_THAT(input_error_of([&] { (void)load(folder.write("x.png", "by hand")); }),
+              StartsWith("x.png: cannot be opened as TIFF, PNG, BMP or JPEG: `x.png' not recogni"));
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
 }
@@ -210,6 +254,34 @@ TEST(Occupancy, TrinaryAveragesAlphaInAndScaleTakesWhatIsNotOpaqueAsUnknown) {
   rule.mode = OccupancyRule::Mode::scale;
   EXPECT_EQ(read_occupancy(file, rule, 100).pixels,
             (std::vector<Pixel>{Pixel::free, Pixel::unknown, Pixel::obstacle, Pixel::unknown}));
+}
+
+TEST(Occupancy, WhatTheAlphaChannelMakesOfPixelsIsWarnedAbout) {
+  const ScratchFolder folder;
+  const auto file = folder.file("a.png");
+  const auto warnings = [&](int bands, const std::vector<std::uint16_t>& samples,
+                            const OccupancyRule& rule) {
+    const int width = static_cast<int>(samples.size()) / bands;
+    write_gdal(file, "PNG", GDT_Byte, width, 1, bands, samples);
+    return read_occupancy(file, rule, 100).warnings;
+  };
+  // Free colours, but opaque and negated: (3 * 0 + 255) / 4 is 0.25, above both thresholds.
+  const OccupancyRule negated{OccupancyRule::Mode::trinary, 0.2, 0.1, true};
+  EXPECT_THAT(warnings(4, {0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255, 255}, negated),
+              ::testing::ElementsAre(::testing::AllOf(
+                  StartsWith(file.string() + ": the alpha channel"), HasSubstr("negate"),
+                  HasSubstr("makes 2 pixels obstacles where the colours alone would not"))));
+  // White, transparent: grey and alpha have occ 1/2.
+  EXPECT_THAT(warnings(2, {255, 0, 255, 255}, {OccupancyRule::Mode::trinary, 0.4, 0.1, false}),
+              ::testing::ElementsAre(HasSubstr("makes 1 pixels obstacles")));
+  EXPECT_THAT(warnings(2, {255, 0, 255, 0}, OccupancyRule{}),
+              ::testing::ElementsAre(HasSubstr("makes 2 pixels unknown (by default obstacles)")));
+  EXPECT_THAT(warnings(4, {255, 255, 255, 255, 0, 0, 0, 255}, OccupancyRule{}),
+              ::testing::IsEmpty());
+  OccupancyRule scale;
+  scale.mode = OccupancyRule::Mode::scale;
+  EXPECT_THAT(warnings(2, {255, 0, 255, 255}, scale),
+              ::testing::ElementsAre(HasSubstr("alpha channel 1 pixels are not opaque")));
 }
 
 TEST(Occupancy, DeepImagesAreReadLikeShallowOnesOfTheSameShade) {

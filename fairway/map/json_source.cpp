@@ -88,7 +88,7 @@ double JsonPlace::number() const {
 int JsonPlace::whole_number() const {
   const double value = number();
   if (std::abs(value) > 1e9 || value != std::floor(value))
-    fail(fmt::format("is {}, expected a whole number", value));
+    fail(fmt::format("is {}, expected a whole number from -1000000000 to 1000000000", value));
   return static_cast<int>(value);
 }
 

@@ -1,6 +1,8 @@
 // MovingAI .map: "type octile", "height H", "width W", "map", then H rows of W characters, the
 // upper row first. '.', 'G' and 'S' can be crossed; everything else (@ O T W ...) is an obstacle.
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
@@ -21,9 +23,10 @@ int read_size(const SourceText& source, const Line& line, std::string_view value
   const std::string where = at_line(source.file, line.number);
   if (previous != 0) throw InputError(where, "the size occurs twice");
   const auto number = parse_number(value);
-  if (!number || !(*number >= 1.0) || *number > 1e9 || *number != static_cast<int>(*number))
-    throw InputError(
-        where, fmt::format("{} is no size, expected a whole number of at least 1", shown(value)));
+  constexpr int largest = 1'000'000'000;
+  if (!number || !(*number >= 1.0 && *number <= largest) || *number != std::floor(*number))
+    throw InputError(where, fmt::format("{} is no size, expected a whole number from 1 to {}",
+                                        shown(value), largest));
   return static_cast<int>(*number);
 }
 

@@ -77,9 +77,9 @@ TEST_F(MovingAi, WhatIsWrongIsNamedWithItsLine) {
   EXPECT_EQ(error("type hexagonal\nheight 1\nwidth 3\nmap\n...\n"),
             "city.map:1: type \"hexagonal\" is unknown, expected octile");
   EXPECT_EQ(error("type octile\nheight 0\nwidth 3\nmap\n"),
-            "city.map:2: \"0\" is no size, expected a whole number of at least 1");
+            "city.map:2: \"0\" is no size, expected a whole number from 1 to 1000000000");
   EXPECT_EQ(error("type octile\nheight nan\nwidth 3\nmap\n"),
-            "city.map:2: \"nan\" is no size, expected a whole number of at least 1");
+            "city.map:2: \"nan\" is no size, expected a whole number from 1 to 1000000000");
   EXPECT_EQ(error("type octile\nheight 1\nheight 1\nwidth 3\nmap\n...\n"),
             "city.map:3: the size occurs twice");
   EXPECT_EQ(error("type octile\nwidth 3\nmap\n...\n"),

@@ -1,5 +1,6 @@
 #include "fairway/map/occupancy.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -20,6 +21,10 @@ class OccupancyTable {
     counts_.resize(classes_.size());
     grey_205_ =
         format.max_value == 255 ? 205 * format.colours + 255 * (averaged_ - format.colours) : -1;
+    if (averaged_ == format.colours) return;
+    const int colour_top = format.colours * format.max_value;
+    for (int sum = 0; sum <= colour_top; ++sum)
+      without_alpha_.push_back(class_of(sum, colour_top, rule));
   }
 
   int averaged() const { return averaged_; }
@@ -27,6 +32,35 @@ class OccupancyTable {
   Pixel take(unsigned sum) {
     ++counts_[sum];
     return classes_[sum];
+  }
+
+  /// Where alpha is averaged in: what the colours alone would have given.
+  void compare(unsigned colours, Pixel with_alpha) {
+    if (without_alpha_.empty() || with_alpha == without_alpha_[colours]) return;
+    ++by_alpha_[static_cast<std::size_t>(with_alpha)];
+  }
+
+  void count_transparent() { ++transparent_; }
+
+  void warn_of_alpha(const OccupancyRule& rule, const std::string& image,
+                     std::vector<std::string>& warnings) const {
+    if (transparent_ > 0)
+      warnings.push_back(fmt::format(
+          "{}: by its alpha channel {} pixels are not opaque; they count as unknown in mode scale.",
+          image, transparent_));
+    std::string made;
+    for (const auto& [pixel, name] : {std::pair(Pixel::obstacle, "obstacles"),
+                                      {Pixel::unknown, "unknown (by default obstacles)"},
+                                      {Pixel::free, "free"}}) {
+      const std::uint64_t count = by_alpha_[static_cast<std::size_t>(pixel)];
+      if (count > 0) made += fmt::format("{}{} pixels {}", made.empty() ? "" : ", ", count, name);
+    }
+    if (made.empty()) return;
+    warnings.push_back(
+        fmt::format("{}: the alpha channel, which mode trinary averages in as one more colour{}, "
+                    "makes {} where "
+                    "the colours alone would not; save the image without alpha.",
+                    image, rule.negate ? " (with negate, opaque is occupied)" : "", made));
   }
 
   void warn(const OccupancyRule& rule, const std::string& image,
@@ -68,6 +102,9 @@ class OccupancyTable {
 
   int averaged_;
   int grey_205_ = -1;
+  std::vector<Pixel> without_alpha_;  // by the sum of the colours; empty: alpha does not count
+  std::array<std::uint64_t, 3> by_alpha_{};
+  std::uint64_t transparent_ = 0;
   std::vector<Pixel> classes_;
   std::vector<std::uint64_t> counts_;
 };
@@ -82,7 +119,12 @@ void classify_row(const ImageFormat& format, const OccupancyRule& rule,
     unsigned sum = 0;
     for (std::size_t c = 0; c < averaged; ++c) sum += pixel[c];
     out[i] = table.take(sum);
-    if (needs_opaque && pixel[channels - 1] != format.max_value) out[i] = Pixel::unknown;
+    if (averaged > static_cast<std::size_t>(format.colours))
+      table.compare(sum - pixel[channels - 1], out[i]);
+    if (needs_opaque && pixel[channels - 1] != format.max_value) {
+      out[i] = Pixel::unknown;
+      table.count_transparent();
+    }
     if (format.nodata && pixel[0] == *format.nodata) out[i] = Pixel::unknown;
   }
 }
@@ -93,17 +135,20 @@ SourceRaster read_occupancy(const std::filesystem::path& image, const OccupancyR
                             std::uint64_t max_pixels) {
   SourceRaster raster;
   std::optional<OccupancyTable> table;
-  read_image(image, max_pixels,
-             [&](const ImageFormat& format, int row, std::span<const std::uint16_t> samples) {
-               if (!table) {
-                 raster.width = format.width;
-                 raster.height = format.height;
-                 raster.pixels.resize(static_cast<std::size_t>(format.width) *
-                                      static_cast<std::size_t>(format.height));
-                 table.emplace(format, rule);
-               }
-               classify_row(format, rule, samples, *table, raster.row(row));
-             });
+  const std::vector<std::string> of_image =
+      read_image(image, max_pixels,
+                 [&](const ImageFormat& format, int row, std::span<const std::uint16_t> samples) {
+                   if (!table) {
+                     raster.width = format.width;
+                     raster.height = format.height;
+                     raster.pixels.resize(static_cast<std::size_t>(format.width) *
+                                          static_cast<std::size_t>(format.height));
+                     table.emplace(format, rule);
+                   }
+                   classify_row(format, rule, samples, *table, raster.row(row));
+                 });
+  raster.warnings = of_image;
+  if (table) table->warn_of_alpha(rule, image.string(), raster.warnings);
   if (table) table->warn(rule, image.string(), raster.warnings);
   return raster;
 }

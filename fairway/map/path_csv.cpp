@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/plain_text.hpp"
 #include "fairway/map/frame_from_degrees.hpp"
 #include "fairway/map/path_vertex.hpp"
 
@@ -24,11 +25,7 @@ char separator_of(std::string_view line) {
   return ' ';
 }
 
-std::string column_name(std::string_view word) {
-  while (word.starts_with('"') || word.starts_with('\'')) word.remove_prefix(1);
-  while (word.ends_with('"') || word.ends_with('\'')) word.remove_suffix(1);
-  return lower(trimmed(word));
-}
+std::string column_name(std::string_view word) { return lower(csv_field(word)); }
 
 std::optional<std::size_t> find_column(const std::vector<std::string>& names,
                                        std::initializer_list<const char*> wanted) {
@@ -69,7 +66,6 @@ class CsvReader {
  private:
   void take(const Line& line) {
     std::string_view text = trimmed(line.text);
-    if (line.number == 1 && text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
     if (text.empty()) return;
     if (text.starts_with('#')) {  // perhaps the header; other comments name no columns
       if (!rows.empty()) return;
@@ -92,7 +88,8 @@ class CsvReader {
 
   static bool is_header(std::string_view text) {
     const auto words = split(text, separator_of(text));
-    return !words.empty() && !parse_number(words.front()) && !column_name(words.front()).empty();
+    return !words.empty() && !csv_field(words.front()).empty() &&
+           !parse_number(csv_field(words.front()));
   }
 
   std::array<double, 2> values_of(const std::string& where, std::string_view text) {
@@ -105,7 +102,7 @@ class CsvReader {
                                           std::max(needed, width_)));
     std::array<double, 2> values{};
     for (std::size_t i = 0; i < 2; ++i) {
-      const std::string_view word = words[i == 0 ? columns.first : columns.second];
+      const std::string_view word = csv_field(words[i == 0 ? columns.first : columns.second]);
       const auto number = parse_number(word);
       if (!number) throw InputError(where, fmt::format("{} is no number", shown(word)));
       if (!std::isfinite(*number))

@@ -3,14 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 
 #include "fairway/base/digest.hpp"
 #include "fairway/base/error.hpp"
+#include "fairway/base/heading.hpp"
 #include "fairway/map/gdal_raster.hpp"
+#include "fairway/map/ground_height.hpp"
 #include "fairway/map/image_rows.hpp"
 #include "fairway/map/map_sources.hpp"
 #include "fairway/map/occupancy.hpp"
@@ -26,32 +32,85 @@ struct Place {
   std::optional<Transform> transform;
   std::optional<std::string> projected_crs;
   std::vector<InputFile> inputs;
+  std::vector<std::string> warnings;
 };
 
-std::string utm_advice(const Transform& t, int width, int height) {
-  const double longitude = t[0] + 0.5 * width * t[1];
-  const double latitude = t[3] + 0.5 * height * t[5];
-  if (!(std::abs(longitude) <= 180.0)) return "reproject it first with gdalwarp -t_srs";
-  const int zone = std::min(static_cast<int>(std::floor((longitude + 180.0) / 6.0)) + 1, 60);
-  return fmt::format("reproject it first: gdalwarp -t_srs EPSG:{} IN OUT",
-                     (latitude < 0.0 ? 32700 : 32600) + zone);
+GeodeticPoint centre_of(const Transform& t, int width, int height) {
+  return {t[3] + 0.5 * width * t[4] + 0.5 * height * t[5],
+          t[0] + 0.5 * width * t[1] + 0.5 * height * t[2]};
+}
+
+// The zone's system on WGS84, EPSG; near the poles, where there are no zones, the polar one.
+int utm_epsg(GeodeticPoint p) {
+  if (p.latitude_deg > 84.0) return 5041;
+  if (p.latitude_deg < -80.0) return 5042;
+  const int zone = static_cast<int>(std::floor((p.longitude_deg + 180.0) / 6.0));
+  return (p.latitude_deg < 0.0 ? 32701 : 32601) + std::clamp(zone, 0, 59);
+}
+
+bool is_on_earth(GeodeticPoint p) {
+  return std::abs(p.latitude_deg) <= 90.0 && std::abs(p.longitude_deg) <= 180.0;
+}
+
+std::string gdalwarp_advice(std::optional<GeodeticPoint> centre, const char* source = "") {
+  if (!centre || !is_on_earth(*centre))
+    return fmt::format(
+        "reproject it first: gdalwarp {}-t_srs EPSG:326ZZ IN OUT, ZZ the UTM zone (south of the "
+        "equator 327ZZ)",
+        source);
+  return fmt::format("reproject it first: gdalwarp {}-t_srs EPSG:{} IN OUT", source,
+                     utm_epsg(*centre));
+}
+
+/// Where on Earth a point of any system is; nothing when PROJ cannot tell.
+std::optional<GeodeticPoint> on_wgs84(const OGRSpatialReference& system, GeodeticPoint point) {
+  const GdalSession quiet;
+  OGRSpatialReference wgs84;
+  if (wgs84.SetWellKnownGeogCS("WGS84") != OGRERR_NONE) return std::nullopt;
+  wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  OGRSpatialReference from(system);
+  from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const std::unique_ptr<OGRCoordinateTransformation> way(
+      OGRCreateCoordinateTransformation(&from, &wgs84));
+  double x = point.longitude_deg;
+  double y = point.latitude_deg;
+  if (!way || way->Transform(1, &x, &y) == 0 || !std::isfinite(x) || !std::isfinite(y))
+    return std::nullopt;
+  return GeodeticPoint{y, x};
+}
+
+// Its metres are those of the equator: away from it lengths, and so turning radii, are too short.
+void warn_of_mercator(const std::string& file, const OGRSpatialReference& system,
+                      GeodeticPoint centre, Place& place) {
+  const char* method = system.GetAttrValue("PROJECTION");
+  const std::string_view name = method == nullptr ? "" : method;
+  if (!name.starts_with("Mercator") && name.find("Pseudo_Mercator") == name.npos) return;
+  const auto there = on_wgs84(system, centre);
+  if (!there) return;
+  const double scale = 1.0 / std::cos(there->latitude_deg * (pi / 180.0));
+  if (scale < 1.01) return;
+  place.warnings.push_back(
+      fmt::format("{}: is in Mercator's projection, where a metre on the ground is {:.2f} m of the "
+                  "map; {}.",
+                  file, scale, gdalwarp_advice(there)));
 }
 
 void require_metres(const MapRequest& request, GDALDataset& dataset, Place& place) {
   const OGRSpatialReference* system = dataset.GetSpatialRef();
   if (system == nullptr || !place.transform) return;
   const std::string file = request.file.string();
+  const GeodeticPoint centre =
+      centre_of(*place.transform, dataset.GetRasterXSize(), dataset.GetRasterYSize());
   if (system->IsGeographic())
-    throw InputError(
-        file, "is in degrees, expected metres; " +
-                  utm_advice(*place.transform, dataset.GetRasterXSize(), dataset.GetRasterYSize()));
+    throw InputError(file, "is in degrees, expected metres; " +
+                               gdalwarp_advice(on_wgs84(*system, centre).value_or(centre)));
   const char* unit = nullptr;
   const double metres = system->GetLinearUnits(&unit);
   if (std::abs(metres - 1.0) > 1e-12)
-    throw InputError(file, fmt::format("is in units of {} ({} m), expected metres; reproject it "
-                                       "with gdalwarp -t_srs",
-                                       unit, metres));
+    throw InputError(file, fmt::format("is in units of {} ({} m), expected metres; {}", unit,
+                                       metres, gdalwarp_advice(on_wgs84(*system, centre))));
   if (!system->IsProjected()) return;
+  warn_of_mercator(file, *system, centre, place);
   char* wkt = nullptr;
   const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
   if (system->exportToWkt(&wkt, options) == OGRERR_NONE && wkt != nullptr)
@@ -59,15 +118,22 @@ void require_metres(const MapRequest& request, GDALDataset& dataset, Place& plac
   CPLFree(wkt);
 }
 
-// Without a reference system nothing says degrees, but pixels of less than a millimetre do.
-void require_no_degrees_in_disguise(const MapRequest& request, const Place& place) {
-  if (!place.transform || place.projected_crs) return;
+// Without a reference system nothing says degrees, but small pixels on a place that has a latitude
+// and a longitude do: of less than a millimetre, and of less than 30 cm where they are heights. The
+// user's word on the size of a pixel, metres, is taken.
+void require_no_degrees_in_disguise(const MapRequest& request, const SourceRaster& raster,
+                                    const Place& place) {
+  if (!place.transform || place.projected_crs || request.resolution_m) return;
   const Transform& t = *place.transform;
-  if (std::abs(t[1]) < 1e-3 && std::abs(t[0]) <= 180.0 && std::abs(t[3]) <= 90.0)
-    throw InputError(request.file.string(),
-                     fmt::format("has pixels of {} units at ({}, {}): degrees where metres belong; "
-                                 "reproject it with gdalwarp -t_srs",
-                                 t[1], t[0], t[3]));
+  const GeodeticPoint centre = centre_of(t, raster.width, raster.height);
+  const double pixel = std::max(std::abs(t[1]), std::abs(t[5]));
+  if (pixel < (request.altitude_m ? 0.3 : 1e-3) && is_on_earth(centre) && is_on_earth({t[3], t[0]}))
+    throw InputError(
+        request.file.string(),
+        fmt::format(
+            "has pixels of {} units at ({}, {}): degrees where metres belong; {} (or say by "
+            "map.resolution_m that they are metres)",
+            t[1], t[0], t[3], gdalwarp_advice(centre, "-s_srs EPSG:4326 ")));
 }
 
 Place find_place(const MapRequest& request, GdalRaster* raster) {
@@ -82,7 +148,6 @@ Place find_place(const MapRequest& request, GdalRaster* raster) {
       place.inputs.push_back(world->input);
     }
   }
-  require_no_degrees_in_disguise(request, place);
   return place;
 }
 
@@ -125,9 +190,45 @@ void put_in_place(SourceRaster& raster, const Place& place, const MapRequest& re
   flip(raster, t[1]<0.0, t[5]> 0.0);
 }
 
-SourceRaster read_elevation(const MapRequest& request, GdalRaster& gdal) {
-  GDALDataset& dataset = gdal.dataset();
-  const std::string file = request.file.string();
+// Heights that stand for none: what no ground on Earth has, and the values that programs write
+// where they know nothing, when no tag of the file says so.
+class Voids {
+ public:
+  Voids(const MapRequest& request, GDALRasterBand& band) : file_(request.file.string()) {
+    int has_nodata = 0;
+    nodata_ = band.GetNoDataValue(&has_nodata);
+    has_nodata_ = has_nodata != 0;
+  }
+
+  /// `sample` as the file has it, `height_m` what it means.
+  bool take(double sample, double height_m) {
+    if (has_nodata_ && (sample == nodata_ || (std::isnan(sample) && std::isnan(nodata_))))
+      return true;
+    if (can_be_ground(height_m) && !stands_for_none(sample)) return false;
+    ++untagged_;
+    const std::string value = fmt::format("{}", static_cast<float>(sample));
+    if (values_.size() < 3 && std::find(values_.begin(), values_.end(), value) == values_.end())
+      values_.push_back(value);
+    return true;
+  }
+
+  void warn(std::vector<std::string>& warnings) const {
+    if (untagged_ == 0) return;
+    warnings.push_back(
+        fmt::format("{}: {} pixels have heights that cannot be ground ({}) and that no nodata tag "
+                    "names; they are unknown. To tag them: gdal_edit.py -a_nodata {} {}",
+                    file_, untagged_, fmt::join(values_, ", "), values_.front(), file_));
+  }
+
+ private:
+  std::string file_;
+  double nodata_ = 0.0;
+  bool has_nodata_ = false;
+  std::uint64_t untagged_ = 0;
+  std::vector<std::string> values_;
+};
+
+GDALRasterBand& band_of_heights(GDALDataset& dataset, const std::string& file) {
   if (dataset.GetRasterCount() != 1)
     throw InputError(
         file, fmt::format("has {} bands, an elevation raster has one", dataset.GetRasterCount()));
@@ -138,35 +239,37 @@ SourceRaster read_elevation(const MapRequest& request, GdalRaster& gdal) {
   if (!unit.empty() && unit != "m" && unit != "metre" && unit != "meter" && unit != "metres" &&
       unit != "meters")
     throw InputError(file, fmt::format("has heights in {}, expected metres", shown(unit)));
+  return band;
+}
+
+SourceRaster read_elevation(const MapRequest& request, GdalRaster& gdal) {
+  GDALDataset& dataset = gdal.dataset();
+  GDALRasterBand& band = band_of_heights(dataset, request.file.string());
   SourceRaster raster;
   raster.width = dataset.GetRasterXSize();
   raster.height = dataset.GetRasterYSize();
   require_image_size(request.file, raster.width, raster.height, request.max_pixels);
   raster.pixels.resize(static_cast<std::size_t>(raster.width) *
                        static_cast<std::size_t>(raster.height));
-  int has_nodata = 0;
-  const double nodata = band.GetNoDataValue(&has_nodata);
+  Voids voids(request, band);
   const double scale = band.GetScale();
   const double offset = band.GetOffset();
   const double limit_m = *request.altitude_m - request.margin_m;
-  std::vector<double> heights(static_cast<std::size_t>(raster.width));
+  std::vector<double> samples(static_cast<std::size_t>(raster.width));
   for (int row = 0; row < raster.height; ++row) {
-    if (band.RasterIO(GF_Read, 0, row, raster.width, 1, heights.data(), raster.width, 1,
+    if (band.RasterIO(GF_Read, 0, row, raster.width, 1, samples.data(), raster.width, 1,
                       GDT_Float64, 0, 0, nullptr) != CE_None)
       gdal.fail(fmt::format("cannot be read at pixel row {}", row));
     Pixel* out = raster.row(row);
-    for (std::size_t i = 0; i < heights.size(); ++i) {
-      const double height_m = scale * heights[i] + offset;
-      const bool known = std::isfinite(height_m) && !(has_nodata != 0 && heights[i] == nodata);
-      out[i] = !known ? Pixel::unknown : height_m > limit_m ? Pixel::obstacle : Pixel::free;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const double height_m = scale * samples[i] + offset;
+      out[i] = voids.take(samples[i], height_m) ? Pixel::unknown
+               : height_m > limit_m             ? Pixel::obstacle
+                                                : Pixel::free;
     }
   }
+  voids.warn(raster.warnings);
   return raster;
-}
-
-bool is_pnm_file(const std::filesystem::path& file) {
-  const std::string extension = lower(file.extension().string());
-  return extension == ".pgm" || extension == ".ppm" || extension == ".pnm";
 }
 
 }  // namespace
@@ -182,6 +285,14 @@ SourceRaster read_placed_raster(const MapRequest& request) {
   } else {
     raster = read_occupancy(request.file, OccupancyRule{}, request.max_pixels);
   }
+  if (gdal) {
+    for (std::string& warning : gdal->warnings())
+      if (std::find(raster.warnings.begin(), raster.warnings.end(), warning) ==
+          raster.warnings.end())
+        raster.warnings.push_back(std::move(warning));
+  }
+  raster.warnings.insert(raster.warnings.end(), place.warnings.begin(), place.warnings.end());
+  require_no_degrees_in_disguise(request, raster, place);
   raster.inputs.push_back({request.file.string(), sha256_file(request.file)});
   put_in_place(raster, place, request);
   return raster;

@@ -21,18 +21,34 @@ class PnmReader {
     if (at_ >= source_.text.size()) fail(fmt::format("ends before the {}", what));
     const std::size_t begin = at_;
     std::int64_t value = 0;
-    while (at_ < source_.text.size() && is_digit(source_.text[at_]) && at_ - begin < 10)
-      value = value * 10 + (source_.text[at_++] - '0');
+    while (at_ < source_.text.size() && is_digit(source_.text[at_]))
+      value = std::min(value * 10 + (source_.text[at_++] - '0'), std::int64_t{1} << 40);
     if (at_ == begin || (at_ < source_.text.size() && !is_blank_or_comment(source_.text[at_])))
       fail(fmt::format("the {} is no whole number", what));
-    if (value > max) fail(fmt::format("the {} is {}, expected at most {}", what, value, max));
+    if (value > max)
+      fail(fmt::format("the {} is {}, expected at most {}", what,
+                       std::string_view(source_.text).substr(begin, at_ - begin), max));
     return static_cast<int>(value);
   }
 
-  // Exactly one blank stands between the header and binary samples.
+  // Exactly one blank stands between the header and binary samples; a comment that touches the last
+  // number is that blank, up to and with its line end.
   std::string_view binary_rest() {
+    if (at_ < source_.text.size() && source_.text[at_] == '#') skip_comment();
     if (at_ >= source_.text.size()) fail("ends before the pixels");
     return std::string_view(source_.text).substr(at_ + 1);
+  }
+
+  // True behind the last number of the header when blanks and a comment follow in its line.
+  bool has_comment_for_pixels() const {
+    const std::size_t from = source_.text.find_first_not_of(" \t", at_);
+    return from != std::string::npos && from > at_ && source_.text[from] == '#';
+  }
+
+  // What stands behind the last value of a plain file, but blanks and comments.
+  std::size_t left_over() {
+    skip_blanks_and_comments();
+    return source_.text.size() - at_;
   }
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -52,10 +68,15 @@ class PnmReader {
   void skip_blanks_and_comments() {
     while (at_ < source_.text.size() && is_blank_or_comment(source_.text[at_])) {
       if (source_.text[at_] == '#')
-        at_ = std::min(source_.text.find('\n', at_), source_.text.size());
+        skip_comment();
       else
         ++at_;
     }
+  }
+
+  // Up to the line end, LF or CR.
+  void skip_comment() {
+    at_ = std::min(source_.text.find_first_of("\r\n", at_), source_.text.size());
   }
 
   const SourceText& source_;
@@ -78,7 +99,9 @@ void take_plain_rows(PnmReader& reader, const ImageFormat& format, std::size_t b
   }
 }
 
-void take_binary_rows(PnmReader& reader, const ImageFormat& format, const TakeRow& take_row) {
+// Gives how many bytes stand behind the last sample.
+std::size_t take_binary_rows(PnmReader& reader, const ImageFormat& format,
+                             const TakeRow& take_row) {
   const std::string_view bytes = reader.binary_rest();
   const std::size_t per_row =
       static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.colours);
@@ -104,9 +127,29 @@ void take_binary_rows(PnmReader& reader, const ImageFormat& format, const TakeRo
                       format.max_value));
     take_row(format, row, samples);
   }
+  return bytes.size() - needed;
+}
+
+// Readers of the format agree that the pixels begin one blank behind the maximum value, so that a
+// comment there, or a line end of two bytes, moves the image and leaves as many bytes over.
+std::string left_over_words(const SourceText& source, std::size_t bytes, bool comment) {
+  return fmt::format("{}: {} byte{} behind the last pixel {} ignored; {}", source.file.string(),
+                     bytes, bytes == 1 ? "" : "s", bytes == 1 ? "is" : "are",
+                     comment ? "a comment behind the maximum value is taken for pixels and moves "
+                               "the image: put it before that line."
+                             : "is the image moved by as much, or has it another size?");
+}
+
+std::string shown_begin(std::string_view text) {
+  return shown(text.substr(0, std::min(text.find_first_of("\r\n"), std::size_t{20})));
 }
 
 }  // namespace
+
+bool is_pnm_file(const std::filesystem::path& file) {
+  const std::string extension = lower(file.extension().string());
+  return extension == ".pgm" || extension == ".ppm" || extension == ".pnm" || extension == ".pbm";
+}
 
 bool is_pnm(std::string_view head) {
   return head.size() >= 3 && head[0] == 'P' &&
@@ -125,9 +168,13 @@ void require_image_size(const std::filesystem::path& file, std::int64_t width, s
                                  height, max_pixels));
 }
 
-void read_pnm(const SourceText& source, std::uint64_t max_pixels, const TakeRow& take_row) {
+std::vector<std::string> read_pnm(const SourceText& source, std::uint64_t max_pixels,
+                                  const TakeRow& take_row) {
   if (!is_pnm(source.text))
-    throw InputError(source.file.string(), "is no PGM or PPM image, expected P2, P3, P5 or P6");
+    throw InputError(at_line(source.file, 1),
+                     fmt::format("begins with {}, a PGM begins with P5 or P2 and a PPM with P6 or "
+                                 "P3, before any comment",
+                                 shown_begin(source.text)));
   PnmReader reader(source);
   const char kind = source.text[1];
   ImageFormat format;
@@ -137,10 +184,17 @@ void read_pnm(const SourceText& source, std::uint64_t max_pixels, const TakeRow&
   require_image_size(source.file, format.width, format.height, max_pixels);
   format.max_value = reader.number("maximum value", 65535);
   if (format.max_value < 1) reader.fail("the maximum value is 0, expected 1 to 65535");
-  if (kind == '2' || kind == '3')
+  std::size_t left_over = 0;
+  bool comment = false;
+  if (kind == '2' || kind == '3') {
     take_plain_rows(reader, format, source.text.size(), take_row);
-  else
-    take_binary_rows(reader, format, take_row);
+    left_over = reader.left_over();
+  } else {
+    comment = reader.has_comment_for_pixels();
+    left_over = take_binary_rows(reader, format, take_row);
+  }
+  if (left_over == 0) return {};
+  return {left_over_words(source, left_over, comment)};
 }
 
 }  // namespace fairway

@@ -21,8 +21,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "fairway/base/vec2.hpp"
 #include "fairway/map/obstacle_map.hpp"
 
 namespace fairway {
@@ -59,9 +64,19 @@ struct MapRequest {
   /// `least_world_margin_m` (>= 0), which is for what the caller knows: how wide the vehicle turns.
   std::optional<double> world_margin_m;
   double least_world_margin_m = 0.0;
+  /// The mission: where no keep-in fence bounds the world it holds these places, too, in metres of
+  /// the map's plane, in degrees, and the vertices of a path file (read_path.hpp).
+  std::vector<Vec2> also_hold_m;
+  std::vector<GeodeticPoint> also_hold_deg;
+  std::optional<std::filesystem::path> also_hold_path;
+  /// "FILE:LINE" of a key such as "map.file", when a scenario asks: errors then say it.
+  std::function<std::string(std::string_view key)> place_of;
   std::uint64_t max_pixels = std::uint64_t{1} << 28;  ///< larger images are refused unread
   std::uint64_t max_cells = std::uint64_t{1} << 28;   ///< larger grids are refused unallocated
 };
+
+/// Every kind of file that is read, for messages and documentation: "ROS map_server .yaml, ...".
+[[nodiscard]] std::string map_kinds_text();
 
 /// Throws InputError naming the file and the line, key or feature. Cost: linear in pixels plus
 /// cells.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/number_text.hpp"
 #include "fairway/map/fence_sources.hpp"
 #include "fairway/map/frame_from_degrees.hpp"
 #include "fairway/map/path_vertex.hpp"
@@ -23,40 +24,64 @@ std::vector<PathVertex> from_mission(const SourceText& source, const ObstacleMap
   return vertices;
 }
 
-void find_lines(const JsonPlace& place, std::vector<JsonPlace>& lines) {
+// The parts of one line: more than one where it was cut at the antimeridian (RFC 7946, 3.1.9).
+using Parts = std::vector<JsonPlace>;
+
+bool goes_on_beyond_antimeridian(const JsonPlace& part, const JsonPlace& next) {
+  if (part.size() == 0 || next.size() == 0) return false;
+  const GeodeticPoint end = part.at(part.size() - 1).longitude_latitude();
+  const GeodeticPoint begin = next.at(std::size_t{0}).longitude_latitude();
+  return std::abs(end.longitude_deg) == 180.0 && begin.longitude_deg == -end.longitude_deg &&
+         std::abs(begin.latitude_deg - end.latitude_deg) < 1e-6;
+}
+
+void add_parts(const JsonPlace& parts, bool degrees, std::vector<Parts>& lines) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool goes_on =
+        i > 0 && degrees && goes_on_beyond_antimeridian(parts.at(i - 1), parts.at(i));
+    if (!goes_on) lines.emplace_back();
+    lines.back().push_back(parts.at(i));
+  }
+}
+
+void find_lines(const JsonPlace& place, bool degrees, std::vector<Parts>& lines) {
   const std::string type = place.at("type").text();
   if (type == "FeatureCollection") {
     const JsonPlace features = place.at("features");
-    for (std::size_t i = 0; i < features.size(); ++i) find_lines(features.at(i), lines);
+    for (std::size_t i = 0; i < features.size(); ++i) find_lines(features.at(i), degrees, lines);
   } else if (type == "Feature") {
     const JsonPlace geometry = place.at("geometry");
-    if (!geometry.value().is_null()) find_lines(geometry, lines);
+    if (!geometry.value().is_null()) find_lines(geometry, degrees, lines);
   } else if (type == "LineString") {
-    lines.push_back(place.at("coordinates"));
+    lines.push_back({place.at("coordinates")});
+  } else if (type == "MultiLineString") {
+    add_parts(place.at("coordinates"), degrees, lines);
   }
 }
 
 std::vector<PathVertex> from_geojson(const SourceText& source, const nlohmann::json& json,
                                      const ObstacleMap& frame) {
-  std::vector<JsonPlace> lines;
-  find_lines(JsonPlace(json, source.file.string() + ": "), lines);
+  const bool degrees = has_geographic_frame(frame);
+  std::vector<Parts> lines;
+  find_lines(JsonPlace(json, source.file.string() + ": "), degrees, lines);
   if (lines.size() != 1)
     throw InputError(source.file.string(),
                      fmt::format("has {} LineStrings, expected one", lines.size()));
-  const JsonPlace& line = lines.front();
   std::vector<PathVertex> vertices;
   std::optional<FrameFromDegrees> to_frame;
-  if (has_geographic_frame(frame)) to_frame.emplace(frame, source.file);
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const JsonPlace position = line.at(i);
-    if (to_frame) {
+  if (degrees) to_frame.emplace(frame, source.file);
+  for (const JsonPlace& line : lines.front()) {
+    for (std::size_t i = vertices.empty() ? 0 : 1; i < line.size(); ++i) {
+      const JsonPlace position = line.at(i);
+      if (to_frame) {
+        vertices.push_back(
+            {position.where(), to_frame->point_m(position.where(), position.longitude_latitude())});
+        continue;
+      }
+      if (position.size() < 2) position.fail("is too short, expected [x_m, y_m]");
       vertices.push_back(
-          {position.where(), to_frame->point_m(position.where(), position.longitude_latitude())});
-      continue;
+          {position.where(), {position.at(std::size_t{0}).number(), position.at(1).number()}});
     }
-    if (position.size() < 2) position.fail("is too short, expected [x_m, y_m]");
-    vertices.push_back(
-        {position.where(), {position.at(std::size_t{0}).number(), position.at(1).number()}});
   }
   return vertices;
 }
@@ -73,16 +98,10 @@ std::vector<PathVertex> vertices_of(const std::filesystem::path& file, const Obs
 }
 
 void require_on_map(const std::vector<PathVertex>& vertices, const Grid& grid) {
-  const double right_m = grid.x0_m + grid.width_m();
-  const double top_m = grid.y0_m + grid.height_m();
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Vec2 p = vertices[i].point_m;
-    if (p.x >= grid.x0_m && p.x <= right_m && p.y >= grid.y0_m && p.y <= top_m) continue;
-    throw InputError(
-        vertices[i].where,
-        fmt::format("vertex {} ({:.10g}, {:.10g}) lies outside the map, which covers x "
-                    "from {:.10g} to {:.10g} and y from {:.10g} to {:.10g} m",
-                    i, p.x, p.y, grid.x0_m, right_m, grid.y0_m, top_m));
+    if (is_within(grid, p)) continue;
+    throw InputError(vertices[i].where, fmt::format("vertex {} {}", i, outside_text(p, grid)));
   }
 }
 
@@ -96,12 +115,18 @@ void require_extent(const std::vector<Vec2>& vertices, const std::filesystem::pa
   const double extent_m = std::max(right->x - left->x, high->y - low->y);
   if (extent_m < cell_m)
     throw InputError(file.string(),
-                     fmt::format("the path spans {:.3g} m, less than a cell of {} m; are these "
+                     fmt::format("the path spans {} m, less than a cell of {} m; are these "
                                  "degrees where metres belong?",
-                                 extent_m, cell_m));
+                                 length_text(extent_m), length_text(cell_m)));
 }
 
 }  // namespace
+
+std::vector<Vec2> path_vertices(const std::filesystem::path& file, const ObstacleMap& frame) {
+  std::vector<Vec2> path;
+  for (const PathVertex& vertex : vertices_of(file, frame)) path.push_back(vertex.point_m);
+  return path;
+}
 
 std::vector<Vec2> read_path(const std::filesystem::path& file, const ObstacleMap& frame,
                             bool closed) {
@@ -115,9 +140,9 @@ std::vector<Vec2> read_path(const std::filesystem::path& file, const ObstacleMap
   if (path.empty()) throw InputError(file.string(), "has no vertex, a path has at least two");
   if (path.size() == 1)
     throw InputError(vertices.back().where,
-                     fmt::format("the path has no length: it ends at ({:.10g}, {:.10g}) and was "
-                                 "nowhere else, expected at least two distinct vertices",
-                                 path.front().x, path.front().y));
+                     fmt::format("the path has no length: it ends at {} and was nowhere else, "
+                                 "expected at least two distinct vertices",
+                                 place_text(path.front())));
   require_extent(path, file, frame.grid.cell_m);
   return path;
 }

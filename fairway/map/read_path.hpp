@@ -21,4 +21,9 @@ namespace fairway {
 [[nodiscard]] std::vector<Vec2> read_path(const std::filesystem::path& file,
                                           const ObstacleMap& frame, bool closed = false);
 
+/// Its vertices as they stand in the file, wherever they lie; nothing is asked of them but that
+/// they can be read.
+[[nodiscard]] std::vector<Vec2> path_vertices(const std::filesystem::path& file,
+                                              const ObstacleMap& frame);
+
 }  // namespace fairway

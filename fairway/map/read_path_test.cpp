@@ -88,8 +88,7 @@ TEST_F(ReadPath, WhatIsWrongIsNamedWithItsLine) {
             "line.csv:1: the header \"speed,time\" names no columns x_m and y_m");
   EXPECT_EQ(
       error("0,0\n20,0\n95,0\n"),
-      "line.csv:3: vertex 2 (95, 0) lies outside the map, which covers x from -10 to 90 and y "
-      "from -5 to 45 m");
+      "line.csv:3: vertex 2 (95, 0) is outside the map, expected x in [-10, 90] and y in [-5, 45]");
   EXPECT_EQ(input_error_of([&] { (void)read_path(folder_.file("none.csv"), plain_); }),
             "none.csv: no such file");
 }
@@ -150,12 +149,33 @@ TEST_F(ReadPath, GeoJsonIsInMetresOnAMapWithoutDegrees) {
   EXPECT_THAT(read(R"({"type":"LineString","coordinates":[[0,0],[50,20]]})", "a.geojson"),
               ElementsAre(Vec2{0, 0}, Vec2{50, 20}));
   EXPECT_EQ(error(R"({"type":"LineString","coordinates":[[0,0],[500,20]]})", "a.geojson"),
-            "a.geojson: coordinates[1]: vertex 1 (500, 20) lies outside the map, which covers x "
-            "from -10 to 90 and y from -5 to 45 m");
+            "a.geojson: coordinates[1]: vertex 1 (500, 20) is outside the map, expected x in "
+            "[-10, 90] and y in [-5, 45]");
   EXPECT_EQ(error(R"({"type":"LineString","coordinates":[[0,0],[null,20]]})", "a.geojson"),
             "a.geojson: coordinates[1][0]: is null, expected a number");
   EXPECT_EQ(error(R"({"type":"Point","coordinates":[0,0]})", "a.geojson"),
             "a.geojson: has 0 LineStrings, expected one");
+}
+
+TEST_F(ReadPath, ALineCutAtTheAntimeridianIsOneLine) {
+  ObstacleMap map;
+  map.grid = {400, 400, -2000.0, -2000.0, 10.0};
+  map.frame.geo = GeoReference{-17.0, 179.999, 0.0};
+  const auto read_parts = [&](const std::string& parts) {
+    return read_path(
+        folder_.write("a.geojson", R"({"type":"MultiLineString","coordinates":)" + parts + "}"),
+        map);
+  };
+  const auto path =
+      read_parts("[[[179.995,-17],[180,-17.001]],[[-180,-17.001],[-179.998,-17.002]]]");
+  ASSERT_EQ(path.size(), 3U);
+  EXPECT_LT(path[0].x, path[1].x);
+  EXPECT_LT(path[1].x, path[2].x);
+  EXPECT_LT(path[2].x - path[0].x, 800.0);
+  EXPECT_EQ(input_error_of([&] {
+              (void)read_parts("[[[179.995,-17],[179.999,-17]],[[-180,-17],[-179.998,-17]]]");
+            }),
+            "a.geojson: has 2 LineStrings, expected one");
 }
 
 TEST_F(ReadPath, APlansMissionIsAPath) {

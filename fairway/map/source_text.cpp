@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "fairway/base/digest.hpp"
-#include "fairway/base/error.hpp"
+#include "fairway/base/plain_text.hpp"
 
 namespace fairway {
 
@@ -34,7 +34,7 @@ void require_regular_file(const std::filesystem::path& file) {
     throw InputError(name, "is not a regular file");
 }
 
-SourceText read_source(const std::filesystem::path& file, std::uint64_t max_bytes) {
+SourceText read_bytes(const std::filesystem::path& file, std::uint64_t max_bytes) {
   require_regular_file(file);
   const std::string name = file.string();
   std::error_code error;
@@ -54,17 +54,26 @@ SourceText read_source(const std::filesystem::path& file, std::uint64_t max_byte
   return source;
 }
 
+SourceText read_source(const std::filesystem::path& file, std::uint64_t max_bytes) {
+  SourceText source = read_bytes(file, max_bytes);
+  source.text = plain_text(source.text, file.string());
+  return source;
+}
+
 std::string at_line(const std::filesystem::path& file, std::size_t line) {
   return fmt::format("{}:{}", file.string(), line);
+}
+
+std::string reason_of(const InputError& error) {
+  const std::string text = error.what();
+  return error.where().empty() ? text : text.substr(error.where().size() + 2);
 }
 
 std::vector<Line> lines_of(std::string_view text) {
   std::vector<Line> lines;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string_view line = text.substr(begin, end - begin);
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    lines.push_back({lines.size() + 1, line});
+    lines.push_back({lines.size() + 1, text.substr(begin, end - begin)});
     begin = end + 1;
   }
   return lines;

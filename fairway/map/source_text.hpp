@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fairway/base/error.hpp"
 #include "fairway/map/obstacle_map.hpp"
 
 namespace fairway {
@@ -21,10 +22,13 @@ struct SourceText {
   InputFile input;
 };
 
-/// Throws InputError when `file` is missing, no regular file, unreadable or larger than
-/// `max_bytes`.
+/// The whole file as plain text (base/plain_text.hpp); the digest is that of its bytes. Throws
+/// InputError when `file` is missing, no regular file, unreadable or larger than `max_bytes`.
 [[nodiscard]] SourceText read_source(const std::filesystem::path& file,
                                      std::uint64_t max_bytes = max_text_bytes);
+
+/// The same, byte for byte.
+[[nodiscard]] SourceText read_bytes(const std::filesystem::path& file, std::uint64_t max_bytes);
 
 /// Throws InputError unless `file` is a regular file; names with schemes of networks are not.
 void require_regular_file(const std::filesystem::path& file);
@@ -32,7 +36,10 @@ void require_regular_file(const std::filesystem::path& file);
 /// "FILE:LINE", the place of an error.
 [[nodiscard]] std::string at_line(const std::filesystem::path& file, std::size_t line);
 
-/// One line without its end (LF or CRLF); numbers count from 1.
+/// What an error says, without the place in front.
+[[nodiscard]] std::string reason_of(const InputError& error);
+
+/// One line of a plain text without its end; numbers count from 1.
 struct Line {
   std::size_t number = 0;
   std::string_view text;

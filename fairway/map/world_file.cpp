@@ -1,6 +1,8 @@
 #include "fairway/map/world_file.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -11,19 +13,20 @@ namespace fairway {
 
 namespace {
 
-std::vector<std::filesystem::path> candidates(const std::filesystem::path& image) {
+/// The names that a world file of `image` may have, in small letters.
+std::vector<std::string> candidates(const std::filesystem::path& image) {
   const std::string extension = image.extension().string();  // with its dot
   std::vector<std::string> endings;
   if (extension.size() >= 3)
     endings.push_back(std::string(".") + extension[1] + extension.back() + 'w');
   if (!extension.empty()) endings.push_back(extension + 'w');
   endings.emplace_back(".wld");
-  std::vector<std::filesystem::path> files;
+  std::vector<std::string> names;
   for (const std::string& ending : endings) {
-    std::filesystem::path file = image;
-    files.push_back(file.replace_extension(ending));
+    std::filesystem::path file = image.filename();
+    names.push_back(lower(file.replace_extension(ending).string()));
   }
-  return files;
+  return names;
 }
 
 WorldFile read_world_file(const std::filesystem::path& file) {
@@ -51,10 +54,23 @@ WorldFile read_world_file(const std::filesystem::path& file) {
 }  // namespace
 
 std::optional<WorldFile> find_world_file(const std::filesystem::path& image) {
+  // Names differ in case from system to system; of several the one of the image's own case comes
+  // first.
+  const std::vector<std::string> names = candidates(image);
+  const std::filesystem::path folder = image.has_parent_path() ? image.parent_path() : ".";
+  const std::string stem = image.stem().string();
   std::error_code ignored;
-  for (const auto& file : candidates(image))
-    if (std::filesystem::exists(file, ignored)) return read_world_file(file);
-  return std::nullopt;
+  std::optional<std::tuple<std::size_t, bool, std::filesystem::path>> best;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::filesystem::path name = entry.path().filename();
+    const auto at = std::find(names.begin(), names.end(), lower(name.string()));
+    if (at == names.end()) continue;
+    std::tuple found(static_cast<std::size_t>(at - names.begin()), name.stem().string() != stem,
+                     image.parent_path() / name);
+    if (!best || found < *best) best = std::move(found);
+  }
+  if (!best) return std::nullopt;
+  return read_world_file(std::get<2>(*best));
 }
 
 }  // namespace fairway

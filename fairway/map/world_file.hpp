@@ -17,8 +17,8 @@ struct WorldFile {
 };
 
 /// The world file beside `image`: its name with .wld, or with the image's extension shortened to
-/// first and last letter plus w (.png: .pgw), or with a w behind the extension (.pngw). Nothing
-/// when there is none; throws InputError with the line when it is malformed.
+/// first and last letter plus w (.png: .pgw), or with a w behind the extension (.pngw), in any
+/// case. Nothing when there is none; throws InputError with the line when it is malformed.
 [[nodiscard]] std::optional<WorldFile> find_world_file(const std::filesystem::path& image);
 
 }  // namespace fairway

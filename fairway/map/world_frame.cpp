@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/number_text.hpp"
 
 namespace fairway {
 
@@ -37,10 +38,11 @@ Grid grid_over(const MapExtent& extent, const RasteriseOptions& options) {
       columns + ring > 2147483647.0 || rows + ring > 2147483647.0)
     throw InputError(
         "map.cell_m",
-        fmt::format("{} m cells on a map of {:.6g} m by {:.6g} m give a grid of {:.6g} "
-                    "by {:.6g}, expected at most {} cells; use larger cells",
-                    options.cell_m, extent.width_m, extent.height_m, columns + ring, rows + ring,
-                    options.max_cells));
+        fmt::format(
+            "{} m cells on a map of {} m by {} m give a grid of {} by {}, expected at most {} "
+            "cells; use larger cells",
+            length_text(options.cell_m), length_text(extent.width_m), length_text(extent.height_m),
+            length_text(columns + ring), length_text(rows + ring), options.max_cells));
   for (const double corner_m : {extent.lower_left_m.x, extent.lower_left_m.y})
     if (!(std::abs(corner_m) <= 1e12 * options.cell_m))
       throw InputError(

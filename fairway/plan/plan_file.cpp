@@ -14,6 +14,7 @@
 
 #include "fairway/base/digest.hpp"
 #include "fairway/base/error.hpp"
+#include "fairway/base/file_kind.hpp"
 #include "fairway/base/heading.hpp"
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/base/parallel.hpp"
@@ -241,7 +242,12 @@ Plan plan_of_bytes(std::span<const std::byte> bytes, const std::string& where) {
 
 Plan read_plan(const std::filesystem::path& path) {
   const MappedFile file(path);
-  return plan_of_bytes(file.bytes(), path.string());
+  try {
+    return plan_of_bytes(file.bytes(), path.string());
+  } catch (const InputError&) {
+    refuse_other_kind(file.bytes(), FileKind::plan, path.string());
+    throw;
+  }
 }
 
 }  // namespace fairway

@@ -196,6 +196,21 @@ TEST_F(Exchange, AMissionHasThePartsThatGroundStationsAskFor) {
   EXPECT_THROW((void)qgc_waypoints_text(flight, 10.0, lon_lat, {1.0, 0.0}), PreconditionViolation);
 }
 
+TEST_F(Exchange, AMissionOfAFlightThatDoesNotReachIsWarnedOf) {
+  Flight flight;
+  flight.result = {Outcome::reach, 10.0, 40.0};
+  EXPECT_TRUE(mission_warnings(std::vector{flight}).empty());
+  flight.result.outcome = Outcome::collide;
+  EXPECT_EQ(mission_warnings(std::vector{flight}),
+            std::vector<std::string>{
+                "the flight collides after 10.00 s, and the mission leads there, too."});
+  flight.result.outcome = Outcome::leave;
+  EXPECT_EQ(mission_warnings(std::vector{flight}).size(), 1U);
+  constexpr double never = std::numeric_limits<double>::infinity();
+  flight.result = {Outcome::trapped, never, never};
+  EXPECT_EQ(mission_warnings(std::vector{flight}).size(), 1U);
+}
+
 TEST_F(Exchange, AProjectedPlanHasDegreesAndAPlanOfNowhereHasNone) {
   ObstacleMap map = walled({});
   EXPECT_FALSE(lon_lat_of(map.frame, "plan"));

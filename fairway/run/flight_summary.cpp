@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "fairway/base/number_text.hpp"
+
 #include "fairway/run/final_legs.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/simulate/flight_statistics.hpp"
@@ -52,8 +54,8 @@ std::string flight_words(std::span<const State> starts, const ManyFlights& flown
   for (std::size_t i = 0; i < starts.size() && starts.size() <= most_listed; ++i) {
     const State& s = starts[i];
     const FlightResult& r = flown.results[i];
-    text += fmt::format("({:g}, {:g}, {:g} rad): {}", s.position_m.x, s.position_m.y,
-                        s.heading.rad(), name_of(r.outcome));
+    text += fmt::format("({}, {}, {:g} rad): {}", coordinate_text(s.position_m.x),
+                        coordinate_text(s.position_m.y), s.heading.rad(), name_of(r.outcome));
     if (std::isfinite(r.time_s))
       text += fmt::format(" after {:.2f} s, {:.1f} m", r.time_s, r.length_m);
     text += "\n";

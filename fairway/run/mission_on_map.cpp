@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/number_text.hpp"
 #include "fairway/map/read_path.hpp"
+#include "fairway/map/source_text.hpp"
 #include "fairway/map/tangent_plane.hpp"
 
 namespace fairway {
@@ -26,7 +28,7 @@ Vec2 goal_on_map(const Scenario& scenario, const ObstacleMap& map) {
   if (!std::isfinite(goal_m.x) || !std::isfinite(goal_m.y) ||
       norm(goal_m) > tangent_plane_limit_m) {
     throw InputError(scenario.place_of("mission.goal_deg"),
-                     fmt::format("mission.goal_deg: is more than {:g} km from the map's reference "
+                     fmt::format("mission.goal_deg: is more than {} km from the map's reference "
                                  "point, latitude {} longitude {}",
                                  tangent_plane_limit_m / 1000.0, map.frame.geo->latitude_deg,
                                  map.frame.geo->longitude_deg));
@@ -54,33 +56,56 @@ MapRequest map_request(const Scenario& scenario) {
   // may stick out beyond the world, and the paper's metric rounds the buffer up by less than one.
   const double turns = scenario.plan.alpha + std::max(scenario.plan.beta, 2.0);
   request.least_world_margin_m = turns * scenario.vehicle.turn_radius_m + 2.0 * request.cell_m;
+  const MissionRequest& asked = scenario.mission;
+  if (asked.goal_m) request.also_hold_m.push_back(*asked.goal_m);
+  if (asked.goal_deg) request.also_hold_deg.push_back(*asked.goal_deg);
+  for (const State& s : scenario.simulate.states) request.also_hold_m.push_back(s.position_m);
+  request.also_hold_path = asked.path_file;
+  if (!scenario.file.empty()) {
+    const auto lines = [file = scenario.file.string(), lines = scenario.lines](auto key) {
+      const auto line = lines.find(key);
+      return line == lines.end() ? file : fmt::format("{}:{}", file, line->second);
+    };
+    request.place_of = [lines](std::string_view key) { return lines(key); };
+  }
   return request;
 }
 
+namespace {
+
+PathMission path_on_map(const Scenario& scenario, const ObstacleMap& map) {
+  const MissionRequest& asked = scenario.mission;
+  try {
+    return {read_path(*asked.path_file, map, asked.closed), asked.closed, asked.delta_position_m,
+            asked.delta_heading_rad};
+  } catch (const InputError& error) {
+    throw InputError(error.where(), fmt::format("{} (mission.path_file of {})", reason_of(error),
+                                                scenario.place_of("mission.path_file")));
+  }
+}
+
+}  // namespace
+
 Mission mission_on_map(const Scenario& scenario, const ObstacleMap& map) {
   const MissionRequest& asked = scenario.mission;
-  if (asked.kind == MissionKind::goal) {
+  try {
+    if (asked.kind == MissionKind::path) return path_on_map(scenario, map);
     const Vec2 goal_m = goal_on_map(scenario, map);
-    const Grid& g = map.grid;
-    const bool inside = goal_m.x >= g.x0_m && goal_m.x <= g.x0_m + g.width_m() &&
-                        goal_m.y >= g.y0_m && goal_m.y <= g.y0_m + g.height_m();
-    if (!inside) {
-      throw InputError(
-          scenario.place_of(place_key(scenario)),
-          fmt::format("{}: the goal ({:g}, {:g}) is outside the map, expected x in "
-                      "[{:g}, {:g}] and y in [{:g}, {:g}]{}",
-                      place_key(scenario), goal_m.x, goal_m.y, g.x0_m, g.x0_m + g.width_m(), g.y0_m,
-                      g.y0_m + g.height_m(), hint(scenario, map)));
+    if (!is_within(map.grid, goal_m)) {
+      throw InputError(scenario.place_of(place_key(scenario)),
+                       fmt::format("{}: the goal {}{}", place_key(scenario),
+                                   outside_text(goal_m, map.grid), hint(scenario, map)));
     }
     return GoalMission{goal_m, asked.goal_heading_rad};
+  } catch (const InputError& error) {
+    throw WarnedInputError(error.where(), reason_of(error), map.warnings);
   }
-  return PathMission{read_path(*asked.path_file, map, asked.closed), asked.closed,
-                     asked.delta_position_m, asked.delta_heading_rad};
 }
 
 void throw_refusal(const Scenario& scenario, const MissionRefusal& refusal) {
   const char* key = place_key(scenario);
-  throw InputError(scenario.place_of(key), fmt::format("{}: {}", key, refusal.message));
+  throw WarnedInputError(scenario.place_of(key), fmt::format("{}: {}", key, refusal.message),
+                         refusal.warnings);
 }
 
 }  // namespace fairway

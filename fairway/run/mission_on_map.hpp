@@ -2,6 +2,11 @@
 // the map and so the frame is known.
 #pragma once
 
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fairway/base/error.hpp"
 #include "fairway/map/obstacle_map.hpp"
 #include "fairway/map/read_map.hpp"
 #include "fairway/run/scenario.hpp"
@@ -9,12 +14,22 @@
 
 namespace fairway {
 
-/// The scenario's map, with room for its vehicle where the map file bounds no world: a mission that
-/// the file names keeps clear of the world's border (Assumption 1) wherever it lies.
+/// The scenario's map; where the map file bounds no world, the world holds the mission, too (goal,
+/// path and states), with room for the vehicle: it keeps clear of the world's border (Assumption 1)
+/// wherever it lies.
 [[nodiscard]] MapRequest map_request(const Scenario& scenario);
 
-/// Reads the path file, or lays the goal on the map's plane. Throws InputError naming the
-/// scenario's line, or the path file's.
+/// An error of the input with what its map warned of: the reason may stand there.
+class WarnedInputError : public InputError {
+ public:
+  WarnedInputError(const std::string& where, const std::string& what,
+                   std::vector<std::string> of_map)
+      : InputError(where, what), warnings(std::move(of_map)) {}
+  std::vector<std::string> warnings;
+};
+
+/// Reads the path file, or lays the goal on the map's plane. Throws WarnedInputError naming the
+/// scenario's line, and the path file's.
 [[nodiscard]] Mission mission_on_map(const Scenario& scenario, const ObstacleMap& map);
 
 /// The key of the scenario that says where to: "mission.goal_m", ...

@@ -1,7 +1,9 @@
 #include "fairway/run/mission_on_map.hpp"
 
+#include <algorithm>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -111,6 +113,71 @@ TEST(MapRequest, AMissionWithoutAFenceHasRoomHoweverWideTheVehicleTurns) {
       EXPECT_NE(refused(), "") << radius_m;
     }
   }
+}
+
+// One keep-out fence and nothing else: the scenario says what else the world is.
+TEST(MapRequest, AKeepOutFenceAloneLeavesRoomForTheScenariosMission) {
+  const ScratchFolder folder;
+  (void)folder.write("out.plan", R"({"fileType":"Plan","geoFence":{"version":2,"polygons":[],
+    "circles":[{"inclusion":false,"circle":{"center":[47.3977,8.5456],"radius":40}}]}})");
+  (void)folder.write("line.csv", "x_m,y_m\n-300,900\n600,900\n");
+  const auto refused = [&](const std::string& mission) -> std::string {
+    const Scenario scenario = scenario_of_text(
+        "map = { file = \"out.plan\", cell_m = 10 }\n"
+        "vehicle = { speed_mps = 20, turn_radius_m = 25 }\n" +
+            mission,
+        folder.file("s.toml"));
+    const ObstacleMap map = read_map(map_request(scenario));
+    for (const State& s : scenario.simulate.states)
+      EXPECT_TRUE(map.grid.contains(map.grid.cell_of(s.position_m)));
+    const auto answer =
+        compute_field(map, scenario.vehicle, mission_on_map(scenario, map), scenario.plan);
+    const auto* refusal = std::get_if<MissionRefusal>(&answer);
+    return refusal == nullptr ? std::string() : refusal->message;
+  };
+  EXPECT_EQ(refused("[mission]\nkind = \"goal\"\ngoal_deg = [47.4050, 8.5456]\n"), "");
+  EXPECT_EQ(refused("[mission]\nkind = \"goal\"\ngoal_m = [0, -800]\n"
+                    "[simulate]\nstates = [[900, 900, 0]]\n"),
+            "");
+  EXPECT_EQ(refused("[mission]\nkind = \"path\"\npath_file = \"line.csv\"\n"), "");
+}
+
+TEST(MapRequest, ErrorsOfTheMapAndThePathSayTheScenariosLine) {
+  const ScratchFolder folder;
+  const auto error = [&](const std::string& text, bool mission) {
+    return input_error_of([&] {
+      const Scenario scenario = scenario_of_text(text, folder.file("s.toml"));
+      const ObstacleMap map = mission ? map_of(false) : read_map(map_request(scenario));
+      (void)mission_on_map(scenario, map);
+    });
+  };
+  const std::string rest =
+      "\ncell_m = 1\n[vehicle]\nspeed_mps = 1\nturn_radius_m = 2\n[mission]\nkind = \"path\"\n"
+      "path_file = \"gone.csv\"\n";
+  EXPECT_EQ(error("[map]\nfile = \"gone.yaml\"" + rest, false),
+            "gone.yaml: no such file (map.file of s.toml:2)");
+  EXPECT_EQ(error("[map]\nfile = \"gone.yaml\"" + rest, true),
+            "gone.csv: no such file (mission.path_file of s.toml:9)");
+}
+
+TEST(MissionOnMap, RefusalsBringTheWarningsOfTheMap) {
+  ObstacleMap map = map_of(false);
+  map.warnings = {"the origin is turned"};
+  const Scenario scenario = scenario_with("goal_m = [500, 0]");
+  const auto warnings_of = [&](const auto& act) -> std::vector<std::string> {
+    try {
+      act();
+    } catch (const WarnedInputError& error) {
+      return error.warnings;
+    }
+    return {};
+  };
+  EXPECT_EQ(warnings_of([&] { (void)mission_on_map(scenario, map); }), map.warnings);
+  std::fill(map.obstacle.begin(), map.obstacle.end(), 1);
+  const auto answer = compute_field(map, scenario.vehicle, GoalMission{{0, 0}, {}}, scenario.plan);
+  const auto& refusal = std::get<MissionRefusal>(answer);
+  EXPECT_NE(refusal.message.find("no cell of this map is free"), std::string::npos);
+  EXPECT_EQ(warnings_of([&] { throw_refusal(scenario, refusal); }), map.warnings);
 }
 
 TEST(PlanRecord, HoldsTheFrameOfTheMap) {

@@ -3,15 +3,16 @@
 #include <string>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/file_kind.hpp"
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/base/safetensors.hpp"
 #include "fairway/base/strict_json.hpp"
 
 namespace fairway {
 
-ProductKind product_kind(const std::filesystem::path& file) {
-  const MappedFile mapped(file);
-  const std::string where = file.string();
+namespace {
+
+ProductKind kind_of_product(const MappedFile& mapped, const std::string& where) {
   const Safetensors content = parse_safetensors(mapped.bytes(), where);
   const auto text = content.metadata.find("fairway");
   if (text == content.metadata.end()) {
@@ -21,6 +22,18 @@ ProductKind product_kind(const std::filesystem::path& file) {
   if (!record.is_object() || !record.contains("format")) return ProductKind::plan;
   if (record["format"] == "fairway-certificate") return ProductKind::certificate;
   throw InputError(where, "is " + shown(record["format"]) + ", expected a plan or a certificate");
+}
+
+}  // namespace
+
+ProductKind product_kind(const std::filesystem::path& file) {
+  const MappedFile mapped(file);
+  try {
+    return kind_of_product(mapped, file.string());
+  } catch (const InputError&) {
+    refuse_other_kind(mapped.bytes(), FileKind::plan, file.string());
+    throw;
+  }
 }
 
 }  // namespace fairway

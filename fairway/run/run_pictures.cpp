@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "fairway/base/atomic_file.hpp"
+#include "fairway/base/number_text.hpp"
 #include "fairway/report/draw_chart.hpp"
 #include "fairway/report/draw_flights.hpp"
 #include "fairway/report/draw_plan.hpp"
@@ -22,8 +23,8 @@ void write(const Picture& picture, const std::filesystem::path& folder, const st
 }
 
 std::string name_of_start(const State& start) {
-  return fmt::format("from ({:g}, {:g}, {:.2f} rad)", start.position_m.x, start.position_m.y,
-                     start.heading.rad());
+  return fmt::format("from ({}, {}, {:.2f} rad)", coordinate_text(start.position_m.x),
+                     coordinate_text(start.position_m.y), start.heading.rad());
 }
 
 /// The cells of the plan that a window touches, and one more on each side.

@@ -9,7 +9,9 @@
 
 #include "fairway/base/digest.hpp"
 #include "fairway/base/error.hpp"
+#include "fairway/base/file_kind.hpp"
 #include "fairway/base/mapped_file.hpp"
+#include "fairway/base/plain_text.hpp"
 #include "fairway/run/scenario_keys.hpp"
 
 namespace fairway {
@@ -142,10 +144,11 @@ std::string Scenario::place_of(std::string_view key) const {
   return fmt::format("{}:{}", file.string(), line->second);
 }
 
-Scenario scenario_of_text(std::string_view text, const fs::path& file) {
+Scenario scenario_of_text(std::string_view bytes, const fs::path& file) {
   Scenario scenario;
   scenario.file = file;
-  scenario.sha256 = sha256_hex(std::as_bytes(std::span(text.data(), text.size())));
+  scenario.sha256 = sha256_hex(std::as_bytes(std::span(bytes.data(), bytes.size())));
+  const std::string text = plain_text(bytes, file.string());
   toml::table root;
   try {
     root = toml::parse(text, file.string());
@@ -173,13 +176,18 @@ Scenario scenario_of_text(std::string_view text, const fs::path& file) {
 
 Scenario read_scenario(const fs::path& file) {
   const MappedFile mapped(file);
-  constexpr std::size_t largest = 1 << 20;
-  if (mapped.bytes().size() > largest) {
-    throw InputError(file.string(), "is larger than 1 MB, expected a scenario in TOML");
-  }
   const std::string_view text(reinterpret_cast<const char*>(mapped.bytes().data()),
                               mapped.bytes().size());
-  return scenario_of_text(text, file);
+  try {
+    constexpr std::size_t largest = 1 << 20;
+    if (text.size() > largest) {
+      throw InputError(file.string(), "is larger than 1 MB, expected a scenario in TOML");
+    }
+    return scenario_of_text(text, file);
+  } catch (const InputError&) {
+    refuse_other_kind(mapped.bytes(), FileKind::scenario, file.string());
+    throw;
+  }
 }
 
 }  // namespace fairway

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/number_text.hpp"
 #include "fairway/simulate/start_states.hpp"
 
 namespace fairway {
@@ -15,12 +16,8 @@ namespace {
 void require_on_grid(const Scenario& scenario, const Grid& grid) {
   for (const State& s : scenario.simulate.states) {
     if (grid.contains(grid.cell_of(s.position_m))) continue;
-    throw InputError(
-        scenario.place_of("simulate.states"),
-        fmt::format("simulate.states: ({:g}, {:g}) is outside the map, expected x in [{:g}, {:g}] "
-                    "and y in [{:g}, {:g}]",
-                    s.position_m.x, s.position_m.y, grid.x0_m, grid.x0_m + grid.width_m(),
-                    grid.y0_m, grid.y0_m + grid.height_m()));
+    throw InputError(scenario.place_of("simulate.states"),
+                     "simulate.states: " + outside_text(s.position_m, grid));
   }
 }
 

@@ -123,10 +123,7 @@ constexpr Range degrees{-180.0, 180.0, false};
 
 std::vector<ScenarioKey> map_keys() {
   return {
-      required(key("map.file", "file", any_finite, FAIRWAY_MEMBER(map.file),
-                   "ROS map_server .yaml, MovingAI .map, GeoJSON, QGroundControl .plan, ArduPilot "
-                   "fence, QGC waypoints, or an image (GeoTIFF; PNG, PGM, ... with a world file or "
-                   "`map.resolution_m`)")),
+      required(key("map.file", "file", any_finite, FAIRWAY_MEMBER(map.file), map_kinds_text())),
       required(number("map.cell_m", positive, FAIRWAY_MEMBER(map.cell_m),
                       "side of a plan cell, metres; less than the turning radius")),
       number("map.resolution_m", positive, FAIRWAY_MEMBER(map.resolution_m),

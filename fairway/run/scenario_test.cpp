@@ -9,6 +9,12 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/random.hpp"
+#include "fairway/base/safetensors.hpp"
+#include "fairway/certificate/certificate_file.hpp"
+#include "fairway/map/read_map.hpp"
+#include "fairway/map/testing/scratch_folder.hpp"
+#include "fairway/plan/plan_file.hpp"
+#include "fairway/run/product_file.hpp"
 #include "fairway/run/scenario_keys.hpp"
 
 namespace fairway {
@@ -173,6 +179,50 @@ TEST(ScenarioKeys, TheDocumentationHoldsTheTable) {
   EXPECT_NE(text.find(scenario_keys_markdown()), std::string::npos)
       << "docs/scenario.md should hold the output of `fairway --scenario-keys`:\n"
       << scenario_keys_markdown();
+}
+
+TEST(Scenario, IsReadTheSameWhateverItsMarkAndLineEnds) {
+  for (const char* mark : {"", "\xef\xbb\xbf"}) {
+    for (const char* end : {"\n", "\r\n", "\r"}) {
+      std::string text = mark;
+      for (const char c : whole) text += c == '\n' ? end : std::string(1, c);
+      const Scenario scenario = scenario_of_text(text, "s.toml");
+      EXPECT_EQ(scenario.place_of("simulate.seed"), "s.toml:16");
+      EXPECT_EQ(scenario.simulate.states.size(), 2U);
+    }
+  }
+}
+
+TEST(Scenario, AnotherKindOfFileIsToldByName) {
+  const ScratchFolder folder;
+  const auto error = [&](const std::string& name, std::string_view text) {
+    const std::filesystem::path file = folder.write(name, text);
+    return input_error_of([&] { (void)read_scenario(file); });
+  };
+  EXPECT_EQ(error("campus.yaml", "image: a.pgm\nresolution: 0.05\n"),
+            "campus.yaml: is a ROS map: name it in a scenario, as map.file");
+  EXPECT_EQ(error("a.plan", "{\"fileType\": \"Plan\"}"),
+            "a.plan: is a QGroundControl plan: name it in a scenario, as map.file");
+  EXPECT_EQ(error("p.safetensors", safetensors_header({{{"fairway", "{\"cell_m\":1}"}}, {}})),
+            "p.safetensors: is a plan, expected a scenario: `fairway simulate` flies it");
+  EXPECT_NE(error("s.toml", "[map\n").find("s.toml:1: is not TOML"), std::string::npos);
+  const std::filesystem::path scenario = folder.write("s.toml", whole);
+  EXPECT_EQ(input_error_of([&] { (void)read_plan(scenario); }),
+            "s.toml: is a scenario: `fairway plan` makes a plan of it");
+  EXPECT_EQ(input_error_of([&] { (void)read_certificate(scenario); }),
+            "s.toml: is a scenario: `fairway plan` makes a plan of it");
+  EXPECT_EQ(input_error_of([&] { (void)product_kind(scenario); }),
+            "s.toml: is a scenario: `fairway plan` makes a plan of it");
+  EXPECT_EQ(input_error_of([&] { (void)read_certificate(folder.file("p.safetensors")); }),
+            "p.safetensors: is a plan: `fairway verify` makes its certificate");
+}
+
+TEST(Scenario, TheMapFilesKindsAreThoseThatAreRead) {
+  for (const char* kind : {"ROS", "MovingAI", "GeoJSON", "QGroundControl", "ArduPilot",
+                           "QGC waypoints", "GeoTIFF", "PGM"})
+    EXPECT_NE(map_kinds_text().find(kind), std::string::npos) << kind;
+  EXPECT_NE(scenario_keys_markdown().find("| required | " + map_kinds_text() + " |"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "fairway/base/number_text.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/report/draw_steering.hpp"
 #include "fairway/run/path_segments.hpp"
@@ -96,7 +97,7 @@ double total_m(std::span<const SteeredLeg> legs) {
 std::string words_of(std::span<const SteeredLeg> legs) {
   const std::string what =
       legs.size() == 1 ? legs.front().word : fmt::format("{} legs", legs.size());
-  return fmt::format("{}, {:.5g} m", what, total_m(legs));
+  return fmt::format("{}, {} m", what, length_text(total_m(legs)));
 }
 
 /// V over all legs; a gap between legs, where it jumps.

@@ -1,0 +1,36 @@
+// What a file is that was given where another kind is expected.
+//
+// Told by content alone, after a reader has refused the file: so the reader's own complaint, which
+// speaks of bytes and headers, gives way to one that says what to do.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace fairway {
+
+enum class FileKind : std::uint8_t {
+  unknown,
+  scenario,
+  plan,
+  certificate,
+  ros_map,
+  moving_ai,
+  qgc_plan,
+  geojson,
+  waypoints,
+  image
+};
+
+[[nodiscard]] FileKind kind_of_bytes(std::span<const std::byte> bytes);
+
+/// "is a scenario: `fairway plan` makes a plan of it"; empty when the kind is unknown, or the one
+/// that was wanted. Where a map was wanted, `wanted` is unknown.
+[[nodiscard]] std::string other_kind_words(FileKind found, FileKind wanted);
+
+/// Throws InputError{where, other_kind_words} when these bytes are of another known kind.
+void refuse_other_kind(std::span<const std::byte> bytes, FileKind wanted, const std::string& where);
+
+}  // namespace fairway

@@ -1,0 +1,66 @@
+#include "fairway/base/number_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+namespace fairway {
+namespace {
+
+constexpr int centimetres = 2;
+constexpr int most_decimals = 15;
+
+/// `decimals` places behind the point, without the zeros at their end.
+std::string fixed_text(double value, int decimals) {
+  std::array<char, 400> buffer;  // the longest double has 309 digits before the point
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                 std::chars_format::fixed, decimals);
+  std::string text(buffer.data(), end.ptr);
+  if (text.find('.') != std::string::npos) {
+    text.resize(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.')) text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+bool is_within_as_printed(const Grid& g, Vec2 p, int decimals) {
+  const auto printed = [&](double value) {
+    return std::strtod(fixed_text(value, decimals).c_str(), nullptr);
+  };
+  return printed(p.x) >= printed(g.x0_m) && printed(p.x) <= printed(g.x0_m + g.width_m()) &&
+         printed(p.y) >= printed(g.y0_m) && printed(p.y) <= printed(g.y0_m + g.height_m());
+}
+
+}  // namespace
+
+std::string coordinate_text(double x_m) { return fixed_text(x_m, centimetres); }
+
+std::string length_text(double length_m) {
+  const double size = std::abs(length_m);
+  int decimals = centimetres;
+  if (size > 0.0 && size < 1.0)
+    decimals = std::max(centimetres, 2 - static_cast<int>(std::floor(std::log10(size))));
+  return fixed_text(length_m, decimals);
+}
+
+std::string place_text(Vec2 p_m) {
+  return "(" + coordinate_text(p_m.x) + ", " + coordinate_text(p_m.y) + ")";
+}
+
+std::string outside_text(Vec2 p_m, const Grid& g) {
+  int decimals = centimetres;
+  while (decimals < most_decimals && is_within_as_printed(g, p_m, decimals)) ++decimals;
+  const auto text = [&](double value) { return fixed_text(value, decimals); };
+  return "(" + text(p_m.x) + ", " + text(p_m.y) + ") is outside the map, expected x in [" +
+         text(g.x0_m) + ", " + text(g.x0_m + g.width_m()) + "] and y in [" + text(g.y0_m) + ", " +
+         text(g.y0_m + g.height_m()) + "]";
+}
+
+bool is_within(const Grid& g, Vec2 p_m) {
+  return p_m.x >= g.x0_m && p_m.x <= g.x0_m + g.width_m() && p_m.y >= g.y0_m &&
+         p_m.y <= g.y0_m + g.height_m();
+}
+
+}  // namespace fairway

@@ -1,0 +1,28 @@
+// Numbers as messages show them: no more digits than one can act on, and no fewer.
+#pragma once
+
+#include <string>
+
+#include "fairway/base/grid.hpp"
+#include "fairway/base/vec2.hpp"
+
+namespace fairway {
+
+/// A coordinate, metres: the shortest decimals that are right to the centimetre (off by at most
+/// half of one), never in powers of ten. "5200009.5", "-16.2", "0".
+[[nodiscard]] std::string coordinate_text(double x_m);
+
+/// A length: the same, but that one of less than a metre has three digits that count: "0.00125".
+[[nodiscard]] std::string length_text(double length_m);
+
+/// "(x, y)" in coordinates.
+[[nodiscard]] std::string place_text(Vec2 p_m);
+
+/// "(x, y) is outside the map, expected x in [a, b] and y in [c, d]", in as many more decimals as
+/// it takes for the place to be outside as printed, too.
+[[nodiscard]] std::string outside_text(Vec2 p_m, const Grid& grid);
+
+/// True on the grid, its border included.
+[[nodiscard]] bool is_within(const Grid& grid, Vec2 p_m);
+
+}  // namespace fairway
