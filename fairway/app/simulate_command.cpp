@@ -12,6 +12,7 @@
 
 #include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
+#include "fairway/app/places.hpp"
 #include "fairway/app/terminal_progress.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
@@ -199,10 +200,8 @@ bool put(const fs::path& path, const Session& session, const std::string& text) 
 }
 
 void check_places(const SimulateArguments& arguments, const Session& session) {
-  for (const fs::path& path :
-       {arguments.csv, arguments.outcomes, arguments.geojson, arguments.qgc}) {
-    if (!path.empty() && path != "-") require_writable_place(path, session.existing());
-  }
+  require_places({arguments.csv, arguments.outcomes, arguments.geojson, arguments.qgc},
+                 {arguments.plan, arguments.states_file}, session.existing());
 }
 
 /// The one flight as a mission, in the format that the file's name asks for.

@@ -13,6 +13,7 @@
 
 #include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
+#include "fairway/app/places.hpp"
 #include "fairway/app/steered.hpp"
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/steer/dubins_words.hpp"
@@ -89,9 +90,7 @@ void print_csv(const std::vector<SteeredLeg>& legs) {
 }
 
 int steer_command(const SteerArguments& a, const Session& session) {
-  for (const fs::path& place : {a.picture, a.track}) {
-    if (!place.empty()) require_writable_place(place, session.existing());
-  }
+  require_places({a.picture, a.track}, {a.pairs_file, a.waypoints_file}, session.existing());
   const std::vector<SteeredLeg> legs = steered(a);
   if (!a.track.empty()) write_whole(a.track, session.existing(), track_csv(legs));
   if (!a.picture.empty()) {
