@@ -1,12 +1,19 @@
 // fairway: a table of subcommands, the global options, and what errors become.
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
@@ -55,11 +62,20 @@ void tidy_up_on_signals() {
 }
 
 int fail(const Session& session, int code, const std::string& where, const std::string& message) {
-  fmt::print(stderr, "fairway: {}\n", message);
+  complain("fairway: " + message);
   if (session.json) {
-    session.tell({{"error", message}, {"where", where}, {"exit_code", code}}, "");
+    try {
+      session.tell({{"error", message}, {"where", where}, {"exit_code", code}}, "");
+    } catch (const OutputError&) {  // told on stderr, and by the code
+    }
   }
   return code;
+}
+
+int fail_to_tell(std::string_view why) {
+  complain(fmt::format("fairway: standard output could not be written{}{}", why.empty() ? "" : ": ",
+                       why));
+  return exit_output;
 }
 
 int perform(const Action& action, const Session& session) {
@@ -70,6 +86,8 @@ int perform(const Action& action, const Session& session) {
   }
   try {
     return action(session);
+  } catch (const OutputError& error) {
+    return fail_to_tell(error.what());
   } catch (const InputError& error) {
     return fail(session, exit_input, error.where(), error.what());
   } catch (const std::bad_alloc&) {
@@ -96,7 +114,7 @@ int main_with(int argc, char** argv) {
   app.add_flag("--scenario-keys", show_keys, "print every scenario key with its range and default");
   app.footer(
       "Exit codes: 0 done, 1 the answer is no, 64 wrong usage, 65 bad input (told with file and "
-      "line), 70 our fault.");
+      "line), 70 our fault, 74 standard output could not be written.");
   app.require_subcommand(0, 1);
   app.fallthrough();
 
@@ -111,20 +129,44 @@ int main_with(int argc, char** argv) {
     return app.exit(error) == 0 ? exit_done : exit_usage;
   }
   if (show_keys) {
-    fmt::print("{}", scenario_keys_markdown());
+    std::cout << scenario_keys_markdown();
     return exit_done;
   }
   for (const auto& [options, action] : declared) {
     if (options->parsed()) return perform(action, session);
   }
-  fmt::print(stderr, "{}", app.help());
+  complain(app.help());
   return exit_usage;
+}
+
+/// A descriptor that the caller closed would go to the next file that is opened, and what is told
+/// would end up in it. What is written to such a place fails, as it did.
+void keep_standard_descriptors() {
+  for (const auto& [descriptor, way] :
+       {std::pair{STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}}) {
+    if (::fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
+    const int opened = ::open("/dev/null", way);  // the lowest that is free: this one
+    if (opened >= 0 && opened != descriptor) ::close(opened);
+  }
+}
+
+/// What was told is only told once it is written, help and version too.
+int when_written(int code) {
+  if (code == exit_output) return code;  // told
+  errno = 0;
+  std::cout.flush();
+  const bool flushed = std::fflush(stdout) == 0;
+  const int error = errno;
+  if (flushed && std::ferror(stdout) == 0 && std::cout.good()) return code;
+  const int lost = fail_to_tell(error == 0 ? "" : std::strerror(error));
+  return code == exit_done ? lost : code;
 }
 
 }  // namespace
 }  // namespace fairway
 
 int main(int argc, char** argv) {
+  fairway::keep_standard_descriptors();
   fairway::tidy_up_on_signals();
-  return fairway::main_with(argc, argv);
+  return fairway::when_written(fairway::main_with(argc, argv));
 }

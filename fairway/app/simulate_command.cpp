@@ -192,7 +192,7 @@ json report(const SimulateArguments& arguments, const std::vector<State>& starts
 /// To a file, or to stdout for "-". True when stdout was used.
 bool put(const fs::path& path, const Session& session, const std::string& text) {
   if (path == "-") {
-    fmt::print("{}", text);
+    print(text);
     return true;
   }
   write_whole(path, session.existing(), text);

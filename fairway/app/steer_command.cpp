@@ -1,6 +1,5 @@
 // fairway steer: to a pose, or along poses one by one, where nothing is in the way.
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -86,7 +85,7 @@ void print_csv(const std::vector<SteeredLeg>& legs) {
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", s.length_m, s.word, s.converged,
                    s.end.position_m.x, s.end.position_m.y, s.end.heading.rad());
   }
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  print({text.data(), text.size()});
 }
 
 int steer_command(const SteerArguments& a, const Session& session) {
