@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <optional>
@@ -21,6 +22,7 @@
 #include "fairway/app/command.hpp"
 #include "fairway/app/ending.hpp"
 #include "fairway/base/atomic_file.hpp"
+#include "fairway/base/edit_distance.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/run/scenario_keys.hpp"
 #include "fairway/run/version.hpp"
@@ -31,18 +33,18 @@ namespace {
 // To add a subcommand: a file with its declare function, and a line here.
 constexpr Command commands[] = {
     {"run", "the main job: map, plan, flights, pictures; the folder gets every product",
-     declare_run},
-    {"plan", "the feedback plan alone", declare_plan},
+     declare_run, true},
+    {"plan", "the feedback plan alone", declare_plan, true},
     {"simulate", "flights under a plan: exact, or by a sampled control law in noise and wind",
-     declare_simulate},
+     declare_simulate, true},
     {"verify", "which states reach the goal: a proof for all of them, and its certificate",
-     declare_verify},
-    {"query", "what a certificate says of a state", declare_query},
-    {"check", "re-prove a certificate with a separate program", declare_check},
-    {"export", "a plan or verdicts as GeoTIFF, for GIS programs", declare_export},
+     declare_verify, true},
+    {"query", "what a certificate says of a state", declare_query, false},
+    {"check", "re-prove a certificate with a separate program", declare_check, false},
+    {"export", "a plan or verdicts as GeoTIFF, for GIS programs", declare_export, true},
     {"steer", "to a pose by a shortest path, or under a control law; nothing is in the way",
-     declare_steer},
-    {"view", "the interactive page of a run, live on this machine", declare_view},
+     declare_steer, true},
+    {"view", "the interactive page of a run, live on this machine", declare_view, false},
 };
 
 /// Ctrl-C and friends must leave nothing half-written: they are taken by a thread of their own,
@@ -57,6 +59,10 @@ void tidy_up_on_signals() {
     do sigwait(&signals, &caught);
     while (ends_gently());
     remove_unfinished();
+    if (const std::string words = words_when_interrupted(); !words.empty()) {
+      const char* const over_the_progress = ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
+      complain(fmt::format("{}fairway: interrupted: {}", over_the_progress, words));
+    }
     ::_exit(128 + caught);
   }).detach();
 }
@@ -78,7 +84,8 @@ int fail_to_tell(std::string_view why) {
   return exit_output;
 }
 
-int perform(const Action& action, const Session& session) {
+int perform(const Action& action, bool writes, const Session& session) {
+  if (writes) say_when_interrupted("nothing half-made was left");
   std::optional<tbb::global_control> bound;
   if (session.threads > 0) {
     bound.emplace(tbb::global_control::max_allowed_parallelism,
@@ -98,18 +105,50 @@ int perform(const Action& action, const Session& session) {
   }
 }
 
+/// The options of all commands: before the command's name or after it.
+void declare_common(CLI::App& app, bool writes, Session& session, const std::string& group) {
+  app.add_option("--threads", session.threads,
+                 "threads to use (default: all cores); results never depend on it")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N")
+      ->group(group);
+  app.add_flag("--quiet", session.quiet, "no progress, no closing words")->group(group);
+  app.add_flag("--json", session.json, "print one JSON object to stdout")->group(group);
+  if (writes) {
+    app.add_flag("--force", session.force, "replace products that exist")->group(group);
+  }
+}
+
+/// What is wrong with a first word that is none of the commands, and what may have been meant.
+std::string no_command_words(const std::string& word) {
+  if (word.starts_with("-")) return fmt::format("unknown option {}; see fairway --help", word);
+  std::error_code error;
+  const std::filesystem::path path(word);
+  if (path.extension() == ".toml") {
+    return fmt::format("{} is no command; did you mean fairway run {}?", word, word);
+  }
+  if (std::filesystem::is_directory(path, error)) {
+    return fmt::format("{} is no command; did you mean fairway view {}?", word, word);
+  }
+  const std::string known = word.substr(0, 64);
+  const Command* best = &commands[0];
+  std::string all;
+  for (const Command& command : commands) {
+    if (edit_distance(known, command.name) < edit_distance(known, best->name)) best = &command;
+    all += (all.empty() ? "" : ", ") + std::string(command.name);
+  }
+  if (edit_distance(known, best->name) <= 2) {
+    return fmt::format("unknown command {}; did you mean {}?", word, best->name);
+  }
+  return fmt::format("unknown command {}, expected one of {}", word, all);
+}
+
 int main_with(int argc, char** argv) {
   Session session;
   CLI::App app("Verified feedback motion plans for vehicles with a minimum turning radius.",
                "fairway");
   app.set_version_flag("--version", program_version);
-  app.add_option("--threads", session.threads,
-                 "threads to use (default: all cores); results never depend on it")
-      ->check(CLI::Range(1, 4096))
-      ->type_name("N");
-  app.add_flag("--quiet", session.quiet, "no progress, no closing words");
-  app.add_flag("--json", session.json, "print one JSON object to stdout");
-  app.add_flag("--force", session.force, "replace products that exist");
+  declare_common(app, true, session, "Options");
   bool show_keys = false;
   app.add_flag("--scenario-keys", show_keys, "print every scenario key with its range and default");
   app.footer(
@@ -118,13 +157,28 @@ int main_with(int argc, char** argv) {
   app.require_subcommand(0, 1);
   app.fallthrough();
 
-  std::vector<std::pair<CLI::App*, Action>> declared;
+  struct Declared {
+    CLI::App* options;
+    Action action;
+    bool writes;
+  };
+  std::vector<Declared> declared;
   for (const Command& command : commands) {
     CLI::App* options = app.add_subcommand(command.name, command.does);
-    declared.emplace_back(options, command.declare(*options));
+    declared.push_back({options, command.declare(*options), command.writes});
+    declare_common(*options, command.writes, session, "Common options");
   }
   try {
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    if (app.get_subcommands().empty()) {
+      complain("fairway: " + no_command_words(app.remaining().front()));
+      return exit_usage;
+    }
+    const std::string command = app.get_subcommands().front()->get_name();
+    complain(fmt::format("fairway {}: not expected: {}; see fairway {} --help", command,
+                         fmt::join(app.remaining(true), " "), command));
+    return exit_usage;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_done : exit_usage;
   }
@@ -132,8 +186,8 @@ int main_with(int argc, char** argv) {
     std::cout << scenario_keys_markdown();
     return exit_done;
   }
-  for (const auto& [options, action] : declared) {
-    if (options->parsed()) return perform(action, session);
+  for (const Declared& d : declared) {
+    if (d.options->parsed()) return perform(d.action, d.writes, session);
   }
   complain(app.help());
   return exit_usage;

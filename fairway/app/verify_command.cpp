@@ -8,6 +8,7 @@
 
 #include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
+#include "fairway/app/ending.hpp"
 #include "fairway/app/places.hpp"
 #include "fairway/app/terminal_progress.hpp"
 #include "fairway/base/error.hpp"
@@ -82,6 +83,9 @@ int verify_command(VerifyArguments a, const Session& session) {
     }
     pictures.emplace(a.pictures, session.existing(), "proved.png", verdict_picture_files());
   }
+  say_when_interrupted(
+      "nothing half-made was left; with --time-limit S a certificate holds what is proved by then, "
+      "and --resume CERT goes on from it");
   a.options.memory_limit_bytes = static_cast<std::size_t>(a.memory_limit_mb * 1e6);
   const RegionOfInterest region = region_of_text(a.region);
 
