@@ -109,6 +109,9 @@ class Client final : public httplib::Stream {
     return true;
   }
 
+  /// Nothing more came, in time or at all.
+  bool gone() const { return gone_; }
+
   /// What came and was not read: a client that is closed upon gets its answer first.
   void drain() const {
     std::array<char, 4096> part;
@@ -117,8 +120,10 @@ class Client final : public httplib::Stream {
     }
   }
 
-  bool is_readable() const override { return at_ < end_ || ready(POLLIN, Clock::now()); }
-  bool is_writable() const override { return ready(POLLOUT, Clock::now()); }
+  bool is_readable() const override { return at_ < end_ || ready(POLLIN, until_); }
+  bool is_writable() const override {
+    return ready(POLLOUT, answering_ ? until_ : Clock::now() + limits_.answer);
+  }
 
   ssize_t read(char* to, size_t size) override {
     if (at_ == end_ && !receive()) return -1;
@@ -157,12 +162,14 @@ class Client final : public httplib::Stream {
 
   bool receive() {
     for (;;) {
-      if (!ready(POLLIN, until_)) return false;
+      gone_ = !ready(POLLIN, until_);
+      if (gone_) return false;
       const ssize_t n = ::recv(connection_, buffer_.data(), buffer_.size(), MSG_DONTWAIT);
       if (n < 0 && (errno == EINTR || errno == EAGAIN)) continue;
       at_ = 0;
       end_ = n > 0 ? static_cast<std::size_t>(n) : 0;
-      return n > 0;
+      gone_ = n <= 0;
+      return !gone_;
     }
   }
 
@@ -171,6 +178,7 @@ class Client final : public httplib::Stream {
   const PageLimits& limits_;
   Clock::time_point until_;
   bool answering_ = false;
+  bool gone_ = false;
   std::array<char, 4096> buffer_{};
   std::size_t at_ = 0;
   std::size_t end_ = 0;
@@ -184,6 +192,9 @@ class LimitedServer final : public httplib::Server {
     new_task_queue = [this] { return new Connections(limits_.connections); };
   }
   ~LimitedServer() override { ::close(stopped_); }
+
+  /// Once it is bound: the library has five wait at the door, and a sixth knocks again in a second.
+  void have_many_wait() const { ::listen(svr_sock_, SOMAXCONN); }
 
   /// Lets go of every client.
   void let_go() const {
@@ -205,7 +216,7 @@ class LimitedServer final : public httplib::Server {
         request.headers.erase("Connection");  // a body is not read, and is no next request
         request.set_header("Connection", "close");
       });
-      closed = closed || has_body;
+      closed = closed || has_body || client.gone();
     }
     client.drain();
     ::shutdown(connection, SHUT_RDWR);
@@ -418,6 +429,7 @@ PageServer::PageServer(fs::path folder, const LiveEngine& engine, int port, Page
                                            "it wants other rights; 0 picks a free one",
                                            port));
   }
+  parts_->http.have_many_wait();
 }
 
 PageServer::~PageServer() { stop(); }

@@ -358,6 +358,7 @@ class Limited {
     ::setsockopt(made, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     return made;
   }
+  int port() const { return server_.port(); }
   /// The status of the page, 0 when none comes within half a minute.
   int status() const {
     httplib::Client client("127.0.0.1", server_.port());
@@ -426,6 +427,29 @@ TEST_F(Served, SlowClientsAreLetGoAndMakeRoomWhereThereIsLittle) {
   const Dripping slow(server, 40);
   EXPECT_EQ(server.status(), 200);
   EXPECT_EQ(slow.let_go(), 40);
+}
+
+TEST_F(Served, WhoReadsSlowlyGetsALargeProductWholeAndWhoReadsNothingIsLetGo) {
+  const std::string large(20'000'000, 'x');
+  std::ofstream(place_ / "plan.svg") << large;
+  for (const bool reads : {true, false}) {
+    PageLimits limits;
+    if (!reads) limits.answer = std::chrono::milliseconds(200);
+    const Limited server(place_, *engine_, limits);
+    const int slow = server.connection();
+    const std::string ask = fmt::format(
+        "GET /plan.svg HTTP/1.1\r\nHost: localhost:{}\r\nConnection: close\r\n\r\n", server.port());
+    ASSERT_EQ(::send(slow, ask.data(), ask.size(), MSG_NOSIGNAL), static_cast<ssize_t>(ask.size()));
+    if (!reads) std::this_thread::sleep_for(std::chrono::seconds(1));
+    std::string back;
+    std::vector<char> part(400'000);
+    for (ssize_t n = 0; (n = ::recv(slow, part.data(), part.size(), 0)) > 0;) {
+      back.append(part.data(), static_cast<std::size_t>(n));
+      if (reads) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    ::close(slow);
+    EXPECT_EQ(back.ends_with(large), reads);
+  }
 }
 
 TEST_F(Served, SilentClientsAreLetGo) {
