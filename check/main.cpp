@@ -1,5 +1,7 @@
 // fairway-check: re-proves a certificate, with no code of the program that made it.
 #include <chrono>
+#include <cstdio>
+#include <iostream>
 #include <thread>
 
 #include <fmt/format.h>
@@ -34,7 +36,7 @@ void declare(CLI::App& app, Request& r) {
   app.set_version_flag("--version", "fairway-check " FAIRWAY_VERSION);
   app.footer(
       "Exit codes: 0 accepted, 1 refused, 64 wrong usage, 65 no readable certificate, 70 our "
-      "fault.");
+      "fault, 74 standard output could not be written.");
 }
 
 int run(const Request& r) {
@@ -54,19 +56,28 @@ int run(const Request& r) {
         report["leaves"].dump(), r.samples, wall.count(), r.threads);
   }
   using Invalid = nlohmann::json::error_handler_t;
-  fmt::print("{}\n",
-             r.json ? report.dump(2, ' ', false, Invalid::replace) : r.certificate + ": " + answer);
+  std::cout << (r.json ? report.dump(2, ' ', false, Invalid::replace)
+                       : r.certificate + ": " + answer)
+            << '\n';
   return defect.empty() ? 0 : 1;
 }
 
 }  // namespace
 }  // namespace fairway_check
 
-int main(int count, char** words) {
+/// An answer that could not be written is none: 0 becomes 74.
+int when_written(int code) {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;
+  std::cerr << "fairway-check: standard output could not be written\n";
+  return code == 0 ? 74 : code;
+}
+
+int checked(int count, char** words) {
   CLI::App app("fairway-check: re-proves a certificate independently", "fairway-check");
   fairway_check::Request request;
   const auto failed = [&request](std::string_view what, int code) {
-    fmt::print(stderr, "fairway-check: {}: {}\n", request.certificate, what);
+    std::cerr << "fairway-check: " << request.certificate << ": " << what << '\n';
     return code;
   };
   try {
@@ -83,3 +94,5 @@ int main(int count, char** words) {
     return failed(error.what(), 70);
   }
 }
+
+int main(int count, char** words) { return when_written(checked(count, words)); }

@@ -4,6 +4,7 @@
 Usage: view_command_test.py FAIRWAY [unittest arguments]
 """
 import json
+import os
 import pathlib
 import shutil
 import signal
@@ -11,6 +12,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import urllib.request
 
@@ -49,9 +51,9 @@ class View(unittest.TestCase):
     def tearDownClass(cls):
         shutil.rmtree(cls.folder)
 
-    def start(self, *arguments):
+    def start(self, *arguments, environment=None):
         server = subprocess.Popen([FAIRWAY, "--json", "view", *map(str, arguments)], cwd=self.folder, text=True,
-                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                                  env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(server.stdout.close)
         self.addCleanup(server.stderr.close)
         self.addCleanup(server.wait)
@@ -87,6 +89,34 @@ class View(unittest.TestCase):
         _, said = self.start("run", "--port", port)
         self.assertEqual(said["port"], port)
         self.assertIn(f"--port: {port} cannot be had", self.refused(65, "run", "--port", port))
+
+    def test_the_usual_port_unless_it_is_taken(self):
+        ports = [self.start("run")[1]["port"] for _ in range(2)]
+        self.assertNotEqual(ports[0], ports[1])
+        self.assertIn("(default: 8642,", subprocess.run([FAIRWAY, "view", "--help"], capture_output=True,
+                                                        text=True).stdout.replace("\n" + " " * 30, " "))
+
+    def test_open_hands_the_address_to_the_desktop(self):
+        tools = self.folder / "tools"
+        tools.mkdir()
+        (tools / "xdg-open").write_text('#!/bin/sh\necho "$@" > opened.part; mv opened.part opened\n')
+        (tools / "xdg-open").chmod(0o755)
+        environment = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}"}
+        server, said = self.start("run", "--open", "--port", "0", environment=environment)
+        opened = self.folder / "opened"
+        deadline = time.monotonic() + 30
+        while not opened.exists():
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.01)
+        self.assertEqual(opened.read_text(), said["address"] + "\n")
+        server.send_signal(signal.SIGINT)
+        self.assertEqual(server.wait(10), 0)
+
+    def test_open_without_a_desktop_is_a_warning(self):
+        server, _ = self.start("run", "--open", "--port", "0", environment={"PATH": str(self.folder / "nothing")})
+        server.send_signal(signal.SIGINT)
+        self.assertEqual(server.wait(10), 0)
+        self.assertIn("xdg-open could not be run", server.stderr.read())
 
     def test_what_is_not_the_folder_of_a_run_is_refused(self):
         self.assertIn("is no folder", self.refused(65, "nowhere"))

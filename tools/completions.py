@@ -12,12 +12,10 @@ from help_texts import read_program
 
 
 def levels(program):
-    """(command's name or "", its own options and the global ones, its arguments), all of them."""
+    """(command's name or "", its options, its arguments), all of them."""
     yield "", program.all_options(), program.arguments
-    common = [o for o in program.all_options() if o.names[-1] not in ("--help", "--version",
-                                                                       "--scenario-keys")]
     for command, page in zip(program.commands, program.pages):
-        yield command.names[0], page.all_options() + common, page.arguments
+        yield command.names[0], page.all_options(), page.arguments
 
 
 def argument_kind(arguments):

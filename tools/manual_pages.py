@@ -96,8 +96,6 @@ def manual(page, version, date, see_also):
         lines += entries("Arguments", page.arguments)
     for title, group in page.options:
         lines += entries(title, group)
-    if " " in page.name:
-        lines += [".PP", "The options of all commands stand in \\fBfairway\\fR(1)."]
     if page.commands:
         lines += entries("Commands", page.commands)
         lines += [".PP", f"Each has a page of its own: \\fB{roff(page.name)}\\-\\fICOMMAND\\fR(1)."]

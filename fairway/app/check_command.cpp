@@ -27,7 +27,8 @@ int check_command(const CheckArguments& a, const Session& session) {
   }
   const CheckRun run = run_checker(std::move(words), false);
   if (run.exit_code != 127) return run.exit_code;
-  fmt::print(stderr, "fairway: cannot run {}: it is installed beside fairway\n", checker_program());
+  complain(
+      fmt::format("fairway: cannot run {}: it is installed beside fairway", checker_program()));
   return exit_fault;
 }
 

@@ -17,6 +17,7 @@ struct Command {
   const char* name;
   const char* does;
   Action (*declare)(CLI::App& options);
+  bool writes;  ///< products, which --force replaces
 };
 
 // One file each.

@@ -7,7 +7,8 @@ namespace fairway {
 namespace {
 
 std::mutex guard;
-std::function<void()> wanted;  // guarded
+std::function<void()> wanted;  // guarded, like the words
+std::string last_words;
 
 }  // namespace
 
@@ -19,6 +20,16 @@ EndsGently::EndsGently(std::function<void()> end) {
 EndsGently::~EndsGently() {
   const std::lock_guard lock(guard);
   wanted = nullptr;
+}
+
+void say_when_interrupted(std::string words) {
+  const std::lock_guard lock(guard);
+  last_words = std::move(words);
+}
+
+std::string words_when_interrupted() {
+  const std::lock_guard lock(guard);
+  return last_words;
 }
 
 bool ends_gently() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 namespace fairway {
 
@@ -15,6 +16,10 @@ class EndsGently {
   EndsGently(const EndsGently&) = delete;
   EndsGently& operator=(const EndsGently&) = delete;
 };
+
+/// What a signal that ends the process at once leaves to say, on stderr.
+void say_when_interrupted(std::string words);
+[[nodiscard]] std::string words_when_interrupted();
 
 /// Called with every signal; true when a command ends by itself.
 [[nodiscard]] bool ends_gently();

@@ -8,6 +8,7 @@
 
 #include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
+#include "fairway/app/places.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/exchange/plan_rasters.hpp"
@@ -51,7 +52,7 @@ std::string place_words(const Frame& frame) {
 }
 
 int export_command(const ExportArguments& a, const Session& session) {
-  require_writable_place(a.output, session.existing());
+  require_places({a.output}, {a.product}, session.existing());
   const std::string where = a.product.string();
   std::vector<Heading> headings;
   Frame frame;

@@ -1,12 +1,20 @@
 // fairway: a table of subcommands, the global options, and what errors become.
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <exception>
+#include <filesystem>
+#include <iostream>
 #include <new>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
@@ -14,6 +22,7 @@
 #include "fairway/app/command.hpp"
 #include "fairway/app/ending.hpp"
 #include "fairway/base/atomic_file.hpp"
+#include "fairway/base/edit_distance.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/run/mission_on_map.hpp"
 #include "fairway/run/scenario_keys.hpp"
@@ -25,18 +34,18 @@ namespace {
 // To add a subcommand: a file with its declare function, and a line here.
 constexpr Command commands[] = {
     {"run", "the main job: map, plan, flights, pictures; the folder gets every product",
-     declare_run},
-    {"plan", "the feedback plan alone", declare_plan},
+     declare_run, true},
+    {"plan", "the feedback plan alone", declare_plan, true},
     {"simulate", "flights under a plan: exact, or by a sampled control law in noise and wind",
-     declare_simulate},
+     declare_simulate, true},
     {"verify", "which states reach the goal: a proof for all of them, and its certificate",
-     declare_verify},
-    {"query", "what a certificate says of a state", declare_query},
-    {"check", "re-prove a certificate with a separate program", declare_check},
-    {"export", "a plan or verdicts as GeoTIFF, for GIS programs", declare_export},
+     declare_verify, true},
+    {"query", "what a certificate says of a state", declare_query, false},
+    {"check", "re-prove a certificate with a separate program", declare_check, false},
+    {"export", "a plan or verdicts as GeoTIFF, for GIS programs", declare_export, true},
     {"steer", "to a pose by a shortest path, or under a control law; nothing is in the way",
-     declare_steer},
-    {"view", "the interactive page of a run, live on this machine", declare_view},
+     declare_steer, true},
+    {"view", "the interactive page of a run, live on this machine", declare_view, false},
 };
 
 /// Ctrl-C and friends must leave nothing half-written: they are taken by a thread of their own,
@@ -51,19 +60,33 @@ void tidy_up_on_signals() {
     do sigwait(&signals, &caught);
     while (ends_gently());
     remove_unfinished();
+    if (const std::string words = words_when_interrupted(); !words.empty()) {
+      const char* const over_the_progress = ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
+      complain(fmt::format("{}fairway: interrupted: {}", over_the_progress, words));
+    }
     ::_exit(128 + caught);
   }).detach();
 }
 
 int fail(const Session& session, int code, const std::string& where, const std::string& message) {
-  fmt::print(stderr, "fairway: {}\n", message);
+  complain("fairway: " + message);
   if (session.json) {
-    session.tell({{"error", message}, {"where", where}, {"exit_code", code}}, "");
+    try {
+      session.tell({{"error", message}, {"where", where}, {"exit_code", code}}, "");
+    } catch (const OutputError&) {  // told on stderr, and by the code
+    }
   }
   return code;
 }
 
-int perform(const Action& action, const Session& session) {
+int fail_to_tell(std::string_view why) {
+  complain(fmt::format("fairway: standard output could not be written{}{}", why.empty() ? "" : ": ",
+                       why));
+  return exit_output;
+}
+
+int perform(const Action& action, bool writes, const Session& session) {
+  if (writes) say_when_interrupted("nothing half-made was left");
   std::optional<tbb::global_control> bound;
   if (session.threads > 0) {
     bound.emplace(tbb::global_control::max_allowed_parallelism,
@@ -74,6 +97,8 @@ int perform(const Action& action, const Session& session) {
   } catch (const WarnedInputError& error) {
     for (const std::string& warning : error.warnings) session.warn(warning);
     return fail(session, exit_input, error.where(), error.what());
+  } catch (const OutputError& error) {
+    return fail_to_tell(error.what());
   } catch (const InputError& error) {
     return fail(session, exit_input, error.where(), error.what());
   } catch (const std::bad_alloc&) {
@@ -84,51 +109,122 @@ int perform(const Action& action, const Session& session) {
   }
 }
 
+/// The options of all commands: before the command's name or after it.
+void declare_common(CLI::App& app, bool writes, Session& session, const std::string& group) {
+  app.add_option("--threads", session.threads,
+                 "threads to use (default: all cores); results never depend on it")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N")
+      ->group(group);
+  app.add_flag("--quiet", session.quiet, "no progress, no closing words")->group(group);
+  app.add_flag("--json", session.json, "print one JSON object to stdout")->group(group);
+  if (writes) {
+    app.add_flag("--force", session.force, "replace products that exist")->group(group);
+  }
+}
+
+/// What is wrong with a first word that is none of the commands, and what may have been meant.
+std::string no_command_words(const std::string& word) {
+  if (word.starts_with("-")) return fmt::format("unknown option {}; see fairway --help", word);
+  std::error_code error;
+  const std::filesystem::path path(word);
+  if (path.extension() == ".toml") {
+    return fmt::format("{} is no command; did you mean fairway run {}?", word, word);
+  }
+  if (std::filesystem::is_directory(path, error)) {
+    return fmt::format("{} is no command; did you mean fairway view {}?", word, word);
+  }
+  const std::string known = word.substr(0, 64);
+  const Command* best = &commands[0];
+  std::string all;
+  for (const Command& command : commands) {
+    if (edit_distance(known, command.name) < edit_distance(known, best->name)) best = &command;
+    all += (all.empty() ? "" : ", ") + std::string(command.name);
+  }
+  if (edit_distance(known, best->name) <= 2) {
+    return fmt::format("unknown command {}; did you mean {}?", word, best->name);
+  }
+  return fmt::format("unknown command {}, expected one of {}", word, all);
+}
+
 int main_with(int argc, char** argv) {
   Session session;
   CLI::App app("Verified feedback motion plans for vehicles with a minimum turning radius.",
                "fairway");
   app.set_version_flag("--version", program_version);
-  app.add_option("--threads", session.threads,
-                 "threads to use (default: all cores); results never depend on it")
-      ->check(CLI::Range(1, 4096))
-      ->type_name("N");
-  app.add_flag("--quiet", session.quiet, "no progress, no closing words");
-  app.add_flag("--json", session.json, "print one JSON object to stdout");
-  app.add_flag("--force", session.force, "replace products that exist");
+  declare_common(app, true, session, "Options");
   bool show_keys = false;
   app.add_flag("--scenario-keys", show_keys, "print every scenario key with its range and default");
   app.footer(
       "Exit codes: 0 done, 1 the answer is no, 64 wrong usage, 65 bad input (told with file and "
-      "line), 70 our fault.");
+      "line), 70 our fault, 74 standard output could not be written.");
   app.require_subcommand(0, 1);
   app.fallthrough();
 
-  std::vector<std::pair<CLI::App*, Action>> declared;
+  struct Declared {
+    CLI::App* options;
+    Action action;
+    bool writes;
+  };
+  std::vector<Declared> declared;
   for (const Command& command : commands) {
     CLI::App* options = app.add_subcommand(command.name, command.does);
-    declared.emplace_back(options, command.declare(*options));
+    declared.push_back({options, command.declare(*options), command.writes});
+    declare_common(*options, command.writes, session, "Common options");
   }
   try {
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    if (app.get_subcommands().empty()) {
+      complain("fairway: " + no_command_words(app.remaining().front()));
+      return exit_usage;
+    }
+    const std::string command = app.get_subcommands().front()->get_name();
+    complain(fmt::format("fairway {}: not expected: {}; see fairway {} --help", command,
+                         fmt::join(app.remaining(true), " "), command));
+    return exit_usage;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_done : exit_usage;
   }
   if (show_keys) {
-    fmt::print("{}", scenario_keys_markdown());
+    std::cout << scenario_keys_markdown();
     return exit_done;
   }
-  for (const auto& [options, action] : declared) {
-    if (options->parsed()) return perform(action, session);
+  for (const Declared& d : declared) {
+    if (d.options->parsed()) return perform(d.action, d.writes, session);
   }
-  fmt::print(stderr, "{}", app.help());
+  complain(app.help());
   return exit_usage;
+}
+
+/// A descriptor that the caller closed would go to the next file that is opened, and what is told
+/// would end up in it. What is written to such a place fails, as it did.
+void keep_standard_descriptors() {
+  for (const auto& [descriptor, way] :
+       {std::pair{STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}}) {
+    if (::fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
+    const int opened = ::open("/dev/null", way);  // the lowest that is free: this one
+    if (opened >= 0 && opened != descriptor) ::close(opened);
+  }
+}
+
+/// What was told is only told once it is written, help and version too.
+int when_written(int code) {
+  if (code == exit_output) return code;  // told
+  errno = 0;
+  std::cout.flush();
+  const bool flushed = std::fflush(stdout) == 0;
+  const int error = errno;
+  if (flushed && std::ferror(stdout) == 0 && std::cout.good()) return code;
+  const int lost = fail_to_tell(error == 0 ? "" : std::strerror(error));
+  return code == exit_done ? lost : code;
 }
 
 }  // namespace
 }  // namespace fairway
 
 int main(int argc, char** argv) {
+  fairway::keep_standard_descriptors();
   fairway::tidy_up_on_signals();
-  return fairway::main_with(argc, argv);
+  return fairway::when_written(fairway::main_with(argc, argv));
 }

@@ -78,7 +78,7 @@ int query_command(const QueryArguments& a, const Session& session) {
     }
     text.push_back('\n');
   }
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  print({text.data(), text.size()});
   return exit_done;
 }
 

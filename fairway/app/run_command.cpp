@@ -41,8 +41,10 @@ Action declare_run(CLI::App& options) {
                   "folder for every product (default: the scenario's name with -out, here)")
       ->type_name("DIR");
   options.footer(
-      "Leaves plan.safetensors, flights.csv, flights.geojson, outcomes.csv, pictures (SVG\n"
-      "and PNG) and summary.json in the folder, which appears whole or not at all.\n"
+      "Leaves in the folder, which appears whole or not at all: report.html, the page to look\n"
+      "at (fairway view DIR serves it, and it then answers live); plan.safetensors;\n"
+      "certificate.safetensors, what is proved of every state, with failures.csv;\n"
+      "flights.csv, flights.geojson, outcomes.csv; pictures (SVG and PNG); summary.json.\n"
       "Example: fairway run demo/demo.toml -o out/demo");
   return [arguments](const Session& session) { return run_command(*arguments, session); };
 }

@@ -1,18 +1,29 @@
 #include "fairway/app/session.hpp"
 
+#include <cerrno>
 #include <cstdio>
-
-#include <fmt/format.h>
+#include <cstring>
 
 namespace fairway {
 
+void print(std::string_view text) {
+  errno = 0;
+  const bool put = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (put && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  throw OutputError(errno == 0 ? "" : std::strerror(errno));
+}
+
+void complain(std::string_view text) noexcept {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fputc('\n', stderr);
+}
+
 void Session::tell(const nlohmann::json& report, std::string_view text) const {
   if (json) {
-    fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   } else if (!quiet) {
-    fmt::print("{}\n", text);
+    print(std::string(text) + "\n");
   }
-  std::fflush(stdout);
 }
 
 int Session::tell(const RunResult& result) const {
@@ -22,7 +33,7 @@ int Session::tell(const RunResult& result) const {
 }
 
 void Session::warn(std::string_view sentence) const {
-  fmt::print(stderr, "fairway: warning: {}\n", sentence);
+  complain("fairway: warning: " + std::string(sentence));
 }
 
 }  // namespace fairway

@@ -9,6 +9,7 @@
 
 #include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
+#include "fairway/app/places.hpp"
 #include "fairway/app/simulate_arguments.hpp"
 #include "fairway/app/terminal_progress.hpp"
 #include "fairway/base/error.hpp"
@@ -61,7 +62,7 @@ ManyFlights flights_asked_for(const SimulateArguments& arguments, const Plan& pl
 /// To a file, or to stdout for "-". True when stdout was used.
 bool put(const fs::path& path, const Session& session, const std::string& text) {
   if (path == "-") {
-    fmt::print("{}", text);
+    print(text);
     return true;
   }
   write_whole(path, session.existing(), text);
@@ -69,10 +70,8 @@ bool put(const fs::path& path, const Session& session, const std::string& text) 
 }
 
 void check_places(const SimulateArguments& arguments, const Session& session) {
-  for (const fs::path& path :
-       {arguments.csv, arguments.outcomes, arguments.geojson, arguments.qgc}) {
-    if (!path.empty() && path != "-") require_writable_place(path, session.existing());
-  }
+  require_places({arguments.csv, arguments.outcomes, arguments.geojson, arguments.qgc},
+                 {arguments.plan, arguments.states_file}, session.existing());
 }
 
 /// The one flight as a mission, in the format that the file's name asks for.

@@ -1,6 +1,5 @@
 // fairway steer: to a pose, or along poses one by one, where nothing is in the way.
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -13,6 +12,7 @@
 
 #include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
+#include "fairway/app/places.hpp"
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/run/steering.hpp"
 #include "fairway/steer/dubins_words.hpp"
@@ -85,13 +85,11 @@ void print_csv(const std::vector<SteeredLeg>& legs) {
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", s.length_m, s.word, s.converged,
                    s.end.position_m.x, s.end.position_m.y, s.end.heading.rad());
   }
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  print({text.data(), text.size()});
 }
 
 int steer_command(const SteerArguments& a, const Session& session) {
-  for (const fs::path& place : {a.picture, a.track}) {
-    if (!place.empty()) require_writable_place(place, session.existing());
-  }
+  require_places({a.picture, a.track}, {a.pairs_file, a.waypoints_file}, session.existing());
   const std::vector<SteeredLeg> legs = steered(a);
   if (!a.track.empty()) write_whole(a.track, session.existing(), track_csv(legs));
   if (!a.picture.empty()) {

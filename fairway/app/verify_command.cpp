@@ -8,6 +8,8 @@
 
 #include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
+#include "fairway/app/ending.hpp"
+#include "fairway/app/places.hpp"
 #include "fairway/app/terminal_progress.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/certificate/certificate_file.hpp"
@@ -77,12 +79,18 @@ fs::path summary_place(const VerifyArguments& a) {
 
 int verify_command(VerifyArguments a, const Session& session) {
   const fs::path summary_file = summary_place(a);
-  require_writable_place(a.output, session.existing());
-  require_writable_place(summary_file, session.existing());
-  if (!a.failures.empty()) require_writable_place(a.failures, session.existing());
+  const Places inputs = files_of({a.plan, a.resume});
+  require_places({a.output, summary_file, a.failures}, inputs, session.existing());
   std::optional<AtomicFolder> pictures;
-  if (!a.pictures.empty())
+  if (!a.pictures.empty()) {
+    for (const std::string& picture : verdict_picture_files()) {
+      require_no_input(a.pictures / picture, inputs);
+    }
     pictures.emplace(a.pictures, session.existing(), "proved.png", verdict_picture_files());
+  }
+  say_when_interrupted(
+      "nothing half-made was left; with --time-limit S a certificate holds what is proved by then, "
+      "and --resume CERT goes on from it");
   const RegionOfInterest region = region_of_text(a.region);
 
   std::optional<TerminalProgress> terminal(std::in_place, session.quiet);

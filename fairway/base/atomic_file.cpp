@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include "fairway/base/error.hpp"
@@ -35,11 +39,88 @@ Unfinished& unfinished() {
   return places;
 }
 
+/// A lock on a file or folder that goes with its process, however that ends; with `wait`, once
+/// others have let go of it. Held while the object lives.
+class Lock {
+ public:
+  Lock() = default;
+  Lock(const fs::path& path, bool wait) {
+    descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (descriptor_ < 0) return;
+    int done = 0;
+    do done = ::flock(descriptor_, LOCK_EX | (wait ? 0 : LOCK_NB));
+    while (done != 0 && errno == EINTR);
+    held_ = done == 0;
+  }
+  ~Lock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+  bool held() const { return held_; }
+  int release() { return std::exchange(descriptor_, -1); }  ///< the descriptor that keeps it
+
+ private:
+  int descriptor_ = -1;
+  bool held_ = false;
+};
+
+std::string partial_prefix(const fs::path& path) {
+  return "." + path.filename().string() + ".partial-";
+}
+
+/// The process that a name PREFIX-PID-N speaks of.
+std::optional<pid_t> owner_of(std::string_view name, std::string_view prefix) {
+  if (!name.starts_with(prefix)) return std::nullopt;
+  name.remove_prefix(prefix.size());
+  pid_t owner = 0;
+  unsigned number = 0;
+  const char* const end = name.data() + name.size();
+  const auto pid = std::from_chars(name.data(), end, owner);
+  if (pid.ec != std::errc() || owner <= 0 || pid.ptr == end || *pid.ptr != '-') return std::nullopt;
+  const auto count = std::from_chars(pid.ptr + 1, end, number);
+  if (count.ec != std::errc() || count.ptr != end) return std::nullopt;
+  return owner;
+}
+
+/// Removes what killed processes left beside `path` under its name. That nobody works on it any
+/// more is told by the process, which is gone, and by the lock, which is free: the number alone
+/// would mislead where another machine or container writes into the same folder.
+void sweep(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const std::string prefix = partial_prefix(path);
+  std::error_code ignored;
+  std::vector<fs::path> left;
+  for (fs::directory_iterator it(folder, ignored), end; !ignored && it != end;
+       it.increment(ignored)) {
+    const std::string name = it->path().filename().string();
+    const std::optional<pid_t> owner = owner_of(name, prefix);
+    if (!owner) continue;
+    if (*owner == ::getpid()) {  // ours, or of a process that had our number
+      const std::scoped_lock lock(unfinished().mutex);
+      const auto& ours = unfinished().paths;
+      if (std::any_of(ours.begin(), ours.end(),
+                      [&](const fs::path& p) { return p.filename() == name; })) {
+        continue;
+      }
+    } else if (::kill(*owner, 0) == 0 || errno != ESRCH) {
+      continue;
+    }
+    left.push_back(folder / name);
+  }
+  for (const fs::path& partial : left) {
+    const Lock lock(partial, false);
+    if (lock.held()) fs::remove_all(partial, ignored);
+  }
+}
+
 /// A hidden name in the same folder, hence on the same file system: rename is then atomic.
 fs::path register_temporary(const fs::path& path) {
   static std::atomic<unsigned> count{0};
-  const std::string name = "." + path.filename().string() + ".partial-" +
-                           std::to_string(::getpid()) + "-" + std::to_string(count++);
+  sweep(path);
+  const std::string name =
+      partial_prefix(path) + std::to_string(::getpid()) + "-" + std::to_string(count++);
   const fs::path temporary = path.parent_path() / name;
   const std::scoped_lock lock(unfinished().mutex);
   unfinished().paths.push_back(temporary);
@@ -107,6 +188,16 @@ void require_writable_place(const fs::path& path, Existing existing) {
   }
 }
 
+void require_no_input(const fs::path& path, std::span<const fs::path> inputs) {
+  for (const fs::path& input : inputs) {
+    std::error_code error;
+    if (!fs::equivalent(path, input, error) || error) continue;
+    const std::string also = path == input ? "" : ", under the name " + input.string();
+    throw InputError(path.string(),
+                     "is an input" + also + "; what is made of it must go to another place");
+  }
+}
+
 AtomicFile::AtomicFile(fs::path path, Existing existing)
     : path_(resolved(std::move(path))), existing_(existing) {
   require_writable_place(path_, existing_);
@@ -117,6 +208,7 @@ AtomicFile::AtomicFile(fs::path path, Existing existing)
     forget(temporary_);
     fail(path_, "cannot be written", error);
   }
+  static_cast<void>(::flock(::fileno(file_), LOCK_EX | LOCK_NB));  // for sweep() elsewhere
 }
 
 AtomicFile::~AtomicFile() {
@@ -165,49 +257,96 @@ AtomicFolder::AtomicFolder(fs::path path, Existing existing, std::string last,
   if (fs::exists(status) && !fs::is_directory(status)) {
     throw InputError(path_.string(), "is a file, expected a folder for the products");
   }
-  if (existing_ == Existing::keep && fs::exists(status) && !fs::is_empty(path_, error)) {
-    throw InputError(path_.string(),
-                     "is a folder with files in it, and they are kept; --force replaces the "
-                     "products of an earlier run");
-  }
+  if (fs::exists(status)) require_room(products_);
   fs::create_directories(folder_of(path_), error);
   if (error) fail(path_, "cannot be created", error.value());
   temporary_ = register_temporary(path_);
   if (!fs::create_directory(temporary_, error)) {
     forget(temporary_);
-    fail(path_, "cannot be created", error.value());
+    fail(path_, "cannot be created", error ? error.value() : EEXIST);
   }
+  lock_ = Lock(temporary_, false).release();
 }
 
 AtomicFolder::~AtomicFolder() {
   if (!temporary_.empty()) discard(temporary_);
+  if (lock_ >= 0) ::close(lock_);
+}
+
+/// Throws unless products of these names can take their places in the folder that is there.
+void AtomicFolder::require_room(const std::vector<std::string>& names) const {
+  std::error_code error;
+  if (existing_ == Existing::keep) {
+    if (fs::is_empty(path_, error) && !error) return;
+    if (error) fail(path_, "cannot be read", error.value());
+    throw InputError(path_.string(),
+                     "is a folder with files in it, and they are kept; --force replaces the "
+                     "products of an earlier run");
+  }
+  for (const std::string& name : names) {
+    if (fs::is_directory(fs::symlink_status(path_ / name, error))) {
+      throw InputError((path_ / name).string(),
+                       "is a folder in the place of a product; nothing was replaced");
+    }
+  }
 }
 
 void AtomicFolder::commit() {
   require(!temporary_.empty(), "AtomicFolder is committed once");
   std::error_code error;
-  if (!fs::exists(path_, error)) {
-    move_into_place(temporary_, path_, Existing::keep);
-  } else {
-    std::vector<fs::path> names;
-    for (const auto& entry : fs::directory_iterator(temporary_)) {
-      names.push_back(entry.path().filename());
+  const auto is_there = [&] { return fs::exists(fs::symlink_status(path_, error)); };
+  bool moved = false;
+  if (!is_there()) {
+    try {
+      move_into_place(temporary_, path_, Existing::keep);
+      moved = true;
+    } catch (const InputError&) {
+      if (!is_there()) throw;  // else it came meanwhile: it is looked at like any other
     }
-    std::sort(names.begin(), names.end());
-    std::stable_partition(names.begin(), names.end(),
-                          [&](const fs::path& n) { return n != last_; });
+  }
+  if (!moved) move_products();
+  forget(temporary_);
+  temporary_.clear();
+  ::close(std::exchange(lock_, -1));  // by now it may lie on the folder in its place
+  flush_to_disk(folder_of(path_));
+}
+
+/// One by one, into a folder that is there. Runs that come at the same time come one after the
+/// other, each whole; what does not know the lock is seen by the look, or by the renames.
+void AtomicFolder::move_products() {
+  if (!fs::is_directory(path_)) {
+    throw InputError(path_.string(), "is a file by now, expected a folder for the products");
+  }
+  const Lock one_at_a_time(path_, true);
+  std::error_code error;
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(temporary_)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  std::stable_partition(names.begin(), names.end(),
+                        [&](const std::string& n) { return n != last_; });
+  std::vector<std::string> all = products_;
+  all.insert(all.end(), names.begin(), names.end());
+  require_room(all);
+  if (existing_ == Existing::replace) {
     fs::remove(path_ / last_, error);
     for (const std::string& product : products_) {
       if (!fs::exists(temporary_ / product)) fs::remove(path_ / product, error);
     }
-    for (const fs::path& name : names) {
-      move_into_place(temporary_ / name, path_ / name, existing_);
-    }
-    fs::remove(temporary_, error);
   }
-  forget(temporary_);
-  temporary_.clear();
-  flush_to_disk(folder_of(path_));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    try {
+      move_into_place(temporary_ / names[i], path_ / names[i], existing_);
+    } catch (const InputError&) {
+      // Into an empty folder nothing was to be replaced: what is ours goes out again.
+      for (std::size_t back = 0; back < i && existing_ == Existing::keep; ++back) {
+        fs::rename(path_ / names[back], temporary_ / names[back], error);
+      }
+      throw;
+    }
+  }
+  fs::remove(temporary_, error);
 }
 
 void remove_unfinished() noexcept {

@@ -6,7 +6,8 @@
 //   2. Existing::keep never replaces anything: the check at the start spares the work, and the
 //      rename itself refuses when somebody else put a file there meanwhile.
 //   3. An object destroyed before commit() leaves nothing behind. A process killed outright leaves
-//      at most a hidden `.NAME.partial-PID-N`; one that ends on a signal calls remove_unfinished().
+//      at most a hidden `.NAME.partial-PID-N`, which the next to write NAME removes once its
+//      process is gone; one that ends on a signal calls remove_unfinished().
 //
 // Every failure throws InputError naming the path: a place that cannot be written is bad input.
 #pragma once
@@ -27,6 +28,11 @@ enum class Existing { keep, replace };
 /// Throws InputError naming the file and --force when `path` exists and `existing` is keep, and
 /// when its folder does not exist. For a check before long work; AtomicFile checks again.
 void require_writable_place(const std::filesystem::path& path, Existing existing);
+
+/// Throws InputError when `path` is the same file as one of `inputs`, whatever the names: what is
+/// made of an input must not take its place.
+void require_no_input(const std::filesystem::path& path,
+                      std::span<const std::filesystem::path> inputs);
 
 class AtomicFile {
  public:
@@ -57,7 +63,9 @@ void write_whole(const std::filesystem::path& path, Existing existing, std::stri
 /// A folder of products. With commit() a folder that did not exist appears in one rename. Into one
 /// that exists (empty, or Existing::replace) the products move one by one, each whole, `last` at
 /// the end after an old `last` was removed first: a folder with `last` in it is complete. Files of
-/// other names are left alone.
+/// other names are left alone. Before the first move everything is looked at: with Existing::keep a
+/// folder that is not empty any more, with Existing::replace a folder in the place of a product,
+/// throws and nothing was changed. Of several at once the last leaves its whole set.
 class AtomicFolder {
  public:
   /// `products`: every name that may be written. Of these, what an earlier run left and this one
@@ -74,9 +82,13 @@ class AtomicFolder {
   void commit();
 
  private:
+  void require_room(const std::vector<std::string>& names) const;
+  void move_products();
+
   std::filesystem::path path_;
   std::filesystem::path temporary_;
   Existing existing_;
+  int lock_ = -1;  ///< on the temporary folder, while the process lives
   std::string last_;
   std::vector<std::string> products_;
 };

@@ -159,7 +159,7 @@ TEST(FlightFiles, WritesGeojsonThatParsesInMetresAndInDegrees) {
             (nlohmann::json{8.00011, 50.00017}));
 }
 
-TEST(FlightFiles, geojson_is_cut_at_the_antimeridian) {
+TEST(FlightFiles, GeojsonIsCutAtTheAntimeridian) {
   Flight flight;
   flight.start = {{0.0, 0.0}, Heading::from_rad(0.0)};
   flight.result = {Outcome::reach, 1.0, 40.0};

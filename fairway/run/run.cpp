@@ -184,8 +184,33 @@ json product_digests(const fs::path& folder) {
 
 }  // namespace
 
+namespace {
+
+/// Throws when a product would take the place of what it is made of.
+void require_no_inputs(const std::vector<fs::path>& products, const std::vector<fs::path>& inputs) {
+  for (const fs::path& product : products) require_no_input(product, inputs);
+}
+
+std::vector<fs::path> inputs_of(const Scenario& scenario) {
+  std::vector<fs::path> inputs{scenario.file, scenario.map.file};
+  if (const auto& path = scenario.mission.path_file) inputs.push_back(*path);
+  return inputs;
+}
+
+/// What the map's file names in turn.
+std::vector<fs::path> inputs_of(const ObstacleMap& map) {
+  std::vector<fs::path> inputs;
+  for (const InputFile& input : map.inputs) inputs.emplace_back(input.path);
+  return inputs;
+}
+
+}  // namespace
+
 RunResult run(const Scenario& scenario, const fs::path& folder, Existing existing,
               const Progress& progress) {
+  std::vector<fs::path> places;
+  for (const std::string& name : product_names()) places.push_back(folder / name);
+  require_no_inputs(places, inputs_of(scenario));
   AtomicFolder products(folder, existing, product::summary, product_names());
   const fs::path& place = products.temporary_path();
   StageClock clock(progress);
@@ -194,6 +219,7 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   if (const auto* refusal = std::get_if<MissionRefusal>(&answer))
     return unreachable(scenario, *refusal);
   const auto& [map, mission, plan] = std::get<Planned>(answer);
+  require_no_inputs(places, inputs_of(map));
   const Estimate left = estimate(scenario, map.grid);
 
   clock.begin("writing the plan", left.from_plan());
@@ -241,6 +267,7 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
 
 RunResult run_plan_only(const Scenario& scenario, const fs::path& file, Existing existing,
                         const Progress& progress) {
+  require_no_inputs({file}, inputs_of(scenario));
   require_writable_place(file, existing);
   StageClock clock(progress);
 
@@ -249,6 +276,7 @@ RunResult run_plan_only(const Scenario& scenario, const fs::path& file, Existing
     return unreachable(scenario, *refusal);
   const auto& [map, mission, plan] = std::get<Planned>(answer);
 
+  require_no_inputs({file}, inputs_of(map));
   clock.begin("writing the plan", estimate(scenario, map.grid).plan_s);
   write_plan(plan, file, existing);
   clock.end();

@@ -8,6 +8,7 @@
 #include <toml++/toml.h>
 
 #include "fairway/base/digest.hpp"
+#include "fairway/base/edit_distance.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/base/file_kind.hpp"
 #include "fairway/base/mapped_file.hpp"
@@ -18,22 +19,6 @@ namespace fairway {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Number of insertions, deletions and replacements between two words.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row[b.size()];
-}
 
 /// "; did you mean NAME?" for the nearest known name, or the known names when none is near.
 std::string suggestion(std::string_view wrong, const std::vector<std::string>& known) {

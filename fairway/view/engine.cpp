@@ -53,11 +53,12 @@ LiveEngine::LiveEngine(const fs::path& folder)
       flights_(with_mission(plan_, (folder / product::plan).string())) {
   const fs::path file = folder / product::certificate;
   if (!fs::exists(file)) return;
-  // Once as a whole, which checks digests; the answers then come from the mapped file.
+  // Once as a whole, which checks digests; the answers then come from the file's own bytes, read
+  // rather than mapped: what becomes of the file while the page is open is then no matter.
   if (read_certificate(file).plan != plan_digests(plan_)) {
     throw InputError(file.string(), "is the certificate of another plan than plan.safetensors");
   }
-  file_ = std::make_unique<MappedFile>(file);
+  file_ = std::make_unique<LoadedFile>(file);
   if (certificate_.open(file_->bytes().data(), file_->bytes().size()) != runtime::Status::ok) {
     throw InputError(file.string(), "is not a certificate");
   }

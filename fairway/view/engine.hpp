@@ -1,5 +1,5 @@
 // What the live page asks: the verdict of a state, its flight, and how to steer to a pose; answered
-// from a plan in memory and a mapped certificate.
+// from a plan and a certificate in memory.
 //
 // Properties that always hold: an answer is a pure function of the folder's plan and certificate
 // and of the question; several threads may ask at once. Cost: a query takes about a microsecond, a
@@ -13,7 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "fairway/base/mapped_file.hpp"
+#include "fairway/base/loaded_file.hpp"
 #include "fairway/plan/plan.hpp"
 #include "fairway/run/flight_engine.hpp"
 #include "fairway/runtime.hpp"
@@ -41,7 +41,7 @@ class LiveEngine {
  private:
   Plan plan_;
   FlightEngine flights_;
-  std::unique_ptr<MappedFile> file_;  ///< of the certificate
+  std::unique_ptr<LoadedFile> file_;  ///< of the certificate
   runtime::Certificate certificate_;
 };
 

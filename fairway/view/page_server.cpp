@@ -4,12 +4,20 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <httplib.h>
+#include <poll.h>
+#include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -29,6 +37,194 @@ using httplib::Response;
 using nlohmann::json;
 
 constexpr const char* loopback = "127.0.0.1";
+
+/// A thread for each connection, made when it is needed and kept.
+class Connections final : public httplib::TaskQueue {
+ public:
+  explicit Connections(std::size_t most) : most_(most) {}
+  Connections(const Connections&) = delete;
+  Connections& operator=(const Connections&) = delete;
+  ~Connections() override = default;
+
+  void enqueue(std::function<void()> task) override {
+    {
+      const std::scoped_lock lock(mutex_);
+      tasks_.push_back(std::move(task));
+      if (idle_ < tasks_.size() && threads_.size() < most_) {
+        threads_.emplace_back([this] { work(); });
+      }
+    }
+    changed_.notify_one();
+  }
+
+  void shutdown() override {
+    {
+      const std::scoped_lock lock(mutex_);
+      done_ = true;
+    }
+    changed_.notify_all();
+    for (std::thread& thread : threads_) thread.join();
+  }
+
+ private:
+  void work() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      ++idle_;
+      changed_.wait(lock, [this] { return done_ || !tasks_.empty(); });
+      --idle_;
+      if (tasks_.empty()) return;
+      const std::function<void()> task = std::move(tasks_.front());
+      tasks_.pop_front();
+      lock.unlock();
+      task();
+      lock.lock();
+    }
+  }
+
+  const std::size_t most_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::function<void()>> tasks_;
+  std::vector<std::thread> threads_;
+  std::size_t idle_ = 0;
+  bool done_ = false;
+};
+
+/// What the library reads and writes of one client, within the limits: the library's own stream
+/// has a limit for each byte, and none for all of them.
+class Client final : public httplib::Stream {
+ public:
+  Client(int connection, int stopped, const PageLimits& limits)
+      : connection_(connection), stopped_(stopped), limits_(limits) {}
+
+  /// Waits for the first byte of a request; false when none comes.
+  bool asks() {
+    answering_ = false;
+    until_ = Clock::now() + limits_.idle;
+    if (at_ == end_ && !receive()) return false;
+    until_ = Clock::now() + limits_.request;
+    return true;
+  }
+
+  /// Nothing more came, in time or at all.
+  bool gone() const { return gone_; }
+
+  /// What came and was not read: a client that is closed upon gets its answer first.
+  void drain() const {
+    std::array<char, 4096> part;
+    for (int parts = 0; parts < 64; ++parts) {
+      if (::recv(connection_, part.data(), part.size(), MSG_DONTWAIT) <= 0) return;
+    }
+  }
+
+  bool is_readable() const override { return at_ < end_ || ready(POLLIN, until_); }
+  bool is_writable() const override {
+    return ready(POLLOUT, answering_ ? until_ : Clock::now() + limits_.answer);
+  }
+
+  ssize_t read(char* to, size_t size) override {
+    if (at_ == end_ && !receive()) return -1;
+    const std::size_t n = std::min(size, end_ - at_);
+    std::copy_n(buffer_.data() + at_, n, to);
+    at_ += n;
+    return static_cast<ssize_t>(n);
+  }
+
+  ssize_t write(const char* from, size_t size) override {
+    if (!std::exchange(answering_, true)) until_ = Clock::now() + limits_.answer;
+    for (;;) {
+      if (!ready(POLLOUT, until_)) return -1;
+      const ssize_t n = ::send(connection_, from, size, MSG_DONTWAIT | MSG_NOSIGNAL);
+      if (n >= 0 || (errno != EINTR && errno != EAGAIN)) return n;
+    }
+  }
+
+  void get_remote_ip_and_port(std::string&, int&) const override {}
+  void get_local_ip_and_port(std::string&, int&) const override {}
+  socket_t socket() const override { return connection_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// Whether it can be read from or written to before `until`, and before the server stops.
+  bool ready(short what, Clock::time_point until) const {
+    for (;;) {
+      std::array<pollfd, 2> all{{{connection_, what, 0}, {stopped_, POLLIN, 0}}};
+      const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
+      const int n = ::poll(all.data(), all.size(), static_cast<int>(std::max<long>(left, 0)));
+      if (n < 0 && errno == EINTR) continue;
+      return n > 0 && all[1].revents == 0 && all[0].revents != 0;
+    }
+  }
+
+  bool receive() {
+    for (;;) {
+      gone_ = !ready(POLLIN, until_);
+      if (gone_) return false;
+      const ssize_t n = ::recv(connection_, buffer_.data(), buffer_.size(), MSG_DONTWAIT);
+      if (n < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+      at_ = 0;
+      end_ = n > 0 ? static_cast<std::size_t>(n) : 0;
+      gone_ = n <= 0;
+      return !gone_;
+    }
+  }
+
+  const int connection_;
+  const int stopped_;
+  const PageLimits& limits_;
+  Clock::time_point until_;
+  bool answering_ = false;
+  bool gone_ = false;
+  std::array<char, 4096> buffer_{};
+  std::size_t at_ = 0;
+  std::size_t end_ = 0;
+};
+
+/// The library's server, with clients within limits and no parts of products: it answers them with
+/// status 200, and several with a body that is none.
+class LimitedServer final : public httplib::Server {
+ public:
+  explicit LimitedServer(const PageLimits& limits) : limits_(limits) {
+    new_task_queue = [this] { return new Connections(limits_.connections); };
+  }
+  ~LimitedServer() override { ::close(stopped_); }
+
+  /// Once it is bound: the library has five wait at the door, and a sixth knocks again in a second.
+  void have_many_wait() const { ::listen(svr_sock_, SOMAXCONN); }
+
+  /// Lets go of every client.
+  void let_go() const {
+    const std::uint64_t once = 1;
+    [[maybe_unused]] const ssize_t n = ::write(stopped_, &once, sizeof once);
+  }
+
+ private:
+  bool process_and_close_socket(socket_t connection) override {
+    Client client(connection, stopped_, limits_);
+    bool answered = true;
+    bool closed = false;
+    while (answered && !closed && client.asks()) {
+      bool has_body = false;
+      answered = process_request(client, false, closed, [&](Request& request) {
+        request.ranges.clear();
+        has_body = request.has_header("Content-Length") || request.has_header("Transfer-Encoding");
+        if (!has_body) return;
+        request.headers.erase("Connection");  // a body is not read, and is no next request
+        request.set_header("Connection", "close");
+      });
+      closed = closed || has_body || client.gone();
+    }
+    client.drain();
+    ::shutdown(connection, SHUT_RDWR);
+    ::close(connection);
+    return answered;
+  }
+
+  const PageLimits limits_;
+  const int stopped_ = ::eventfd(0, EFD_CLOEXEC);
+};
 
 /// The bytes of a regular file of the folder; none for anything else, a link among it.
 std::optional<std::string> product_bytes(const fs::path& folder, const std::string& name) {
@@ -93,6 +289,8 @@ const char* reason_of(int status) {
       return "there is nothing of this name";
     case 413:
       return "a question has no body";
+    case 416:
+      return "products are given whole";
     case 414:
       return "the address is too long";
     default:
@@ -105,11 +303,12 @@ const char* reason_of(int status) {
 struct PageServer::Parts {
   fs::path folder;
   const LiveEngine& engine;
-  httplib::Server http;
+  LimitedServer http;
   int port = 0;
   std::atomic<bool> stopped{false};
 
-  Parts(fs::path place, const LiveEngine& answers) : folder(std::move(place)), engine(answers) {}
+  Parts(fs::path place, const LiveEngine& answers, const PageLimits& limits)
+      : folder(std::move(place)), engine(answers), http(limits) {}
 
   /// Handled: an answer, or the refusal of what nobody may ask.
   bool refuses(const Request& request, Response& response) const {
@@ -117,6 +316,7 @@ struct PageServer::Parts {
     response.set_header("Cross-Origin-Resource-Policy", "same-origin");
     response.set_header("Referrer-Policy", "no-referrer");
     response.set_header("Cache-Control", "no-store");
+    response.set_header("Accept-Ranges", "none");
     if (request.get_header_value_count("Host") != 1 ||
         !is_local_host(request.get_header_value("Host"), port)) {
       refuse(response, 403, fmt::format("only {}:{} and localhost are answered", loopback, port));
@@ -184,7 +384,6 @@ struct PageServer::Parts {
     });
     http.set_payload_max_length(0);
     http.set_tcp_nodelay(true);
-    http.set_keep_alive_max_count(10'000);
     http.set_pre_routing_handler([this](const Request& request, Response& response) {
       if (!refuses(request, response)) answer(request, response);
       return httplib::Server::HandlerResponse::Handled;
@@ -199,8 +398,8 @@ struct PageServer::Parts {
   }
 };
 
-PageServer::PageServer(fs::path folder, const LiveEngine& engine, int port)
-    : parts_(std::make_unique<Parts>(std::move(folder), engine)) {
+PageServer::PageServer(fs::path folder, const LiveEngine& engine, int port, PageLimits limits)
+    : parts_(std::make_unique<Parts>(std::move(folder), engine, limits)) {
   parts_->set_up();
   if (port == 0) {
     parts_->port = parts_->http.bind_to_any_port(loopback);
@@ -212,6 +411,7 @@ PageServer::PageServer(fs::path folder, const LiveEngine& engine, int port)
                                            "it wants other rights; 0 picks a free one",
                                            port));
   }
+  parts_->http.have_many_wait();
 }
 
 PageServer::~PageServer() { stop(); }
@@ -226,6 +426,7 @@ void PageServer::serve() {
 
 void PageServer::stop() {
   parts_->stopped = true;
+  parts_->http.let_go();
   parts_->http.stop();
 }
 

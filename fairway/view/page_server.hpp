@@ -5,10 +5,15 @@
 //      answered.
 //   2. Of the folder only products of a run are served, by their own names, regular files alone: a
 //      link is not followed, a path cannot be given.
-//   3. Every answer but a product is a JSON object; what is wrong is {"error": ...} with status 400
-//      (malformed), 403 (another host), 404 (unknown), 405 (anything but GET and HEAD) or 500.
+//   3. A client that is slow, or silent, is let go after `PageLimits`, and keeps no other waiting:
+//      each has a thread of its own, as long as there are no more than `connections`.
+//   4. Every answer but a product is a JSON object; what is wrong is {"error": ...} with status 400
+//      (malformed), 403 (another host), 404 (unknown), 405 (anything but GET and HEAD) or 500. A
+//      product is given whole: Range is not heeded.
 #pragma once
 
+#include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -18,11 +23,19 @@ namespace fairway {
 
 class LiveEngine;
 
+struct PageLimits {
+  std::chrono::milliseconds idle{5'000};      ///< until a connection begins its next request
+  std::chrono::milliseconds request{5'000};   ///< for the whole of a request, from its first byte
+  std::chrono::milliseconds answer{120'000};  ///< for the whole of an answer
+  std::size_t connections = 128;              ///< at once; others wait for their turn
+};
+
 class PageServer {
  public:
   /// Binds the port, 0 for a free one; answers are given once serve() runs. Throws InputError when
   /// the port is taken. `engine` must outlive this object.
-  PageServer(std::filesystem::path folder, const LiveEngine& engine, int port);
+  PageServer(std::filesystem::path folder, const LiveEngine& engine, int port,
+             PageLimits limits = {});
   ~PageServer();
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;

@@ -1,10 +1,13 @@
 #include "fairway/view/page_server.hpp"
 
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,6 +23,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/mapped_file.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/map/testing/scratch_folder.hpp"
 #include "fairway/plan/plan_file.hpp"
@@ -291,6 +295,188 @@ TEST_F(Served, InfoSaysWhichPlanThisIs) {
   EXPECT_EQ(info["live"], true);
   EXPECT_EQ(info["verdicts"], true);
   EXPECT_EQ(info["plan_sha256"], json::parse(json_text(plan_digests(plan_))));
+}
+
+TEST_F(Served, ProductsAreGivenWholeWhateverPartIsAskedFor) {
+  const std::string whole = "<!doctype html>page";
+  for (const char* part : {"bytes=0-5", "bytes=3-", "bytes=-4", "bytes=0-1,4-5", "bytes=900-"}) {
+    const auto page = get("/report.html", {{"Range", part}});
+    ASSERT_TRUE(page) << part;
+    EXPECT_EQ(page->status, 200) << part;
+    EXPECT_EQ(page->body, whole) << part;
+    EXPECT_FALSE(page->has_header("Content-Range")) << part;
+    EXPECT_EQ(page->get_header_value("Accept-Ranges"), "none") << part;
+  }
+  const auto head = client().Head("/report.html", {{"Range", "bytes=0-5"}});
+  EXPECT_EQ(head->status, 200);
+  EXPECT_EQ(head->get_header_value("Content-Length"), std::to_string(whole.size()));
+  EXPECT_EQ(head->get_header_value_count("Accept-Ranges"), 1U);
+  EXPECT_EQ(head->get_header_value("Accept-Ranges"), "none");
+}
+
+std::size_t answers_in(const std::string& bytes) {
+  std::size_t count = 0;
+  for (auto at = bytes.find("HTTP/1.1 "); at != std::string::npos; ++count) {
+    at = bytes.find("HTTP/1.1 ", at + 1);
+  }
+  return count;
+}
+
+TEST_F(Served, RequestsInOneGoAreAnsweredOneByOneAndABodyIsNone) {
+  const std::string host = fmt::format(" HTTP/1.1\r\nHost: localhost:{}\r\n", server_->port());
+  const std::string ask = "GET /api/info" + host + "\r\n";
+  EXPECT_EQ(answers_in(raw(ask + ask + ask)), 3U);
+  const std::string with_body =
+      raw("GET /api/info" + host + fmt::format("Content-Length: {}\r\n\r\n", ask.size()) + ask);
+  EXPECT_EQ(answers_in(with_body), 1U) << with_body;
+  EXPECT_NE(with_body.find("Connection: close"), std::string::npos);
+}
+
+/// A server of its own over the same folder.
+class Limited {
+ public:
+  Limited(const fs::path& place, const LiveEngine& engine, const PageLimits& limits)
+      : server_(place, engine, 0, limits), thread_([this] { server_.serve(); }) {}
+  ~Limited() {
+    server_.stop();
+    thread_.join();
+  }
+  Limited(const Limited&) = delete;
+  Limited& operator=(const Limited&) = delete;
+
+  int connection() const {
+    const int made = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<std::uint16_t>(server_.port()));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::connect(made, reinterpret_cast<sockaddr*>(&to), sizeof to), 0);
+    const timeval patience{30, 0};
+    ::setsockopt(made, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    return made;
+  }
+  int port() const { return server_.port(); }
+  /// The status of the page, 0 when none comes within half a minute.
+  int status() const {
+    httplib::Client client("127.0.0.1", server_.port());
+    client.set_read_timeout(30);
+    const auto page = client.Get("/");
+    return page ? page->status : 0;
+  }
+
+ private:
+  PageServer server_;
+  std::thread thread_;
+};
+
+/// Clients that send a byte of a request now and then, for half a minute at most.
+class Dripping {
+ public:
+  Dripping(const Limited& server, int count) {
+    for (int i = 0; i < count; ++i) connections_.push_back(server.connection());
+    thread_ = std::jthread([this](const std::stop_token& stop) {
+      const std::string request = "GET / HTTP/1.1\r\nX: " + std::string(4000, 'x');
+      for (std::size_t at = 0; at < 1500 && !stop.stop_requested(); ++at) {
+        for (const int c : connections_) ::send(c, &request[at], 1, MSG_NOSIGNAL | MSG_DONTWAIT);
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      }
+    });
+  }
+  ~Dripping() {
+    thread_.request_stop();
+    thread_.join();
+    for (const int c : connections_) ::close(c);
+  }
+  Dripping(const Dripping&) = delete;
+  Dripping& operator=(const Dripping&) = delete;
+
+  /// How many were let go while they went on.
+  int let_go() const {
+    int count = 0;
+    for (const int c : connections_) {
+      char part[4096];
+      ssize_t n = 0;
+      while ((n = ::recv(c, part, sizeof part, 0)) > 0) {
+      }
+      count += n == 0 || errno == ECONNRESET ? 1 : 0;
+    }
+    return count;
+  }
+
+ private:
+  std::vector<int> connections_;
+  std::jthread thread_;
+};
+
+TEST_F(Served, FortySlowClientsKeepNobodyWaiting) {
+  PageLimits patient;
+  patient.request = std::chrono::minutes(10);
+  const Limited server(place_, *engine_, patient);
+  const Dripping slow(server, 40);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(server.status(), 200);
+}
+
+TEST_F(Served, SlowClientsAreLetGoAndMakeRoomWhereThereIsLittle) {
+  PageLimits strict;
+  strict.request = std::chrono::milliseconds(200);
+  strict.connections = 8;
+  const Limited server(place_, *engine_, strict);
+  const Dripping slow(server, 40);
+  EXPECT_EQ(server.status(), 200);
+  EXPECT_EQ(slow.let_go(), 40);
+}
+
+TEST_F(Served, WhoReadsSlowlyGetsALargeProductWholeAndWhoReadsNothingIsLetGo) {
+  const std::string large(20'000'000, 'x');
+  std::ofstream(place_ / "plan.svg") << large;
+  for (const bool reads : {true, false}) {
+    PageLimits limits;
+    if (!reads) limits.answer = std::chrono::milliseconds(200);
+    const Limited server(place_, *engine_, limits);
+    const int slow = server.connection();
+    const std::string ask = fmt::format(
+        "GET /plan.svg HTTP/1.1\r\nHost: localhost:{}\r\nConnection: close\r\n\r\n", server.port());
+    ASSERT_EQ(::send(slow, ask.data(), ask.size(), MSG_NOSIGNAL), static_cast<ssize_t>(ask.size()));
+    if (!reads) std::this_thread::sleep_for(std::chrono::seconds(1));
+    std::string back;
+    std::vector<char> part(400'000);
+    for (ssize_t n = 0; (n = ::recv(slow, part.data(), part.size(), 0)) > 0;) {
+      back.append(part.data(), static_cast<std::size_t>(n));
+      if (reads) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    ::close(slow);
+    EXPECT_EQ(back.ends_with(large), reads);
+  }
+}
+
+TEST_F(Served, SilentClientsAreLetGo) {
+  PageLimits strict;
+  strict.idle = std::chrono::milliseconds(100);
+  const Limited server(place_, *engine_, strict);
+  const int silent = server.connection();
+  char byte = 0;
+  EXPECT_EQ(::recv(silent, &byte, 1, 0), 0);
+  ::close(silent);
+}
+
+TEST_F(Served, StoppingWaitsForNoClient) {
+  PageLimits patient;
+  patient.request = patient.idle = std::chrono::hours(1);
+  auto server = std::make_unique<Limited>(place_, *engine_, patient);
+  const Dripping slow(*server, 3);
+  const int silent = server->connection();
+  EXPECT_EQ(server->status(), 200);
+  server.reset();  // with all of them there
+  ::close(silent);
+}
+
+TEST_F(Served, ACertificateThatIsCutShortMeanwhileIsStillAnsweredFrom) {
+  const std::string question = "/api/state?x=70&y=20&h=0.5";
+  const json before = answer(question, 200);
+  fs::resize_file(place_ / "certificate.safetensors", 100);
+  fs::resize_file(place_ / "plan.safetensors", 100);
+  EXPECT_EQ(answer(question, 200), before);
+  EXPECT_FALSE(before["verdict"].is_null());
 }
 
 TEST(LiveEngine, RefusesACertificateOfAnotherPlan) {
