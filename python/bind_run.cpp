@@ -47,8 +47,9 @@ RunResult run_whole(const Scenario& scenario, const std::filesystem::path& folde
   RunResult result =
       fairway::run(scenario, folder, force ? Existing::replace : Existing::keep, told);
   if (result.unreachable) {
-    throw Refused{{MissionRefusal::Reason::unreachable, result.summary["message"], 0.0},
-                  result.paragraph};
+    throw Refused{
+        {MissionRefusal::Reason::unreachable, result.summary["message"], 0.0, result.warnings},
+        result.paragraph};
   }
   return result;
 }

@@ -62,7 +62,7 @@ RunResult unreachable(const Scenario& scenario, const MissionRefusal& refusal) {
   return {true,
           {{"unreachable", true}, {"message", refusal.message}},
           fmt::format("{}: {}: {}", scenario.place_of(key), key, refusal.message),
-          {}};
+          refusal.warnings};
 }
 
 }  // namespace
