@@ -7,6 +7,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/certificate/proof_identity.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/run/scenario_flights.hpp"
 #include "fairway/run/version.hpp"
@@ -68,8 +69,10 @@ LiveEngine::LiveEngine(const fs::path& folder)
   const fs::path file = folder / "certificate.safetensors";
   if (!fs::exists(file)) return;
   // Once as a whole, which checks digests; the answers then come from the mapped file.
-  if (read_certificate(file).plan != plan_digests(plan_)) {
-    throw InputError(file.string(), "is the certificate of another plan than plan.safetensors");
+  const Certificate whole = read_certificate(file);
+  if (proof_identity(whole) != proof_identity(plan_, whole.region_of_interest)) {
+    throw InputError(file.string(),
+                     "is the certificate of another plan or vehicle than plan.safetensors");
   }
   file_ = std::make_unique<MappedFile>(file);
   if (certificate_.open(file_->bytes().data(), file_->bytes().size()) != runtime::Status::ok) {
