@@ -82,7 +82,7 @@ TEST(PlanFile, GivesBackWhatWasWrittenAndTheSameBytesAgain) {
 TEST(PlanFile, EdgesOfTheValueRangesPass) {
   Plan plan = random_plan(3, 2, 1);
   plan.heading_rad = {
-      Heading::stored(pi), Heading::stored(-pi + 1e-12), 0.0F, -0.0F, nan_f, 1e-40F};
+      Heading::stored(pi), Heading::stored(-pi + 1e-12), 0.0F, -0.0F, nan_f, 0x1p-52F};
   plan.cost_m = {0.0F, 1e-40F, 3e38F, infinity, infinity, 1.0F};
   plan.region = {Region::goal,     Region::free, Region::buffer,
                  Region::obstacle, Region::free, Region::free};
