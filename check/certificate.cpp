@@ -23,6 +23,8 @@ std::vector<T> values(const TensorFile& file, const char* name, const char* type
   require(found != file.tensors.end() && found->second.type == type && found->second.shape == shape,
           fmt::format("{}: is missing, or its type or shape does not fit the others", name),
           unreadable);
+  require(reinterpret_cast<std::uintptr_t>(found->second.bytes.data()) % sizeof(T) == 0,
+          fmt::format("{}: begins at no multiple of its element's size", name), unreadable);
   std::vector<T> all(found->second.bytes.size() / sizeof(T));
   if (!all.empty()) std::memcpy(all.data(), found->second.bytes.data(), found->second.bytes.size());
   return all;
@@ -52,15 +54,32 @@ void take_arrays(const TensorFile& file, Certificate& c) {
 
 void require_geometry(const Geometry& g) {
   const auto in = [](double x, double least, double most) { return x >= least && x <= most; };
-  require(in(g.x0_m, -1e15, 1e15) && in(g.y0_m, -1e15, 1e15) && in(g.cell_m, 1e-15, 1e15) &&
+  const double far = std::min(1e15, 1e9 * g.cell_m);
+  require(in(g.cell_m, 1e-15, 1e15) && in(g.x0_m, -far, far) && in(g.y0_m, -far, far) &&
               in(g.speed_mps, 1e-15, 1e15) && g.units == 0x1p32,
           "geometry: expected finite numbers in proportion, and 2^32 units in a side");
   require(g.cell_m < g.turn_radius_m && g.turn_radius_m <= 1e9 * g.cell_m,
           "geometry: the cells are not smaller than the turning radius, or next to nothing");
 }
 
-/// Digests of what is here, and of the plan it is said to come from.
-void require_digests(const TensorFile& file, const Certificate& c, const std::string& plan_path) {
+/// Whether two records place their grids alike; without a frame, a grid lies where it says itself.
+bool same_frame(const json& a, const json& b) {
+  const auto said = [](const json& record, const std::string& place) {
+    const json frame = record.value("frame", json());
+    const json none = place.starts_with("/world") ? json(0.0) : json();
+    return frame.is_null() ? none : frame.value(json::json_pointer(place), none);
+  };
+  for (const char* place :
+       {"/world_from_grid/x_m", "/world_from_grid/y_m", "/world_from_grid/yaw_rad",
+        "/georeference/latitude_deg", "/georeference/longitude_deg", "/georeference/worst_error_m",
+        "/projected_crs"}) {
+    if (said(a, place) != said(b, place)) return false;
+  }
+  return true;
+}
+
+/// Digests of what is here.
+void require_digests(const TensorFile& file) {
   const json& claimed = file.record.at("sha256");
   const json& of_plan = file.record.at("plan_sha256");
   for (const auto& [name, tensor] : file.tensors) {
@@ -70,15 +89,19 @@ void require_digests(const TensorFile& file, const Certificate& c, const std::st
   require(of_plan.at("heading_rad") == claimed.at("heading_rad") &&
               of_plan.at("region") == claimed.at("region"),
           "heading_rad and region are not those of the plan it names");
-  if (plan_path.empty()) return;
+}
+
+/// That it is of this plan: arrays, vehicle, grid and frame.
+void require_plan(const TensorFile& file, const Geometry& g, const std::string& plan_path) {
+  const json& of_plan = file.record.at("plan_sha256");
   const TensorFile plan = read_tensors(plan_path);
-  bool same = plan.tensors.size() == of_plan.size();
+  bool same =
+      plan.tensors.size() == 3 && of_plan.size() == 3 && same_frame(plan.record, file.record);
   for (const auto& [name, tensor] : plan.tensors) {
     same = same && of_plan.at(name) == sha256(tensor.bytes) &&
            tensor.shape == file.tensors.at("region").shape;
   }
   const json& p = plan.record;
-  const Geometry& g = c.geometry;
   same = same && p.at("origin_m") == json{g.x0_m, g.y0_m} && p.at("cell_m") == g.cell_m &&
          p.at("vehicle").at("turn_radius_m") == g.turn_radius_m &&
          p.at("vehicle").at("speed_mps") == g.speed_mps;
@@ -97,7 +120,8 @@ void require_cells(const Certificate& c, const json& interest) {
   const bool of_goal = interest == "goal";
   const bool of_obstacles = interest == "obstacle";
   const auto box =
-      of_goal || of_obstacles ? std::array<double, 4>{} : interest.get<std::array<double, 4>>();
+      of_goal || of_obstacles ? std::vector<double>(4) : interest.get<std::vector<double>>();
+  require(box.size() == 4, "region_of_interest: expected four numbers", unreadable);
   for (std::size_t i = 0; i < c.loop.kind.size(); ++i) {
     const double d = c.geometry.cell_m;
     const Cell cell = c.loop.cell_at(i);
@@ -165,10 +189,12 @@ Certificate read_certificate(const std::string& path, const std::string& plan) {
   Certificate c;
   c.record = file.record;
   require(file.record.at("format") == "fairway-certificate" &&
+              file.record.at("format_version").is_number_unsigned() &&
               file.record.at("format_version") == 1 && file.record.at("method") == "certified",
           "is not a certificate of format_version 1 and method \"certified\"", unreadable);
+  require_digests(file);
   take_arrays(file, c);
-  require_digests(file, c, plan);
+  if (!plan.empty()) require_plan(file, c.geometry, plan);
   require_geometry(c.geometry);
   require_cells(c, file.record.at("region_of_interest"));
   c.loop.take_directions(c.geometry.turn_radius_m, c.geometry.cell_m);

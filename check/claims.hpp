@@ -7,9 +7,10 @@
 
 namespace fairway_check {
 
-/// "" when no share of volume that is claimed is farther than five standard errors from the one
-/// measured with `samples` states, and no more reach later than is claimed. What was found goes
-/// into `report`. Throws Defect 1, or nlohmann::json::exception, for claims that cannot be.
+/// "" when no share of volume that is claimed is farther than five standard errors (of both
+/// samples) from the one measured with `samples` states, and no more reach later than chance
+/// allows. What was found goes into `report`. Throws Defect 1, or nlohmann::json::exception, for
+/// claims that cannot be.
 std::string defect_of_claims(const Certificate& c, std::size_t samples,
                              nlohmann::ordered_json& report);
 

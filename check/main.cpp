@@ -48,12 +48,16 @@ int run(const Request& r) {
   report["accepted"] = defect.empty();
   report["reason"] = defect.empty() ? nlohmann::json() : nlohmann::json(defect);
   report["wall_s"] = wall.count();
+  const std::string not_proved =
+      std::string("program, options, levels and stopped_by") +
+      (r.plan.empty() ? "; without --plan, frame and the digest of cost_m" : "");
+  report["not_proved"] = not_proved;
   std::string answer = defect.empty() ? "accepted" : "REFUSED: " + defect;
   if (defect.empty() && !r.quiet) {
     answer += fmt::format(
         "\nLeaves re-proved: {} (undecided: nothing claimed). {} sampled states agree with the "
-        "claimed shares.\n{:.2f} s on {} threads.",
-        report["leaves"].dump(), r.samples, wall.count(), r.threads);
+        "claimed shares.\nNot proved: {}.\n{:.2f} s on {} threads.",
+        report["leaves"].dump(), r.samples, not_proved, wall.count(), r.threads);
   }
   using Invalid = nlohmann::json::error_handler_t;
   std::cout << (r.json ? report.dump(2, ' ', false, Invalid::replace)

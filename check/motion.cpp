@@ -64,8 +64,10 @@ bool go_straight(const Vec& at, const Way& like, std::vector<Way>& ways) {
       if (ahead == 0.0) return false;
       const Real from = ahead * (p.y + until * u.y);
       way.place = ahead * Real(std::min(from.lower(), 1.0), 1.0);  // and on, to the side's end
-      length = std::min(length, ((0.5 * ahead - p.y) / u.y).upper());
     }
+    // Until it leaves, it stays between the side's ends.
+    if (positive(u.y)) length = std::min(length, ((0.5 - p.y) / u.y).upper());
+    if (negative(u.y)) length = std::min(length, ((-0.5 - p.y) / u.y).upper());
     if (!keep_between_corners(way)) continue;
     // What runs exactly on the side comes to its end together with the side ahead: told there.
     if (is_zero(u.x)) way.at_low = way.at_high = false;

@@ -13,6 +13,7 @@
 #include "check/proof.hpp"
 #include "check/tensors.hpp"
 #include "check/testing/sample_certificate.hpp"
+#include "fairway/plan/plan_file.hpp"
 
 namespace fairway_check {
 namespace {
@@ -77,7 +78,8 @@ struct Parts {
   std::string file() const {
     json now = header;
     now["__metadata__"]["fairway"] = record.dump();
-    const std::string text = now.dump();
+    std::string text = now.dump();
+    while (text.size() % 8 != 0) text += ' ';  // arrays are aligned
     const std::uint64_t length = text.size();
     std::string all(8, '\0');
     std::memcpy(all.data(), &length, 8);
@@ -151,6 +153,34 @@ TEST_F(CheckMutation, RandomPlansAreAcceptedWhole) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     write_sample(fairway::random_plan(seed), folder_ / "random");
     EXPECT_EQ(refusal(read(folder_ / "random"), 3000), "") << "random plan " << seed;
+  }
+}
+
+TEST_F(CheckMutation, OddPlansAreAcceptedHoweverTheirVolumesWereMeasured) {
+  fairway::CertifyOptions options = quick_options();
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const fairway::Plan plan = fairway::odd_plan(seed);
+    ASSERT_EQ(fairway::plan_defect(plan), "") << seed;
+    options.samples = seed % 2 == 0 ? 1 : 5000;
+    options.seed = seed;
+    options.last_level = 4 + static_cast<int>(seed % 4);
+    write_sample(plan, folder_ / "odd", options);
+    EXPECT_EQ(refusal(read(folder_ / "odd"), 3000), "") << "odd plan " << seed;
+  }
+}
+
+TEST_F(CheckMutation, FewSamplesBoundSharesAndTimesLoosely) {
+  fairway::CertifyOptions options = quick_options();
+  options.samples = 1000;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    options.seed = seed;
+    write_sample(fairway::random_plan(7 + seed % 3), folder_ / "few", options);
+    EXPECT_EQ(refusal(read(folder_ / "few")), "") << seed;
+  }
+  Parts changed(good_);
+  for (const int samples : {1, 50, 999}) {
+    changed.record["samples"] = samples;
+    expect_refused(changed, "the shares rest on too few");
   }
 }
 
@@ -310,6 +340,83 @@ TEST_F(CheckMutation, ClaimedSharesMustBeThoseOfSampledStates) {
   changed = good;
   changed.record["worst_time_s"] = 0.001 * good.record["worst_time_s"].get<double>();
   expect_refused(changed, "worst_time_s");
+}
+
+TEST_F(CheckMutation, ThePlanIsComparedWholeWithItsFrameAndVehicle) {
+  fairway::Plan plan = fairway::random_plan(7);
+  plan.record.frame = fairway::Frame{{5.0, 6.0, 0.5}, fairway::GeoReference{47.0, 8.0, 0.1}, "WKT"};
+  write_sample(plan, folder_ / "framed");
+  const auto judged = [](const fairway::Plan& p) {
+    fairway::write_plan(p, folder_ / "plan", fairway::Existing::replace);
+    nlohmann::ordered_json report;
+    return judge(folder_ / "framed", folder_ / "plan", 0, report);
+  };
+  EXPECT_EQ(judged(plan), "");
+  const std::vector<std::function<void(fairway::Plan&)>> changes{
+      [](fairway::Plan& p) { p.record.frame->world_from_grid.x_m = 5000.0; },
+      [](fairway::Plan& p) { p.record.frame->world_from_grid.yaw_rad = 0.0; },
+      [](fairway::Plan& p) { p.record.frame->geo->latitude_deg = 48.0; },
+      [](fairway::Plan& p) { p.record.frame->geo.reset(); },
+      [](fairway::Plan& p) { p.record.frame->projected_crs = "other"; },
+      [](fairway::Plan& p) { p.record.frame.reset(); },
+      [](fairway::Plan& p) { p.vehicle.speed_mps *= 2.0; },
+      [](fairway::Plan& p) { p.vehicle.turn_radius_m *= 1.5; },
+      [](fairway::Plan& p) { p.grid.x0_m += p.grid.cell_m; },
+      [](fairway::Plan& p) { p.cost_m[0] = 7.0F; },
+      [](fairway::Plan& p) { p.heading_rad[0] = 1.25F; }};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    fairway::Plan other = plan;
+    changes[i](other);
+    EXPECT_THAT(judged(other), testing::HasSubstr("is not the certificate of the plan")) << i;
+  }
+  // No frame, and that of the grid itself, are the same place.
+  plan.record.frame.reset();
+  write_sample(plan, folder_ / "framed");
+  EXPECT_EQ(judged(plan), "");
+  plan.record.frame.emplace();
+  EXPECT_EQ(judged(plan), "");
+}
+
+TEST_F(CheckMutation, ASparseFileIsRefusedUnread) {
+  std::ofstream(folder_ / "sparse", std::ios::binary) << good_;
+  fs::resize_file(folder_ / "sparse", std::uintmax_t{30} << 30);
+  nlohmann::ordered_json report;
+  EXPECT_THROW(judge(folder_ / "sparse", "", 0, report), Defect);
+}
+
+TEST_F(CheckMutation, DeepAndRepeatedRecordsAreUnreadable) {
+  const Parts good(good_);
+  Parts changed = good;
+  changed.record["options"] = json::parse(std::string(31, '[') + std::string(31, ']'));
+  changed.sign();
+  EXPECT_EQ(refusal(changed.file(), 0), "");
+  const auto with_record = [&](const std::string& record) {
+    json header = good.header;
+    header["__metadata__"]["fairway"] = record;
+    std::string all = header.dump();
+    while (all.size() % 8 != 0) all += ' ';
+    const std::uint64_t length = all.size();
+    std::string file(8, '\0');
+    std::memcpy(file.data(), &length, 8);
+    std::uint64_t before = 0;
+    std::memcpy(&before, good_.data(), 8);
+    return refusal(file + all + good_.substr(8 + before), 0);
+  };
+  const std::string record = good.record.dump();
+  EXPECT_EQ(with_record(record), "");
+  const std::string deep = record.substr(0, record.size() - 1) +
+                           ",\"x\":" + std::string(300000, '[') + std::string(300000, ']') + "}";
+  EXPECT_THAT(with_record(deep), testing::HasSubstr("unreadable: nests"));
+  EXPECT_THAT(with_record("{\"format\":\"x\"," + record.substr(1)),
+              testing::HasSubstr("unreadable: has a key twice"));
+  EXPECT_THAT(with_record(record + std::string(1, '\0')), testing::HasSubstr("zero byte"));
+  changed = good;
+  changed.record["region_of_interest"] = {0, 0, 1, 1, 2};
+  changed.sign();
+  EXPECT_THAT(refusal(changed.file()), testing::HasSubstr("four numbers"));
+  changed = good;
+  changed.record["format_version"] = 1.0;
+  EXPECT_THAT(refusal(changed.file()), testing::StartsWith("unreadable: "));
 }
 
 TEST_F(CheckMutation, DamagedFilesAreNotJudgedOrRefused) {

@@ -1,9 +1,14 @@
 #include "check/tensors.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
-#include <fstream>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 #include <openssl/sha.h>
@@ -16,47 +21,110 @@ void require(bool good, std::string_view otherwise, int code) {
   if (!good) throw Defect(code, otherwise);
 }
 
-TensorFile read_tensors(const std::string& path) {
-  using nlohmann::json;
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t longest_header = 100'000'000;
+constexpr std::size_t most_members = 32;  // of any object of a header
+constexpr int deepest = 32;
+
+std::size_t members_in(const json& value) {
+  std::size_t count = value.is_object() ? value.size() : 0;
+  for (const json& part : value) count += part.is_structured() ? members_in(part) : 0;
+  return count;
+}
+
+/// Not deep, and no key twice in an object: the value has as many members as the text has colons.
+json strict_json(std::string_view text) {
+  require(text.find('\0') == std::string_view::npos, "holds a zero byte", unreadable);
+  std::size_t colons = 0;
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') quoted = !quoted;
+    if (quoted && c == '\\') ++i;  // and what is escaped
+    if (quoted) continue;
+    colons += c == ':' ? 1 : 0;
+    depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
+    require(depth <= deepest, "nests JSON more than 32 deep", unreadable);
+  }
+  json value = json::parse(text);
+  require(members_in(value) == colons, "has a key twice in an object", unreadable);
+  return value;
+}
+
+std::vector<std::uint64_t> whole_numbers(const json& list) {
+  for (const json& number : list) {
+    require(number.is_number_unsigned(), "has a header with other than whole numbers", unreadable);
+  }
+  return list.get<std::vector<std::uint64_t>>();
+}
+
+bool is_ascii(char c) { return (c >= ' ' && c <= '~') || c == '\t' || c == '\n' || c == '\r'; }
+
+}  // namespace
+
+TensorFile tensors_of(std::string_view text, std::span<const char> data) {
   static const std::map<std::string, std::uint64_t> widths{
-      {"F64", 8}, {"F32", 4}, {"U32", 4}, {"I8", 1}, {"U8", 1}};
+      {"F64", 8}, {"I64", 8}, {"U64", 8}, {"F32", 4}, {"I32", 4}, {"U32", 4},
+      {"I16", 2}, {"U16", 2}, {"I8", 1},  {"U8", 1},  {"BOOL", 1}};
+  require(text.starts_with('{') && text.size() <= longest_header &&
+              std::all_of(text.begin(), text.end(), is_ascii),
+          "has no header of ASCII text", unreadable);
+  const json header = strict_json(text);
+  const json& metadata = header.at("__metadata__");
+  require(header.size() <= most_members && metadata.is_object() &&
+              metadata.size() <= most_members &&
+              std::all_of(metadata.begin(), metadata.end(),
+                          [](const json& m) { return m.is_string(); }),
+          "has a header of too many members, or __metadata__ that is not strings", unreadable);
   TensorFile file;
-  std::ifstream in(path, std::ios::binary | std::ios::ate);
-  const auto size = static_cast<std::streamoff>(in.tellg());
-  file.bytes.resize(in && size < std::streamoff{1} << 40 ? static_cast<std::size_t>(size) : 0);
-  require(file.bytes.size() >= 8 && in.seekg(0).read(file.bytes.data(), size),
-          "cannot be read, or is no safetensors file", unreadable);
-  std::uint64_t length = 0;
-  std::memcpy(&length, file.bytes.data(), 8);
-  const auto all = std::span<const char>(file.bytes).subspan(8);
-  require(length <= all.size(), "is cut short, or no safetensors file", unreadable);
-  const auto text = all.first(length);
-  const auto data = all.subspan(length);
-  const json header = json::parse(text.begin(), text.end());
-  file.record = json::parse(header.at("__metadata__").at("fairway").get<std::string>());
-  std::map<std::uint64_t, std::uint64_t> places;  // begin, end
+  file.record = strict_json(metadata.at("fairway").get<std::string>());
+  std::vector<std::array<std::uint64_t, 2>> places;
   for (const auto& [name, entry] : header.items()) {
     if (name == "__metadata__") continue;
     Tensor& tensor = file.tensors[name];
-    tensor.type = entry.at("dtype");
-    tensor.shape = entry.at("shape").get<std::vector<std::uint64_t>>();
-    const auto [begin, end] = entry.at("data_offsets").get<std::array<std::uint64_t, 2>>();
+    tensor.type = entry.at("dtype").get<std::string>();
+    tensor.shape = whole_numbers(entry.at("shape"));
+    const auto offsets = whole_numbers(entry.at("data_offsets"));
     std::uint64_t bytes = widths.contains(tensor.type) ? widths.at(tensor.type) : 0;
-    bool fits = bytes > 0 && begin <= end && end <= data.size();
+    bool fits = bytes > 0 && entry.size() == 3 && tensor.shape.size() <= 8 && offsets.size() == 2 &&
+                offsets[0] <= offsets[1] && offsets[1] <= data.size();
     for (const std::uint64_t extent : tensor.shape)
       fits = fits && !__builtin_mul_overflow(bytes, extent, &bytes);
-    require(fits && bytes == end - begin,
+    require(fits && bytes == offsets[1] - offsets[0],
             name + ": its type, shape and place do not fit, or the file is cut short", unreadable);
-    tensor.bytes = data.subspan(begin, bytes);
-    if (bytes > 0)
-      require(places.emplace(begin, end).second, "has arrays that overlap", unreadable);
+    tensor.bytes = data.subspan(offsets[0], bytes);
+    places.push_back({offsets[0], offsets[1]});
   }
+  std::sort(places.begin(), places.end());
   std::uint64_t filled = 0;
   for (const auto& [begin, end] : places) {
     require(begin == filled, "has arrays that overlap or leave holes", unreadable);
     filled = end;
   }
   require(filled == data.size(), "goes on after its last array", unreadable);
+  return file;
+}
+
+TensorFile read_tensors(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  struct stat status {};
+  const bool is_file = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+  const std::size_t size = is_file ? static_cast<std::size_t>(status.st_size) : 0;
+  void* const place = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+  ::close(descriptor);
+  require(place != MAP_FAILED, "cannot be read", unreadable);
+  const std::shared_ptr<void> mapping(place, [size](void* at) { ::munmap(at, size); });
+  const std::span<const char> all(static_cast<const char*>(place), size);
+  std::uint64_t length = 0;
+  require(size >= 8, "is no safetensors file", unreadable);
+  std::memcpy(&length, all.data(), 8);
+  require(length <= size - 8, "is cut short, or no safetensors file", unreadable);
+  TensorFile file = tensors_of({all.data() + 8, length}, all.subspan(8 + length));
+  file.mapping = mapping;
   return file;
 }
 

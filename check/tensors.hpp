@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -28,14 +29,18 @@ struct Tensor {
 };
 
 struct TensorFile {
-  std::vector<char> bytes;
+  std::shared_ptr<void> mapping;  ///< of the file, in which the arrays lie
   std::map<std::string, Tensor> tensors;
   nlohmann::json record;  ///< the JSON in __metadata__.fairway
 };
 
-/// Strict: types, shapes and sizes agree, and the arrays fill the file without holes or overlaps.
-/// Throws Defect 65, or nlohmann::json::exception where the header is not understood.
+/// By the grammar of docs/formats.md, "Header": types, shapes and sizes agree, and the arrays fill
+/// the file without holes or overlaps. Nothing behind the header is loaded. Throws Defect 65, or
+/// nlohmann::json::exception where the header is not understood.
 TensorFile read_tensors(const std::string& path);
+
+/// The same of a header, with the bytes behind it.
+TensorFile tensors_of(std::string_view header, std::span<const char> data);
 
 std::string sha256(std::span<const char> bytes);
 

@@ -7,9 +7,9 @@
 //     if (certificate.open(bytes, size) != fairway::runtime::Status::ok) ...
 //     const fairway::runtime::Answer answer = certificate.query(x_m, y_m, heading_rad);
 //
-// open() checks that every array is there and fits, so that no query can read beside the file. It
-// neither checks digests nor proves anything: that is `fairway check`, once, on the ground.
-// Properties that always hold:
+// open() reads the header as every other reader does, and checks that every array is there and
+// fits, so that no query can read beside the file. It neither checks digests nor proves anything:
+// that is `fairway check`, once, on the ground. Properties that always hold:
 //   1. A verdict other than undecided is that of every flight of the model from the state
 //      (docs/trust.md), if the certificate is one that `fairway check` accepts.
 //   2. A state that is not finite, or far outside, is undecided; outside the grid it is `leave`.
@@ -22,6 +22,7 @@
 #include <cstring>
 #include <limits>
 
+#include "fairway/base/tensor_header.hpp"
 #include "fairway/verify/flow.hpp"
 #include "fairway/verify/section_view.hpp"
 #include "fairway/verify/state_flight.hpp"
@@ -47,35 +48,6 @@ struct Command {
   double turn_rate_radps = 0.0;  ///< bang-bang; positive to the left, 0 when aligned or none
 };
 
-namespace detail {
-
-/// Finds `"name":{... "data_offsets":[begin,end] ...}` in a safetensors header, without a parser:
-/// array names are keys of the header and stand in quotes nowhere else in it (the metadata is an
-/// escaped string, in which a quote follows a backslash).
-struct HeaderText {
-  const char* text;
-  std::size_t size;
-
-  static constexpr std::size_t npos = ~std::size_t{0};
-  std::size_t find(const char* word, std::size_t from) const {
-    const std::size_t length = std::strlen(word);
-    for (std::size_t i = from; i + length <= size; ++i) {
-      if (std::memcmp(text + i, word, length) == 0 && (i == 0 || text[i - 1] != '\\')) return i;
-    }
-    return npos;
-  }
-  bool number(std::size_t& at, std::uint64_t& value) const {
-    value = 0;
-    const std::size_t begin = at;
-    while (at < size && text[at] >= '0' && text[at] <= '9' && at - begin < 18) {
-      value = 10 * value + static_cast<std::uint64_t>(text[at++] - '0');
-    }
-    return at > begin;
-  }
-};
-
-}  // namespace detail
-
 class Certificate {
  public:
   /// `bytes`: the whole file, aligned to 8 bytes, which must outlive this object.
@@ -83,47 +55,58 @@ class Certificate {
     opened_ = false;
     if (bytes == nullptr || size < 8) return Status::too_short;
     const char* file = static_cast<const char*>(bytes);
-    std::uint64_t header = 0;
-    std::memcpy(&header, file, 8);
-    if (header > size - 8 || header % 8 != 0) return Status::too_short;
-    const detail::HeaderText text{file + 8, static_cast<std::size_t>(header)};
-    const char* data = file + 8 + header;
-    const std::size_t data_size = size - 8 - static_cast<std::size_t>(header);
-
-    Array numbers, heading, first, begin, time, kind, verdict;
-    if (!find(text, "\"geometry\":", "\"F64\"", numbers) ||
-        !find(text, "\"heading_rad\":", "\"F32\"", heading) ||
-        !find(text, "\"section_first\":", "\"U32\"", first) ||
-        !find(text, "\"leaf_begin\":", "\"U32\"", begin) ||
-        !find(text, "\"leaf_time_s\":", "\"F32\"", time) ||
-        !find(text, "\"cell_kind\":", "\"U8\"", kind) ||
-        !find(text, "\"leaf_verdict\":", "\"U8\"", verdict)) {
+    std::uint64_t length = 0;
+    std::memcpy(&length, file, 8);
+    if (length > size - 8) return Status::too_short;
+    const char* data = file + 8 + length;
+    TensorHeader header;
+    if (!header.read(file + 8, static_cast<std::size_t>(length), size - 8 - length) ||
+        !header.has_record() || header.size() != 9) {
       return Status::not_certificate;
     }
-    for (const Array* array : {&numbers, &heading, &first, &begin, &time, &kind, &verdict}) {
-      if (array->end < array->begin || array->end > data_size) return Status::misfit;
+    const HeaderEntry* heading = header.find("heading_rad");
+    const HeaderEntry* verdict = header.find("leaf_verdict");
+    if (heading == nullptr || heading->sizes != 2 || verdict == nullptr || verdict->sizes != 1) {
+      return Status::not_certificate;
     }
-    const std::size_t cells = kind.bytes();
-    const std::size_t leaves = verdict.bytes();
-    if (numbers.bytes() != sizeof(Geometry) || cells == 0 || heading.bytes() != 4 * cells ||
-        first.bytes() != 4 * (4 * cells + 1) || begin.bytes() != 4 * leaves ||
-        time.bytes() != 4 * leaves || heading.columns == 0 || cells % heading.columns != 0 ||
-        cells / heading.columns > 0x7fffffff || heading.columns > 0x7fffffff ||
-        numbers.begin % 8 != 0 || (heading.begin | first.begin | begin.begin | time.begin) % 4) {
-      return Status::misfit;
+    const std::uint64_t ny = heading->shape[0];
+    const std::uint64_t nx = heading->shape[1];
+    constexpr std::uint64_t most = 0x7fffffff;
+    if (ny == 0 || nx == 0 || ny > most || nx > most) return Status::misfit;
+    const std::uint64_t cells = ny * nx;
+    const std::uint64_t leaves = verdict->shape[0];
+    // The arrays, where they lie; null when one is missing, or not what it should be.
+    const auto place = [&](const char* name, const char* dtype, std::uint64_t width,
+                           auto... shape) {
+      const HeaderEntry* entry = header.find(name);
+      const bool fits = entry != nullptr && entry->dtype.is(dtype) && entry->has_shape(shape...) &&
+                        (8 + length + entry->begin) % width == 0;
+      return fits ? data + entry->begin : nullptr;
+    };
+    const char* numbers = place("geometry", "F64", 8, geometry_numbers);
+    const char* commands = place("heading_rad", "F32", 4, ny, nx);
+    const char* first = place("section_first", "U32", 4, 4 * cells + 1);
+    const char* begin = place("leaf_begin", "U32", 4, leaves);
+    const char* time = place("leaf_time_s", "F32", 4, leaves);
+    const char* kind = place("cell_kind", "U8", 1, ny, nx);
+    const char* verdicts = place("leaf_verdict", "U8", 1, leaves);
+    for (const char* array :
+         {numbers, commands, first, begin, time, kind, verdicts,
+          place("leaf_rank", "U32", 4, leaves), place("region", "I8", 1, ny, nx)}) {
+      if (array == nullptr) return Status::misfit;
     }
     Geometry geometry;
-    std::memcpy(&geometry, data + numbers.begin, sizeof geometry);
+    std::memcpy(&geometry, numbers, sizeof geometry);
     if (!geometry.is_valid()) return Status::misfit;
     geometry.put_into(flow_.grid, flow_.vehicle);
-    flow_.grid.nx = static_cast<int>(heading.columns);
-    flow_.grid.ny = static_cast<int>(cells / heading.columns);
-    flow_.heading_rad = reinterpret_cast<const float*>(data + heading.begin);
-    flow_.kind = reinterpret_cast<const CellKind*>(data + kind.begin);
-    sections_.first = reinterpret_cast<const std::uint32_t*>(data + first.begin);
-    sections_.begin = reinterpret_cast<const std::uint32_t*>(data + begin.begin);
-    sections_.time_s = reinterpret_cast<const float*>(data + time.begin);
-    sections_.verdict = reinterpret_cast<const std::uint8_t*>(data + verdict.begin);
+    flow_.grid.nx = static_cast<int>(nx);
+    flow_.grid.ny = static_cast<int>(ny);
+    flow_.heading_rad = reinterpret_cast<const float*>(commands);
+    flow_.kind = reinterpret_cast<const CellKind*>(kind);
+    sections_.first = reinterpret_cast<const std::uint32_t*>(first);
+    sections_.begin = reinterpret_cast<const std::uint32_t*>(begin);
+    sections_.time_s = reinterpret_cast<const float*>(time);
+    sections_.verdict = reinterpret_cast<const std::uint8_t*>(verdicts);
     for (std::size_t s = 0; s < 4 * cells; ++s) {
       if (sections_.first[s] > sections_.first[s + 1]) return Status::misfit;
     }
@@ -171,12 +154,6 @@ class Certificate {
   const Flow& flow() const noexcept { return flow_; }
 
  private:
-  struct Array {
-    std::uint64_t begin = 0;
-    std::uint64_t end = 0;
-    std::uint64_t columns = 0;  // the last number of the shape
-    std::size_t bytes() const { return static_cast<std::size_t>(end - begin); }
-  };
   struct Reader {
     const Flow& flow;
     const SectionView& sections;
@@ -192,23 +169,6 @@ class Certificate {
     void give_up() { found.add(Verdict::undecided, 0.0); }
   };
 
-  static bool find(const detail::HeaderText& text, const char* name, const char* type,
-                   Array& array) noexcept {
-    std::size_t at = text.find(name, 0);
-    if (at == detail::HeaderText::npos) return false;
-    const std::size_t end = text.find("}", at);
-    const std::size_t dtype = text.find(type, at);
-    std::size_t shape = text.find("\"shape\":[", at);
-    std::size_t offsets = text.find("\"data_offsets\":[", at);
-    if (end == detail::HeaderText::npos || dtype > end || shape > end || offsets > end) {
-      return false;
-    }
-    shape += 9;
-    while (text.number(shape, array.columns) && text.text[shape] == ',') ++shape;
-    offsets += 16;
-    if (!text.number(offsets, array.begin) || text.text[offsets++] != ',') return false;
-    return text.number(offsets, array.end);
-  }
   bool is_near(double x_m, double y_m) const noexcept {
     const double far = 0x1p30 * flow_.grid.cell_m;
     return opened_ && std::abs(x_m - flow_.grid.x0_m) < far &&

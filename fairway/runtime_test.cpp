@@ -158,6 +158,38 @@ TEST_F(RuntimeTest, StatesOffTheGridOrNotFiniteAreNotMisjudged) {
   EXPECT_EQ(certificate.query(1e300, 20.0, 0.0).verdict, Verdict::undecided);
 }
 
+/// The certificate with `is` put in for `was` in its header.
+std::string with_header(const std::string& file, const std::string& was, const std::string& is) {
+  std::uint64_t length = 0;
+  std::memcpy(&length, file.data(), 8);
+  std::string header = file.substr(8, length);
+  header.replace(header.find(was), was.size(), is);
+  while (header.size() % 8 != 0) header += ' ';
+  const std::uint64_t now = header.size();
+  std::string all(8, '\0');
+  std::memcpy(all.data(), &now, 8);
+  return all + header + file.substr(8 + length);
+}
+
+TEST_F(RuntimeTest, HeadersThatOthersReadOtherwiseAreNotOpened) {
+  runtime::Certificate certificate;
+  const auto opens = [&](const std::string& was, const std::string& is) {
+    const std::string file = with_header(bytes(), was, is);
+    const auto words = aligned(file);
+    return certificate.open(words.data(), file.size()) == runtime::Status::ok;
+  };
+  // Another place for an array, where the first of its names in the text would be looked for.
+  const std::string other = R"("cell_kind":{"dtype":"U8","shape":[10,12],"data_offsets":[48,168]})";
+  EXPECT_FALSE(opens(R"("__metadata__":{)", other + R"(,"__metadata__":{)"));
+  EXPECT_FALSE(opens(R"("__metadata__":{)", R"("__metadata__":{)" + other + ","));
+  EXPECT_FALSE(opens(R"("cell_kind":{)", R"("cell_kind":{"x":{)" + other + "},"));
+  EXPECT_FALSE(opens(R"("shape":[10,12])", R"("shape":[12,10])"));
+  EXPECT_FALSE(opens(R"("leaf_rank")", R"("leaf_ranks")"));
+  EXPECT_TRUE(opens(R"("__metadata__":{)", "\n\t\"__metadata__\" : { "));
+  EXPECT_TRUE(opens(R"("cell_kind":{"dtype":"U8","shape":[10,12])",
+                    R"("cell\u005fkind" : { "shape": [10, 12],"dtype" : "U8")"));
+}
+
 TEST_F(RuntimeTest, NoDamagedFileMakesItReadBesideTheBytes) {
   runtime::Certificate certificate;
   EXPECT_EQ(certificate.open(nullptr, 0), runtime::Status::too_short);

@@ -353,7 +353,7 @@ void bind_simulate(py::module_& m) {
   plan.def("fly", &fly, "states"_a,
            R"(Exact flights under the bang-bang law, event by event, without time steps.
 
-states  float64 [n, 3]: x_m, y_m, heading_rad (any finite angle)
+states  float64 [n, 3]: x_m, y_m, heading_rad (-7 to 7)
 
 Returns Flights. On all cores; other threads of Python run meanwhile, and Ctrl-C ends it.)");
   plan.def("fly_sampled", &fly_sampled, "states"_a, py::kw_only(), "law"_a = "bang-bang",

@@ -63,8 +63,8 @@ std::shared_ptr<HeldCertificate> verify(const std::shared_ptr<HeldPlan>& plan,
   const Progress told = progress_of(progress);
 
   const py::gil_scoped_release unlocked;
-  std::optional<Certificate> earlier;
-  if (resume) earlier = resume->certificate;
+  std::optional<EarlierProof> earlier;
+  if (resume) earlier = EarlierProof{resume->certificate, "resume"};
   if (told) told("verifying", unknown_time);
   Verification made = verify_plan(plan->plan, "plan", of_interest, options, std::move(earlier),
                                   [&told](const LevelRecord& level) {
@@ -89,7 +89,8 @@ undecided_max    stop once this share of the volume is undecided
 time_limit_s     stop after this time, seconds
 memory_limit_mb  stop before using more, megabytes
 samples, seed    random states that measure the volumes
-resume           a Certificate of the same plan and region to go on from
+resume           a Certificate of the same plan, vehicle and region to go on from; its
+                 leaves are proved again first
 progress         called as progress(stage, left_s) now and then in the calling thread; left_s is
                  None when unknown; what it raises ends the work, and so does Ctrl-C
 

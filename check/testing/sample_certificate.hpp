@@ -46,6 +46,7 @@ inline void write_sample(const fairway::Plan& plan, const std::filesystem::path&
   claim("volume_fraction_free", proved.volume.free);
   claim("volume_fraction_buffer", proved.volume.buffer);
   c.plan = fairway::plan_digests(plan);
+  c.frame = plan.record.frame;
   c.evidence_json = record.dump();
   fairway::write_certificate(c, path, fairway::Existing::replace);
 }

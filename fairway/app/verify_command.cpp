@@ -108,8 +108,8 @@ int verify_command(VerifyArguments a, const Session& session) {
     summary = verification_json(made);
     words = verification_words(made);
   } else {
-    std::optional<Certificate> earlier;
-    if (!a.resume.empty()) earlier = read_certificate(a.resume);
+    std::optional<EarlierProof> earlier;
+    if (!a.resume.empty()) earlier = EarlierProof{read_certificate(a.resume), a.resume.string()};
     clock.begin("verifying", unknown_time);
     const Verification made = verify_plan(plan, a.plan.string(), region,
                                           certify_options(a.limits, a.seed, a.volume_samples),
@@ -180,7 +180,11 @@ Action declare_verify(CLI::App& options) {
       .add_option("--memory-limit", a.limits.memory_limit_mb, "stop before using more, megabytes")
       ->check(finite_above(0.0))
       ->type_name("MB");
-  options.add_option("--resume", a.resume, "go on from an earlier certificate of the same plan")
+  options
+      .add_option(
+          "--resume", a.resume,
+          "go on from an earlier certificate of the same plan, vehicle and region; its leaves "
+          "are proved again first, which takes about as long as fairway check")
       ->type_name("CERT");
   options
       .add_option("--failures", a.failures,
@@ -196,7 +200,7 @@ Action declare_verify(CLI::App& options) {
       ->type_name("JSON");
   options
       .add_option("--volume-samples", a.volume_samples,
-                  "states that measure the volumes, at least one a cell")
+                  "states that measure the volumes; at least 1000, and one a cell")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}))
       ->type_name("N")
       ->capture_default_str();

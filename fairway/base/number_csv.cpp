@@ -78,6 +78,12 @@ double value_of(std::string_view text, const CsvColumn& column, const CsvPlace& 
                              : ": expected a finite number of metres"));
   }
   if (!is_heading) return *value;
+  if (!degrees && std::abs(*value) > most_heading_rad) {
+    const bool may_be_degrees = std::abs(*value) <= 360.0;
+    place.refuse(std::string(column.name) + " is " + quoted(text) +
+                 ": expected radians from -7 to 7, or degrees with the suffix deg" +
+                 (may_be_degrees ? "; did you mean " + std::string(text) + "deg?" : ""));
+  }
   // Reduced in degrees, where it is exact: 540deg is the same bits as 180deg.
   return Heading::from_rad(degrees ? std::remainder(*value, 360.0) * (pi / 180.0) : *value).rad();
 }

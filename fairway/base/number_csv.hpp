@@ -2,8 +2,9 @@
 //
 // With a header, columns are found by name and others are passed over; without one, a line has
 // exactly the columns asked for. Commas, semicolons or tabs separate; names and numbers may stand
-// in quotes. Blank lines and lines that start with # are skipped. A heading is in radians, or
-// degrees with the suffix deg, and comes back wrapped into (-pi, pi]. Every number is finite.
+// in quotes. Blank lines and lines that start with # are skipped. A heading is in radians from -7
+// to 7, or degrees with the suffix deg, and comes back wrapped into (-pi, pi]. Every number is
+// finite.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +16,9 @@
 #include <vector>
 
 namespace fairway {
+
+/// More radians are no heading that anyone means: it is refused, wherever states are given.
+inline constexpr double most_heading_rad = 7.0;
 
 enum class CsvQuantity : std::uint8_t { metres, heading };
 

@@ -88,6 +88,11 @@ Placed placed_tensor(const std::string& name, const json& entry, std::span<const
   return placed;
 }
 
+constexpr std::size_t most_members = 32;  // of any object of a header
+
+/// Printable, or one of JSON's blanks.
+bool is_ascii(char c) { return (c >= 0x20 && c <= 0x7e) || c == '\t' || c == '\n' || c == '\r'; }
+
 /// Header text and the bytes after it.
 std::pair<std::string_view, std::span<const std::byte>> split(std::span<const std::byte> bytes,
                                                               const std::string& where) {
@@ -116,7 +121,10 @@ Safetensors parse_safetensors(std::span<const std::byte> bytes, const std::strin
   const auto [text, data] = split(bytes, where);
   const std::string header_place = where + ": header";
   if (!text.starts_with('{')) throw InputError(header_place, "expected to begin with {");
-  const json header = parse_strict_json(text, header_place);
+  if (!std::all_of(text.begin(), text.end(), is_ascii)) {
+    throw InputError(header_place, "expected ASCII text: other characters are written as \\uXXXX");
+  }
+  const json header = parse_strict_json(text, header_place, most_members);
   Safetensors content;
   std::vector<Placed> placed;
   for (const auto& [name, entry] : header.items()) {

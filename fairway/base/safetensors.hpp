@@ -4,8 +4,9 @@
 //   1. The header is padded with spaces so that the arrays begin at a multiple of 8 bytes; wide
 //      types first, so that every array is aligned for its type.
 //   2. The arrays follow each other in the order given, without holes, to the end of the file.
-// and for what is read, in whatever order the arrays stand: names, types, shapes and sizes agree;
-// the arrays fill the file without holes or overlaps.
+// and for what is read, in whatever order the arrays stand: the header is of the grammar in
+// docs/formats.md ("Header"); names, types, shapes and sizes agree; the arrays fill the file
+// without holes or overlaps.
 #pragma once
 
 #include <cstddef>

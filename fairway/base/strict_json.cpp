@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <unordered_set>
 #include <vector>
 
 #include "fairway/base/error.hpp"
@@ -11,22 +11,76 @@ namespace fairway {
 
 using nlohmann::json;
 
-json parse_strict_json(std::string_view text, const std::string& where) {
-  constexpr int deepest = 32;
-  std::vector<std::set<std::string>> keys;  // of the objects that are open
-  const auto look = [&](int depth, json::parse_event_t event, json& parsed) {
-    if (depth > deepest) throw InputError(where, "nests more than 32 levels of JSON");
-    if (event == json::parse_event_t::object_start) keys.emplace_back();
-    if (event == json::parse_event_t::object_end) keys.pop_back();
-    if (event == json::parse_event_t::key &&
-        !keys.back().insert(parsed.get_ref<const std::string&>()).second) {
-      throw InputError(where, "has the key \"" + parsed.get<std::string>() + "\" twice");
+namespace {
+
+/// Looks a text over as it is parsed, and keeps nothing of it: nlohmann's own parser, with a
+/// callback that could refuse, takes time quadratic in the members of an object.
+class Looker : public nlohmann::json_sax<json> {
+ public:
+  Looker(const std::string& where, std::size_t most_members)
+      : where_(where), most_members_(most_members) {}
+
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(std::size_t) override {
+    open();
+    keys_.emplace_back();
+    return true;
+  }
+  bool key(string_t& name) override {
+    if (!keys_.back().insert(name).second) {
+      throw InputError(where_, "has the key \"" + name + "\" twice");
+    }
+    if (keys_.back().size() > most_members_) {
+      throw InputError(where_,
+                       "has an object of more than " + std::to_string(most_members_) + " members");
     }
     return true;
-  };
+  }
+  bool end_object() override {
+    keys_.pop_back();
+    --depth_;
+    return true;
+  }
+  bool start_array(std::size_t) override {
+    open();
+    return true;
+  }
+  bool end_array() override {
+    --depth_;
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const json::exception& error) override {
+    throw InputError(where_, std::string("is not JSON: ") + error.what());
+  }
+
+ private:
+  void open() {
+    constexpr int deepest = 32;
+    if (++depth_ > deepest) throw InputError(where_, "nests more than 32 levels of JSON");
+  }
+
+  const std::string& where_;
+  std::size_t most_members_;
+  int depth_ = 0;
+  std::vector<std::unordered_set<std::string>> keys_;  // of the objects that are open
+};
+
+}  // namespace
+
+json parse_strict_json(std::string_view text, const std::string& where, std::size_t most_members) {
+  // Where a zero byte stands, nlohmann takes the text to end.
+  if (text.find('\0') != std::string_view::npos) throw InputError(where, "holds a zero byte");
+  Looker looker(where, most_members);
   try {
-    return json::parse(text.begin(), text.end(), look);
-  } catch (const json::exception& error) {
+    json::sax_parse(text.begin(), text.end(), &looker);
+    return json::parse(text.begin(), text.end());
+  } catch (const json::exception& error) {  // a number that no double holds
     throw InputError(where, std::string("is not JSON: ") + error.what());
   }
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -11,8 +12,10 @@
 namespace fairway {
 
 /// Throws InputError{where, ...} for text that is not one JSON value, repeats a key in an object,
-/// or nests more than 32 deep.
-[[nodiscard]] nlohmann::json parse_strict_json(std::string_view text, const std::string& where);
+/// nests more than 32 deep, or has an object of more members than it may.
+[[nodiscard]] nlohmann::json parse_strict_json(
+    std::string_view text, const std::string& where,
+    std::size_t most_members = std::numeric_limits<std::size_t>::max());
 
 /// A value for an error message, cut when long.
 [[nodiscard]] std::string shown(const nlohmann::json& value);

@@ -1,6 +1,7 @@
 #include "fairway/certificate/certificate_file.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <span>
@@ -108,6 +109,10 @@ std::vector<T> array_of(const Safetensors& file, const char* name, const char* d
       fits = shape[i] == 0 ? tensor.shape[i] <= 0x7fffffff : tensor.shape[i] == shape[i];
     }
     if (!fits) throw InputError(place + ".shape", "does not fit the other arrays");
+    if (reinterpret_cast<std::uintptr_t>(tensor.data.data()) % sizeof(T) != 0) {
+      throw InputError(place + ".data_offsets",
+                       "begin at no multiple of the element's size in the file");
+    }
     std::vector<T> values(tensor.data.size() / sizeof(T));
     std::memcpy(values.data(), tensor.data.data(), values.size() * sizeof(T));
     return values;
@@ -135,8 +140,10 @@ void take_cells(const Safetensors& file, const std::string& where, Certificate& 
   Geometry g;
   std::memcpy(&g, numbers.data(), sizeof g);
   if (!g.is_valid()) {
-    throw InputError(where + ": \"geometry\"",
-                     "expected finite numbers, 0 < cell_m < turn_radius_m, speed_mps > 0, 2^32");
+    throw InputError(
+        where + ": \"geometry\"",
+        "expected sizes in the range of docs/formats.md, cells smaller than the turning "
+        "radius, and 2^32 units");
   }
   g.put_into(c.grid, c.vehicle);
 }

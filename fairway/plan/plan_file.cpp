@@ -21,6 +21,7 @@
 #include "fairway/base/safetensors.hpp"
 #include "fairway/base/strict_json.hpp"
 #include "fairway/plan/plan_record_json.hpp"
+#include "fairway/vehicle/size_range.hpp"
 #include "fairway/vehicle/vehicle_json.hpp"
 
 namespace fairway {
@@ -50,20 +51,24 @@ std::array<std::string, 3> digests_of(const std::vector<Tensor>& tensors) {
 }
 
 std::string geometry_defect(const Grid& grid, const Vehicle& vehicle) {
-  const auto positive = [](double x) { return std::isfinite(x) && x > 0.0; };
   if (grid.nx < 1 || grid.ny < 1) return "the grid has no cells";
-  if (!positive(grid.cell_m)) return "cell_m is not a positive number";
-  if (!positive(vehicle.speed_mps)) return "speed_mps is not a positive number";
-  if (!positive(vehicle.turn_radius_m)) return "turn_radius_m is not a positive number";
+  if (!size_range::holds(grid.cell_m)) {
+    return fmt::format("cell_m is {} m, expected 1e-15 to 1e15", grid.cell_m);
+  }
+  if (!size_range::holds(vehicle.speed_mps)) {
+    return fmt::format("speed_mps is {} m/s, expected 1e-15 to 1e15", vehicle.speed_mps);
+  }
   if (!(grid.cell_m < vehicle.turn_radius_m)) {
     return fmt::format("cell_m is {} m, expected less than turn_radius_m, {} m", grid.cell_m,
                        vehicle.turn_radius_m);
   }
-  constexpr double farthest_cells = 1e9;  // beyond it neighbouring borders run together
-  if (!(std::abs(grid.x0_m) <= farthest_cells * grid.cell_m &&
-        std::abs(grid.y0_m) <= farthest_cells * grid.cell_m)) {
-    return fmt::format("origin_m is [{}, {}], expected within 1e9 cells of zero", grid.x0_m,
-                       grid.y0_m);
+  if (!size_range::holds_radius(vehicle.turn_radius_m, grid.cell_m)) {
+    return fmt::format("turn_radius_m is {} m, expected at most 1e9 cells", vehicle.turn_radius_m);
+  }
+  if (!size_range::holds_origin(grid.x0_m, grid.cell_m) ||
+      !size_range::holds_origin(grid.y0_m, grid.cell_m)) {
+    return fmt::format("origin_m is [{}, {}], expected within 1e9 cells and 1e15 m of zero",
+                       grid.x0_m, grid.y0_m);
   }
   return {};
 }
@@ -73,10 +78,16 @@ bool is_on(const Grid& grid, Vec2 p) {
          p.y <= grid.y0_m + grid.height_m();
 }
 
+/// Nearer to its axis than that (0 alone: no other axis is so near to a float) a command is neither
+/// on it nor told from it by the arithmetic of the proof.
+bool is_beside_axis(double heading_rad) {
+  return heading_rad != 0.0 && std::abs(heading_rad) < 0x1p-52;
+}
+
 bool cell_valid(const Plan& plan, std::size_t i) {
   const double heading_rad = plan.heading_rad[i];
   const int region = static_cast<int>(plan.region[i]);
-  const bool heading_valid = heading_rad > -pi && heading_rad <= pi;
+  const bool heading_valid = heading_rad > -pi && heading_rad <= pi && !is_beside_axis(heading_rad);
   const bool may_lack_heading = plan.cost_m[i] == std::numeric_limits<float>::infinity() ||
                                 plan.region[i] == Region::obstacle;
   return plan.cost_m[i] >= 0.0F && region >= -1 && region <= 2 &&
@@ -89,6 +100,9 @@ std::string cell_defect(const Plan& plan, std::size_t i) {
   const int region = static_cast<int>(plan.region[i]);
   if (!std::isnan(heading_rad) && !(heading_rad > -pi && heading_rad <= pi)) {
     return fmt::format("heading_rad is {}, expected (-pi, pi] or NaN", heading_rad);
+  }
+  if (is_beside_axis(heading_rad)) {
+    return fmt::format("heading_rad is {}, expected 0 or at least 2^-52 from it", heading_rad);
   }
   if (!(cost_m >= 0.0F)) return fmt::format("cost_m is {}, expected >= 0 or infinity", cost_m);
   if (region < -1 || region > 2) {

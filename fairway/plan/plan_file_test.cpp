@@ -82,7 +82,7 @@ TEST(PlanFile, GivesBackWhatWasWrittenAndTheSameBytesAgain) {
 TEST(PlanFile, EdgesOfTheValueRangesPass) {
   Plan plan = random_plan(3, 2, 1);
   plan.heading_rad = {
-      Heading::stored(pi), Heading::stored(-pi + 1e-12), 0.0F, -0.0F, nan_f, 1e-40F};
+      Heading::stored(pi), Heading::stored(-pi + 1e-12), 0.0F, -0.0F, nan_f, 0x1p-52F};
   plan.cost_m = {0.0F, 1e-40F, 3e38F, infinity, infinity, 1.0F};
   plan.region = {Region::goal,     Region::free, Region::buffer,
                  Region::obstacle, Region::free, Region::free};
@@ -206,6 +206,12 @@ TEST(PlanFile, EveryFieldThatIsWrongIsRefusedByName) {
       {"fairway.cell_m", record("cell_m", nullptr)},
       {"cell_m", record("cell_m", 0.0)},
       {"cell_m", record("cell_m", -1.5)},
+      {"cell_m", record("cell_m", 1e-16)},
+      {"cell_m", record("cell_m", 1e300)},
+      {"origin_m", record("origin_m", {3e9, 0.0})},
+      {"turn_radius_m", record("vehicle", {{"speed_mps", 1.0}, {"turn_radius_m", 1e12}})},
+      {"speed_mps", record("vehicle", {{"speed_mps", 1e-16}, {"turn_radius_m", 5.0}})},
+      {"speed_mps", record("vehicle", {{"speed_mps", 1e300}, {"turn_radius_m", 5.0}})},
       {"turn_radius_m", record("cell_m", 5.0)},
       {"fairway.vehicle", record("vehicle", {{"speed_mps", 1.0}})},
       {"fairway.vehicle", record("vehicle", 1)},
@@ -215,6 +221,8 @@ TEST(PlanFile, EveryFieldThatIsWrongIsRefusedByName) {
       {"heading_rad is", poke("heading_rad", just_above_pi)},
       {"heading_rad is", poke("heading_rad", static_cast<float>(-pi))},
       {"heading_rad is", poke("heading_rad", infinity)},
+      {"heading_rad is", poke("heading_rad", 1e-45F)},
+      {"heading_rad is", poke("heading_rad", -1e-16F)},
       {"cost_m is", poke("cost_m", -1e-30F)},
       {"cost_m is", poke("cost_m", nan_f)},
       {"region is", poke("region", std::int8_t{3})},

@@ -1,10 +1,15 @@
 #include "fairway/plan/plan_of_field.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace fairway {
 
 Plan plan_of_field(Field&& field, const Vehicle& vehicle, PlanRecord record) {
+  // Nearer to 0 than a plan may say, a command is put on its axis.
+  for (float& heading_rad : field.heading_rad) {
+    if (heading_rad != 0.0F && std::abs(heading_rad) < 0x1p-52F) heading_rad = 0.0F;
+  }
   return {field.grid,
           vehicle,
           std::move(field.heading_rad),

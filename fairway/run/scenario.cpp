@@ -14,6 +14,7 @@
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/base/plain_text.hpp"
 #include "fairway/run/scenario_keys.hpp"
+#include "fairway/vehicle/size_range.hpp"
 
 namespace fairway {
 namespace {
@@ -107,12 +108,72 @@ void check(const Scenario& s) {
                                                     key.kind, key.meaning));
     }
   }
+  if (!size_range::holds(s.map.cell_m)) {
+    refuse(s, "map.cell_m", fmt::format("is {} m, expected 1e-15 to 1e15", s.map.cell_m));
+  }
+  if (!size_range::holds(s.vehicle.speed_mps)) {
+    refuse(s, "vehicle.speed_mps",
+           fmt::format("is {} m/s, expected 1e-15 to 1e15", s.vehicle.speed_mps));
+  }
+  if (s.vehicle.turn_radius_m > size_range::most_cells * s.map.cell_m) {
+    refuse(s, "vehicle.turn_radius_m",
+           fmt::format("is {} m, expected at most 1e9 cells of {} m", s.vehicle.turn_radius_m,
+                       s.map.cell_m));
+  }
   if (!(s.vehicle.turn_radius_m > s.map.cell_m)) {
     refuse(s, "vehicle.turn_radius_m",
            fmt::format("is {} m, expected more than map.cell_m, which is {} m",
                        s.vehicle.turn_radius_m, s.map.cell_m));
   }
   check_mission(s);
+}
+
+/// Past a TOML string that begins at `i`; of one that does not end, past its line.
+std::size_t past_string(std::string_view text, std::size_t i) {
+  const char quote = text[i];
+  const bool is_long = text.substr(i, 3) == std::string(3, quote);
+  const std::string end(is_long ? 3 : 1, quote);
+  for (i += end.size(); i < text.size(); ++i) {
+    if (text[i] == '\\' && quote == '"') {
+      ++i;
+    } else if (text.substr(i, end.size()) == end) {
+      i += end.size();
+      while (is_long && i < text.size() && text[i] == quote) ++i;  // up to two belong to it
+      return i;
+    } else if (text[i] == '\n' && !is_long) {
+      return i;
+    }
+  }
+  return text.size();
+}
+
+/// The parser makes a table of every part of a key and takes them down by recursion: a key of tens
+/// of thousands of parts would exhaust the stack.
+void require_short_keys(std::string_view text, const fs::path& file) {
+  constexpr int most_dots = 32;
+  int dots = 0;
+  int line = 1;
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      const std::size_t next = past_string(text, i);
+      line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
+                                          text.begin() + static_cast<std::ptrdiff_t>(next), '\n'));
+      i = next;
+      continue;
+    }
+    if (c == '#') {
+      i = std::min(text.find('\n', i), text.size());
+      continue;
+    }
+    line += c == '\n' ? 1 : 0;
+    dots = c == '.' ? dots + 1 : std::string_view("=,[]{}\n").find(c) < 7 ? 0 : dots;
+    if (dots > most_dots) {
+      throw InputError(fmt::format("{}:{}", file.string(), line),
+                       fmt::format("has a key of more than {} parts", most_dots));
+    }
+    ++i;
+  }
 }
 
 void root_paths(Scenario& s) {
@@ -134,6 +195,7 @@ Scenario scenario_of_text(std::string_view bytes, const fs::path& file) {
   scenario.file = file;
   scenario.sha256 = sha256_hex(std::as_bytes(std::span(bytes.data(), bytes.size())));
   const std::string text = plain_text(bytes, file.string());
+  require_short_keys(text, file);
   toml::table root;
   try {
     root = toml::parse(text, file.string());

@@ -86,6 +86,24 @@ TEST(Scenarios, AbsolutePathsStayAndPathMissionsNameTheirFile) {
   EXPECT_TRUE(s.mission.closed);
 }
 
+/// `.a` so many times.
+std::string dotted(int parts) {
+  std::string text;
+  for (int i = 0; i < parts; ++i) text += ".a";
+  return text;
+}
+
+TEST(Scenarios, DotsInStringsCommentsAndNumbersAreNoParts) {
+  const std::string dots(100, '.');
+  EXPECT_EQ(refusal(whole + "# don't " + dots + "\n"), "accepted");
+  std::string states = "states = [";
+  for (int i = 0; i < 100; ++i) states += "[1.5, 2.5, 0.5], ";
+  EXPECT_EQ(refusal(with("states = [[10.0, 20, 0.0], [1, 2, 3]]", states + "]")), "accepted");
+  const std::string message = refusal(with("seed = 7", "seed = \"\"\"\n" + dots + "\"\"\""));
+  EXPECT_TRUE(message.find("simulate.seed: expected a whole number") != std::string::npos)
+      << message;
+}
+
 TEST(Scenarios, RefusalsNameLineKeyAndWhatIsExpected) {
   const struct {
     std::string text;
@@ -133,6 +151,12 @@ TEST(Scenarios, RefusalsNameLineKeyAndWhatIsExpected) {
        "dir/s.toml:10: mission.goal_deg: expected"},
       {with("goal_m = [120.0, 340.0]", "goal_m = [120.0, 340.0"), "dir/s.toml:11: is not TOML: "},
       {with("seed = 7", "seed = 7\nseed = 8"), "dir/s.toml:17: is not TOML: "},
+      {with("seed = 7", "seed = 7\n[a" + dotted(50000) + "]"),
+       "dir/s.toml:17: has a key of more than 32 parts"},
+      {with("seed = 7", "a" + dotted(33) + " = 1"),
+       "dir/s.toml:16: has a key of more than 32 parts"},
+      {with("seed = 7", "x = {\"a.b\"" + dotted(40) + " = 1}"),
+       "dir/s.toml:16: has a key of more than 32 parts"},
       {"map = 3\n" + whole.substr(whole.find("[vehicle]")),
        "dir/s.toml:1: map: expected a table, [map]"},
       {"", "dir/s.toml: map.file is missing"},

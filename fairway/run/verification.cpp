@@ -16,10 +16,12 @@
 #include "fairway/bitmap/bitmap_backward.hpp"
 #include "fairway/bitmap/bitmap_volume.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/certificate/proof_identity.hpp"
 #include "fairway/run/verification_summary.hpp"
 #include "fairway/run/version.hpp"
 #include "fairway/simulate/flight.hpp"
 #include "fairway/verify/images.hpp"
+#include "fairway/verify/reprove.hpp"
 
 namespace fairway {
 namespace {
@@ -65,16 +67,23 @@ json evidence_of(const CertifyOptions& options, const Certified& outcome) {
           {"stopped_by", name_of(outcome.stopped_by)}};
 }
 
-void require_same(const Certificate& earlier, const Certificate& now, const std::string& where) {
-  if (earlier.plan != now.plan || earlier.kind != now.kind) {
-    throw InputError(where, "is not a certificate of this plan and region: nothing to go on from");
+/// What an earlier certificate has of the same proof, proved again.
+SectionVerdicts taken_over(EarlierProof&& earlier, const Certificate& now, int most_crossings) {
+  Certificate& certificate = earlier.certificate;
+  if (proof_identity(certificate) != proof_identity(now)) {
+    throw InputError(earlier.where,
+                     "belongs to a different plan, vehicle or region; cannot resume from it");
   }
+  if (!sections_fit(now.flow(), certificate.sections)) {
+    throw InputError(earlier.where, "has leaves where there are none; cannot resume from it");
+  }
+  return reproved(now.flow(), std::move(certificate.sections), most_crossings);
 }
 
 }  // namespace
 
 Verification verify_plan(const Plan& plan, const std::string& where, const RegionOfInterest& region,
-                         const CertifyOptions& options, std::optional<Certificate> earlier,
+                         const CertifyOptions& options, std::optional<EarlierProof> earlier,
                          const CertifyProgress& progress) {
   if (!(plan.grid.cell_m < plan.vehicle.turn_radius_m)) {
     throw InputError(where, fmt::format("its cells of {:g} m are not smaller than the turning "
@@ -95,8 +104,7 @@ Verification verify_plan(const Plan& plan, const std::string& where, const Regio
   for (std::size_t i = 0; i < is_free.size(); ++i) is_free[i] = plan.region[i] == Region::free;
   SectionVerdicts start;
   if (earlier) {
-    require_same(*earlier, c, where);
-    start = std::move(earlier->sections);
+    start = taken_over(std::move(*earlier), c, options.most_crossings);
   }
   made.outcome = certify(c.flow(), is_free, options, std::move(start), progress);
   c.sections = std::move(made.outcome.sections);

@@ -22,13 +22,20 @@ struct Verification {
   Certified outcome;  ///< but for its sections, which the certificate has
 };
 
-/// Proves what flights under `plan` do. `earlier`: a certificate of the same plan and region to go
-/// on from; throws InputError{where, ...} when it is of another one. Throws InputError when the
-/// plan cannot be verified, in words.
+/// A certificate to go on from; `where` names it in errors.
+struct EarlierProof {
+  Certificate certificate;
+  std::string where;
+};
+
+/// Proves what flights under `plan` do. `earlier`: a certificate of the same proof
+/// (proof_identity.hpp) to go on from, whose leaves are proved again before they count; throws
+/// InputError{earlier->where, ...} when it is of another one. Throws InputError when the plan
+/// cannot be verified, in words.
 [[nodiscard]] Verification verify_plan(const Plan& plan, const std::string& where,
                                        const RegionOfInterest& region,
                                        const CertifyOptions& options,
-                                       std::optional<Certificate> earlier = {},
+                                       std::optional<EarlierProof> earlier = {},
                                        const CertifyProgress& progress = {});
 
 /// A state whose verdict is not `reach`.

@@ -53,6 +53,9 @@ TEST(StateFiles, SaysWhereAndWhatIsWrong) {
   EXPECT_THAT(refusal_of("1,2,3\n\n1,two,3\n"), HasSubstr("s.csv:3: y_m is 'two': expected"));
   EXPECT_THAT(refusal_of("1,2,nan\n"), HasSubstr("s.csv:1: heading_rad is 'nan': expected"));
   EXPECT_THAT(refusal_of("1,inf,0\n"), HasSubstr("s.csv:1: y_m is 'inf'"));
+  EXPECT_THAT(refusal_of("1,2,90\n"), HasSubstr("did you mean 90deg?"));
+  EXPECT_THAT(refusal_of("1,2,-7.01\n"), HasSubstr("expected radians from -7 to 7"));
+  EXPECT_THAT(refusal_of("0,0,1e308\n"), testing::Not(HasSubstr("did you mean")));
   EXPECT_THAT(refusal_of("1,2,1rad\n"), HasSubstr("heading_rad is '1rad'"));
   EXPECT_THAT(refusal_of("1,2,deg\n"), HasSubstr("heading_rad is 'deg'"));
   EXPECT_THAT(refusal_of("1,2,3x\n"), HasSubstr("s.csv:1"));

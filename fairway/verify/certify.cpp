@@ -16,6 +16,7 @@ namespace fairway {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+constexpr std::size_t least_samples = 1000;  // a share of fewer says nothing
 
 /// The states that measure volumes: the same number in every cell that is neither obstacle nor
 /// target, one in each of equal slices of heading.
@@ -24,7 +25,7 @@ std::vector<Place> sampled_states(const Flow& flow, const CertifyOptions& option
   std::size_t cells = 0;
   for (std::size_t c = 0; c < flow.grid.size(); ++c) cells += flow.kind[c] == CellKind::ordinary;
   if (cells == 0) return states;
-  const std::size_t each = std::max<std::size_t>(1, options.samples / cells);
+  const std::size_t each = std::max(options.samples / cells, (least_samples + cells - 1) / cells);
   states.reserve(each * cells);
   for (std::size_t c = 0; c < flow.grid.size(); ++c) {
     if (flow.kind[c] != CellKind::ordinary) continue;

@@ -23,7 +23,8 @@ struct CertifyOptions {
   double undecided_max = 0.005;        ///< of the configuration volume; stop there, [0, 1]
   double time_limit_s = 0.0;           ///< 0: none
   std::size_t memory_limit_bytes = 0;  ///< 0: none
-  std::size_t samples = 1000000;       ///< states that measure the volumes, at least one a cell
+  std::size_t samples =
+      1000000;  ///< states that measure the volumes; at least 1000, and one a cell
   std::uint64_t seed = 1;
   int most_crossings = usual_most_crossings;  ///< of borders, in one flight to the section
   int first_level = 2;                        ///< a section begins as 2^first_level leaves

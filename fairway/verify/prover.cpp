@@ -73,11 +73,11 @@ void Prover::conclude(const std::vector<Id>& round, const std::vector<Finding>& 
   std::vector<Id> halves;
   for (std::size_t k = 0; k < round.size(); ++k) {
     const Verdict verdict = findings[k].found.only();
+    const float time_s = std::nextafter(static_cast<float>(findings[k].found.time_s), infinite);
     if (findings[k].cut) {
       halves.insert(halves.end(), {round[k], graph_.cut(round[k])});
-    } else if (verdict != Verdict::undecided && verdict != Verdict::trapped) {
-      const float time_s = std::nextafter(static_cast<float>(findings[k].found.time_s), infinite);
-      graph_.decide(round[k], verdict, rank_, time_s);
+    } else if (verdict != Verdict::undecided && verdict != Verdict::trapped && time_s < infinite) {
+      graph_.decide(round[k], verdict, rank_, time_s);  // in a time that a float can say
     }
   }
   for (const Id id : round) {

@@ -11,6 +11,7 @@
 
 #include "fairway/base/grid.hpp"
 #include "fairway/base/interval.hpp"
+#include "fairway/vehicle/size_range.hpp"
 #include "fairway/vehicle/vehicle.hpp"
 #include "fairway/verify/verdict.hpp"
 
@@ -32,9 +33,10 @@ struct Geometry {
             vehicle.speed_mps, units_per_side};
   }
   bool is_valid() const {
-    return std::isfinite(x0_m) && std::isfinite(y0_m) && std::isfinite(turn_radius_m) &&
-           std::isfinite(speed_mps) && cell_m > 0.0 && turn_radius_m > cell_m && speed_mps > 0.0 &&
-           units == units_per_side;
+    Grid grid;
+    Vehicle vehicle;
+    put_into(grid, vehicle);
+    return size_range::holds(grid, vehicle) && units == units_per_side;
   }
   void put_into(Grid& grid, Vehicle& vehicle) const {
     grid.x0_m = x0_m;

@@ -5,6 +5,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/certificate/proof_identity.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/run/final_legs.hpp"
 #include "fairway/run/path_segments.hpp"
@@ -55,8 +56,10 @@ LiveEngine::LiveEngine(const fs::path& folder)
   if (!fs::exists(file)) return;
   // Once as a whole, which checks digests; the answers then come from the file's own bytes, read
   // rather than mapped: what becomes of the file while the page is open is then no matter.
-  if (read_certificate(file).plan != plan_digests(plan_)) {
-    throw InputError(file.string(), "is the certificate of another plan than plan.safetensors");
+  const Certificate whole = read_certificate(file);
+  if (proof_identity(whole) != proof_identity(plan_, whole.region_of_interest)) {
+    throw InputError(file.string(),
+                     "is the certificate of another plan or vehicle than plan.safetensors");
   }
   file_ = std::make_unique<LoadedFile>(file);
   if (certificate_.open(file_->bytes().data(), file_->bytes().size()) != runtime::Status::ok) {

@@ -489,6 +489,18 @@ TEST(LiveEngine, RefusesACertificateOfAnotherPlan) {
   EXPECT_THROW(LiveEngine{place}, InputError);
 }
 
+TEST(LiveEngine, RefusesTheCertificateOfAnotherVehicle) {
+  for (const bool radius : {false, true}) {
+    const ScratchFolder folder;
+    const fs::path place(folder.file(""));
+    Plan plan = island();
+    write_certificate(certificate_of(plan), place / "certificate.safetensors", Existing::keep);
+    (radius ? plan.vehicle.turn_radius_m : plan.vehicle.speed_mps) *= 1.5;  // the same arrays
+    write_plan(plan, place / "plan.safetensors", Existing::keep);
+    EXPECT_THROW(LiveEngine{place}, InputError);
+  }
+}
+
 TEST(LiveEngine, GivesFlightsWithoutVerdictsWhereNothingWasProved) {
   const ScratchFolder folder;
   const fs::path place(folder.file(""));

@@ -94,7 +94,7 @@ def test_a_certificate_of_another_plan_is_refused(plan, certificate, tmp_path):
         fairway.check(tmp_path / "text")
     with pytest.raises(ValueError, match="text"):
         fairway.load_certificate(tmp_path / "text")
-    with pytest.raises(ValueError, match="nothing to go on from"):
+    with pytest.raises(ValueError, match="cannot resume from it"):
         fairway.verify(plan, resume=certificate)
 
 

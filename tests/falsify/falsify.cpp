@@ -2,7 +2,10 @@
 // contradicts. None is expected; docs/trust.md.
 //
 //   fairway-falsify [PLAN.safetensors ...] [--random-plans N] [--states N] [--seed S]
-//                   [--undecided-max F] [--time-limit S] [--last-level L]
+//                   [--undecided-max F] [--time-limit S] [--last-level L] [--odd-plans N]
+//
+// --odd-plans: so many plans at the edges of what a plan may be are certified, measured with few
+// and with many samples, and checked: whatever verify makes, fairway-check accepts.
 //
 // Half of the states of a plan are drawn at random, degenerate ones among them; half lie where the
 // verdict or the flight's outcome changes, found by halving the way between two states. What
@@ -14,12 +17,17 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include <unistd.h>
+
 #include <fmt/core.h>
 
+#include "check/proof.hpp"
+#include "check/testing/sample_certificate.hpp"
 #include "fairway/base/random.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/simulate/exact_flight.hpp"
@@ -35,6 +43,7 @@ namespace {
 struct Settings {
   std::vector<std::string> plans;
   std::uint64_t random_plans = 0;
+  std::uint64_t odd_plans = 0;
   std::size_t states = 100000;
   std::uint64_t seed = 1;
   CertifyOptions certify;
@@ -388,6 +397,8 @@ Settings settings_of(int argc, char** argv) {
     const auto whole = static_cast<std::uint64_t>(number);
     if (word == "--random-plans") {
       settings.random_plans = whole;
+    } else if (word == "--odd-plans") {
+      settings.odd_plans = whole;
     } else if (word == "--states") {
       settings.states = whole;
     } else if (word == "--seed") {
@@ -406,6 +417,34 @@ Settings settings_of(int argc, char** argv) {
   return settings;
 }
 
+/// How many certificates of odd plans the checker refuses.
+std::size_t refused_odd_plans(const Settings& settings) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() /
+                                     fmt::format("fairway-falsify-{}.safetensors", ::getpid());
+  std::size_t refused = 0;
+  for (std::uint64_t k = 0; k < settings.odd_plans; ++k) {
+    const std::uint64_t number = 1000003 * settings.seed + k;
+    CertifyOptions options = settings.certify;
+    options.samples = k % 2 == 0 ? 1 : 20000;
+    options.seed = number;
+    options.last_level = std::min(options.last_level, 4 + static_cast<int>(k % 6));
+    std::string why;
+    try {
+      fairway_check::write_sample(odd_plan(number), file, options);
+      nlohmann::ordered_json report;
+      why = fairway_check::judge(file, "", 20000, report);
+    } catch (const std::exception& error) {
+      why = error.what();
+    }
+    if (why.empty()) continue;
+    ++refused;
+    fmt::print("REFUSED odd plan {}: {}\n", number, why);
+  }
+  std::filesystem::remove(file);
+  if (settings.odd_plans > 0) fmt::print("{} odd plans, {} refused\n", settings.odd_plans, refused);
+  return refused;
+}
+
 int falsify(int argc, char** argv) {
   const Settings settings = settings_of(argc, argv);
   Totals totals;
@@ -417,8 +456,9 @@ int falsify(int argc, char** argv) {
     const Plan plan = random_plan(number);
     totals.add(Falsifier(fmt::format("random plan {}", number), plan, settings).run());
   }
+  const std::size_t refused = refused_odd_plans(settings);
   fmt::print("in all: {}\n", totals.line());
-  return totals.contradictions + totals.late == 0 ? 0 : 1;
+  return totals.contradictions + totals.late + refused == 0 ? 0 : 1;
 }
 
 }  // namespace

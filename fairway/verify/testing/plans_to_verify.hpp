@@ -101,4 +101,54 @@ inline Plan random_plan(std::uint64_t seed) {
   return plan;
 }
 
+/// Random plan number `seed` at the edges of what a plan may be: one to ten cells a side, sizes to
+/// the ends of their range, commands on axes, next to them by as little as a plan may, and
+/// exactly opposite to their neighbours'.
+inline Plan odd_plan(std::uint64_t seed) {
+  Random random = Random::stream(0x0dd, seed);
+  const auto one_of = [&random](const auto& values) { return values[random.below(values.size())]; };
+  static constexpr std::array<double, 10> cells{1.0,  1.0, 1.0,   8.0,  0.1,
+                                                1e-6, 1e6, 1e-15, 1e15, 3.0};
+  static constexpr std::array<double, 10> radii{1.0 + 0x1p-52, 1.000001, 1.01, 1.1, 1.5,
+                                                2.0,           2.5,      10.0, 1e4, 1e9};
+  static constexpr std::array<double, 6> speeds{10.0, 10.0, 1.0, 0.3, 1e-15, 1e15};
+  static constexpr std::array<double, 6> axes{0.0,       1.5707963,  -1.5707963,
+                                              3.1415925, -3.1415925, 0.78539816};
+  const int nx = 1 + static_cast<int>(random.below(10));
+  const int ny = 1 + static_cast<int>(random.below(10));
+  const double cell_m = one_of(cells);
+  Plan plan = empty_plan(nx, ny, cell_m, one_of(radii) * cell_m);
+  plan.vehicle.speed_mps = one_of(speeds);
+  if (random.below(3) == 0) {
+    const double far_m = std::min(1e15, 1e9 * cell_m);
+    const double near_m = std::min(far_m, 1e3 * cell_m);
+    plan.grid.x0_m = random.below(2) == 0 ? far_m : random.uniform(-near_m, near_m);
+    plan.grid.y0_m = random.below(2) == 0 ? -far_m : random.uniform(-near_m, near_m);
+  }
+  const std::uint64_t style = random.below(6);
+  const double one = random.uniform(-pi, pi);
+  for (std::size_t i = 0; i < plan.grid.size(); ++i) {
+    const double sign = random.below(2) == 0 ? 1.0 : -1.0;
+    const double tiny = sign * std::pow(10.0, random.uniform(-15.65, -6.0));
+    const Cell c = plan.grid.cell_at(i);
+    const double weave = (2 * c.iy > ny ? -1.0 : 1.0) * std::pow(10.0, random.uniform(-8.0, -1.0));
+    const std::array<double, 6> commands{
+        tiny,
+        one_of(axes),
+        (c.ix + c.iy) % 2 == 0 ? one : Heading::from_rad(one + pi).rad(),
+        weave,
+        random.uniform(-pi, pi),
+        random.below(2) == 0 ? tiny : one_of(axes)};
+    plan.heading_rad[i] = Heading::stored(commands[random.below(4) == 0 ? random.below(6) : style]);
+    if (random.below(12) == 0) plan.heading_rad[i] = std::numeric_limits<float>::quiet_NaN();
+    if (std::isnan(plan.heading_rad[i])) plan.cost_m[i] = std::numeric_limits<float>::infinity();
+    const std::uint64_t draw = random.below(16);
+    plan.region[i] = draw == 0   ? Region::goal
+                     : draw == 1 ? Region::obstacle
+                     : draw < 5  ? Region::buffer
+                                 : Region::free;
+  }
+  return plan;
+}
+
 }  // namespace fairway

@@ -1,0 +1,35 @@
+#include "fairway/certificate/proof_identity.hpp"
+
+#include <span>
+
+#include <nlohmann/json.hpp>
+
+#include "fairway/base/digest.hpp"
+#include "fairway/base/frame_json.hpp"
+
+namespace fairway {
+namespace {
+
+std::string identity(const Grid& grid, const Vehicle& vehicle, const std::optional<Frame>& frame,
+                     const RegionOfInterest& region, const PlanDigests& arrays) {
+  const nlohmann::json all = {
+      {"cells", {grid.nx, grid.ny}},
+      {"geometry", {grid.x0_m, grid.y0_m, grid.cell_m, vehicle.turn_radius_m, vehicle.speed_mps}},
+      {"frame", json_of(frame.value_or(Frame{}))},
+      {"region_of_interest", {static_cast<int>(region.kind), region.rectangle_m}},
+      {"arrays", {arrays.heading_rad, arrays.cost_m, arrays.region}}};
+  const std::string text = all.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  return sha256_hex(std::as_bytes(std::span(text)));
+}
+
+}  // namespace
+
+std::string proof_identity(const Certificate& c) {
+  return identity(c.grid, c.vehicle, c.frame, c.region_of_interest, c.plan);
+}
+
+std::string proof_identity(const Plan& plan, const RegionOfInterest& region) {
+  return identity(plan.grid, plan.vehicle, plan.record.frame, region, plan_digests(plan));
+}
+
+}  // namespace fairway
