@@ -88,6 +88,8 @@ class Inputs(Files):
         self.expect(0, "verify", "p", "-o", "c", "--volume-samples", "1000")
         os.symlink("p", self.folder / "soft")
         os.link(self.folder / "p", self.folder / "hard")
+        os.link(self.folder / "p", self.folder / "p.tif")
+        os.link(self.folder / "c", self.folder / "c.tif")
         (self.folder / "pictures").mkdir()
         os.link(self.folder / "p", self.folder / "pictures/proved.png")
         before = self.content()
@@ -98,7 +100,7 @@ class Inputs(Files):
                       ("verify", "p", "-o", "d", "--summary", "p"), ("verify", "p", "-o", "d", "--failures", "p"),
                       ("verify", "p", "-o", "c", "--resume", "c"),
                       ("verify", "p", "-o", "d", "--pictures", "pictures"),
-                      ("export", "p", "-o", "p"), ("export", "c", "-o", "c"),
+                      ("export", "p", "-o", "p.tif"), ("export", "c", "-o", "c.tif"),
                       ("simulate", "p", "--state", "20,20,0", "--outcomes", "p"),
                       ("simulate", "p", "--state", "20,20,0", "--csv", "hard"),
                       ("simulate", "p", "--states", "states.csv", "--outcomes", "states.csv"),
