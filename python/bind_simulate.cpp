@@ -102,7 +102,7 @@ void in_batches(Flights& flights, const FlyBatch& fly) {
 std::shared_ptr<Flights> fly(const std::shared_ptr<HeldPlan>& plan, const py::object& states) {
   auto flown = std::make_shared<Flights>();
   flown->plan = plan;
-  flown->starts = states_of(states, "states");
+  flown->starts = starts_of(states, "states");
   in_batches(*flown, [&](std::size_t begin, std::size_t end) {
     const auto part = plan->flights().fly_all(std::span(flown->starts).subspan(begin, end - begin));
     std::copy(part.begin(), part.end(), flown->results.begin() + static_cast<long>(begin));
@@ -143,7 +143,7 @@ std::shared_ptr<Flights> fly_sampled(const std::shared_ptr<HeldPlan>& plan,
                                      double gust_time_s, double time_limit_s, std::uint64_t seed) {
   auto flown = std::make_shared<Flights>();
   flown->plan = plan;
-  flown->starts = states_of(states, "states");
+  flown->starts = starts_of(states, "states");
   SampledOptions options;
   options.law = law_of(law, gain_per_s);
   options.control_period_s = control_period_s;
