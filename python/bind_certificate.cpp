@@ -31,7 +31,7 @@ namespace {
 using namespace pybind11::literals;
 
 py::tuple query(const HeldCertificate& held, const py::object& rows) {
-  const std::vector<State> states = states_of(rows, "states");
+  const std::vector<State> states = starts_of(rows, "states");
   std::vector<std::int8_t> verdict(states.size());
   std::vector<double> time_s(states.size());
   {

@@ -102,32 +102,31 @@ Progress progress_of(const py::object& callback) {
   };
 }
 
-namespace {
-
-State checked_state(double x_m, double y_m, double heading_rad, const char* name) {
-  if (std::abs(heading_rad) > most_heading_rad) {
-    throw py::value_error(fmt::format(
-        "{}: heading_rad is {}, expected radians from -7 to 7 (math.radians of degrees)", name,
-        heading_rad));
-  }
-  return {{x_m, y_m}, Heading::from_rad(heading_rad)};
-}
-
-}  // namespace
-
 std::vector<State> states_of(const py::object& rows, const char* name) {
   const Doubles array = rows_of(rows, name, 3, "x_m, y_m, heading_rad");
   std::vector<State> states(static_cast<std::size_t>(array.shape(0)));
   const double* x = array.data();
   for (std::size_t i = 0; i < states.size(); ++i) {
-    states[i] = checked_state(x[3 * i], x[3 * i + 1], x[3 * i + 2], name);
+    states[i] = {{x[3 * i], x[3 * i + 1]}, Heading::from_rad(x[3 * i + 2])};
   }
   return states;
 }
 
+std::vector<State> starts_of(const py::object& rows, const char* name) {
+  const Doubles array = rows_of(rows, name, 3, "x_m, y_m, heading_rad");
+  for (py::ssize_t i = 0; i < array.shape(0); ++i) {
+    const double heading_rad = array.data()[3 * i + 2];
+    if (std::abs(heading_rad) <= most_heading_rad) continue;
+    throw py::value_error(fmt::format(
+        "{}: heading_rad is {}, expected radians from -7 to 7 (math.radians of degrees)", name,
+        heading_rad));
+  }
+  return states_of(array, name);
+}
+
 State state_of(const py::object& row, const char* name) {
   const Doubles x = row_of(row, name, 3, "x_m, y_m, heading_rad");
-  return checked_state(x.at(0), x.at(1), x.at(2), name);
+  return {{x.at(0), x.at(1)}, Heading::from_rad(x.at(2))};
 }
 
 std::vector<Vec2> points_of(const py::object& rows, const char* name) {

@@ -67,6 +67,8 @@ void raise_on_signal();
 
 /// Rows x_m, y_m, heading_rad. TypeError or ValueError say what is expected instead.
 [[nodiscard]] std::vector<State> states_of(const py::object& rows, const char* name);
+/// The same of states to fly or to ask about: their headings are from -7 to 7, as in files of them.
+[[nodiscard]] std::vector<State> starts_of(const py::object& rows, const char* name);
 /// One row.
 [[nodiscard]] State state_of(const py::object& row, const char* name);
 /// Rows x_m, y_m.

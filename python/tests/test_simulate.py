@@ -52,11 +52,16 @@ def test_a_straight_flight_takes_the_time_it_should():
 def test_headings_are_wrapped_and_starts_of_any_layout_are_the_same(plan):
     starts = plan.random_starts(40, seed=2)
     flights = plan.fly(starts)
-    turned = starts + [0.0, 0.0, 4 * math.pi]
+    turned = starts - 2 * math.pi * np.sign(starts) * [0, 0, 1]
     assert np.all(np.abs(plan.fly(turned).start[:, 2]) <= math.pi)
     np.testing.assert_allclose(plan.fly(turned).time_s, flights.time_s, rtol=1e-6)
     for same in (np.asfortranarray(starts), starts.tolist(), np.repeat(starts, 2, axis=0)[::2]):
         assert np.array_equal(plan.fly(same).time_s, flights.time_s)
+
+
+def test_degrees_in_the_place_of_radians_are_refused(plan):
+    with pytest.raises(ValueError, match="heading_rad is 90"):
+        plan.fly([[0.0, 0.0, 90.0]])
 
 
 def test_no_flights_are_no_error(plan):
