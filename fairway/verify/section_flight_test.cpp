@@ -147,6 +147,32 @@ TEST(SectionFlight, HopsMoveEveryPlaceByTheSameDistance) {
   EXPECT_GT(hops, 60);
 }
 
+/// Lemma 5: the place where a wave begins plays no part in how far it goes.
+TEST(SectionFlight, WavesMoveEveryPlaceByFourRadiiTimesTheSineOfTheirAngle) {
+  Random random(9);
+  for (int i = 0; i < 300; ++i) {
+    const double r = random.uniform(1.05, 20.0);
+    const double angle = std::exp(random.uniform(-12.0, -4.0)) / r;
+    const WideCell<Wide> cell(1.0, r);
+    const WideVec<Wide> up = wide_unit<Wide>(random.uniform(0.5, 1.4));     // of the cell below
+    const WideVec<Wide> down = wide_unit<Wide>(-random.uniform(0.5, 1.4));  // of the cell above
+    WideVec<Wide> p{Wide(random.uniform(0.01, 0.6)), Wide(0)};
+    WideVec<Wide> u = wide_unit<Wide>(angle);
+    const Wide move = Wide(4.0 * r) * u.y;
+    for (int wave = 0; wave < 3; ++wave) {
+      const Wide begin = p.x;
+      const auto above = cell.turning(p, u, down, -1).first();
+      ASSERT_EQ(above.side, Side::bottom);
+      const WideVec<Wide> over{above.p.x, Wide(1)};
+      const auto below = cell.turning(over, above.u, up, +1).first();
+      ASSERT_EQ(below.side, Side::top);
+      p = {below.p.x, Wide(0)};
+      u = below.u;
+      ASSERT_LT(abs(p.x - begin - move), Wide(1e-50)) << r << " " << angle;
+    }
+  }
+}
+
 TEST(SectionFlight, LeapsOverWavesToWhereFlyingThemOneByOneComes) {
   Random random(3);
   int leapt = 0;
