@@ -114,6 +114,9 @@ class Certificate {
     for (std::size_t c = 0; c < cells; ++c) {
       if (static_cast<std::uint8_t>(flow_.kind[c]) > 2) return Status::misfit;
     }
+    for (std::size_t k = 0; k < leaves; ++k) {
+      if (sections_.verdict[k] >= verdict_count) return Status::misfit;
+    }
     opened_ = true;
     return Status::ok;
   }

@@ -226,6 +226,9 @@ Certificate certificate_of_bytes(std::span<const std::byte> bytes, const std::st
     throw InputError(where + ": \"cell_kind\"", "does not follow from region");
   }
   c.plan = plan_digests_of(member(record, "plan_sha256", place), place + ".plan_sha256");
+  if (c.plan.heading_rad != found["heading_rad"] || c.plan.region != found["region"]) {
+    throw InputError(place + ".plan_sha256", "heading_rad and region are not those of that plan");
+  }
   if (const auto frame = record.find("frame"); frame != record.end() && !frame->is_null()) {
     c.frame = frame_of(*frame, place + ".frame");
   }

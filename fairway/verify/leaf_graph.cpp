@@ -48,6 +48,7 @@ class ChangedCells {
 
 LeafGraph::LeafGraph(const SectionVerdicts& start, Keep keep)
     : keep_(keep), on_section_(start.first.size() - 1), dependents_(start.first.size() - 1) {
+  require(start.first.size() < none, "there are fewer than 2^32 sections");
   leaf_.reserve(start.leaves());
   for (std::size_t s = 0; s + 1 < start.first.size(); ++s) {
     for (std::size_t i = start.first[s]; i < start.first[s + 1]; ++i) {
@@ -65,6 +66,7 @@ LeafGraph::Id LeafGraph::add_leaf(std::size_t section, UnitRange range) {
   Leaf leaf;
   leaf.section = static_cast<std::uint32_t>(section);
   leaf.range = range;
+  require(leaf_.size() < none, "there are fewer than 2^32 leaves");
   leaf_.push_back(leaf);
   ++leaf_count_;
   ++open_count_;
@@ -83,6 +85,7 @@ std::uint32_t LeafGraph::room_for(std::uint32_t count) {
     free_[count].pop_back();
     return first;
   }
+  require(link_.size() + count < none, "there are fewer than 2^32 links");
   const auto first = static_cast<std::uint32_t>(link_.size());
   link_.resize(link_.size() + count);
   return first;
@@ -123,6 +126,7 @@ void LeafGraph::set_image(Id id, const Image& image) {
 }
 
 void LeafGraph::decide(Id id, Verdict verdict, std::uint32_t rank, float time_s) {
+  require(is_open(id), "a leaf that is decided was open");
   Leaf& leaf = leaf_[id];
   leaf.verdict = verdict;
   leaf.rank = rank;
@@ -132,6 +136,7 @@ void LeafGraph::decide(Id id, Verdict verdict, std::uint32_t rank, float time_s)
 }
 
 LeafGraph::Id LeafGraph::cut(Id id) {
+  require(is_open(id), "a leaf that is cut was open");
   free_links(id);
   const UnitRange range = leaf_[id].range;
   const auto half = static_cast<std::uint32_t>(std::ceil(0.5 * width_of(range)));

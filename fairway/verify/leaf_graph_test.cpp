@@ -243,5 +243,64 @@ TEST(LeafGraph, AfterAnInvalidationProvesWhatAProofFromNothingProves) {
   EXPECT_GT(kept, 5000U);
 }
 
+/// A corridor of cells that all head east, to a goal at its end.
+Plan corridor() {
+  Plan plan = empty_plan(24, 3, 1.0, 3.0);
+  for (int iy = 0; iy < 3; ++iy) plan.region[plan.grid.index({23, iy})] = Region::goal;
+  return plan;
+}
+
+TEST(LeafGraph, AnInvalidationReachesLeavesThatWereDecidedWhenItBegan) {
+  const Plan plan = corridor();
+  PlanFlow owner(plan);
+  const Flow flow = owner.flow();
+  Prover first(flow, undecided_sections(flow, 2), most_crossings, always);
+  first.settle(0x1p26);
+  // Going on from what is decided, with an obstacle ahead, seven cells from the leaves asked about.
+  Prover prover(flow, first.graph().sections(), most_crossings, always, LeafGraph::Keep::all_links);
+  std::vector<bool> changed(plan.grid.size(), false);
+  for (int iy = 0; iy < 3; ++iy) {
+    changed[plan.grid.index({15, iy})] = true;
+    owner.kind[plan.grid.index({15, iy})] = CellKind::obstacle;
+  }
+  prover.invalidate(changed);
+  prover.settle(0x1p26);
+  std::size_t before_it = 0;
+  const std::size_t section = section_of(plan.grid.index({8, 1}), Side::right);
+  prover.graph().for_leaves(section, whole, [&](Id id) {
+    EXPECT_EQ(prover.graph().verdict(id), Verdict::collide);
+    ++before_it;
+  });
+  EXPECT_GT(before_it, 0U);
+}
+
+TEST(LeafGraph, MayBeInvalidatedAtAnyMoment) {
+  const Plan plan = corridor();
+  PlanFlow owner(plan);
+  const Flow flow = owner.flow();
+  bool go_on = true;
+  Prover prover(
+      flow, undecided_sections(flow, 2), most_crossings, [&] { return go_on; },
+      LeafGraph::Keep::all_links);
+  const auto put = [&](int ix, CellKind kind) {
+    std::vector<bool> changed(plan.grid.size(), false);
+    changed[plan.grid.index({ix, 1})] = true;
+    owner.kind[plan.grid.index({ix, 1})] = kind;
+    prover.invalidate(changed);
+  };
+  put(10, CellKind::obstacle);  // before anything was looked at
+  put(11, CellKind::obstacle);  // twice
+  go_on = false;
+  EXPECT_FALSE(prover.settle(0x1p26));
+  put(12, CellKind::obstacle);  // after a stop
+  put(10, CellKind::ordinary);
+  go_on = true;
+  EXPECT_TRUE(prover.settle(0x1p26));
+  for (std::size_t s = 0; s < 4 * plan.grid.size(); ++s) {
+    EXPECT_EQ(prover.graph().has_leaves(s), is_section(flow, s)) << s;
+  }
+  EXPECT_THROW(prover.invalidate({}), PreconditionViolation);
+}
+
 }  // namespace
 }  // namespace fairway

@@ -19,11 +19,11 @@ Prover::Prover(const Flow& flow, const SectionVerdicts& start, int most_crossing
       go_on_(std::move(go_on)),
       graph_(start, keep),
       rank_(graph_.highest_rank()) {
-  std::vector<Id> open;
+  std::vector<Id> unknown;  // decided ones too, where their links are to be kept
   for (Id id = 0; id < graph_.ids(); ++id) {
-    if (graph_.is_open(id)) open.push_back(id);
+    if (graph_.is_open(id) || keep == LeafGraph::Keep::all_links) unknown.push_back(id);
   }
-  fly(open);
+  fly(unknown);
 }
 
 void Prover::look_up(std::size_t section, UnitRange range, double flown_s,
@@ -41,7 +41,7 @@ void Prover::fly(const std::vector<Id>& ids) {
   const ImageStore images = leaf_images(flow_, places, most_crossings_, go_on_);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     graph_.set_image(ids[i], images[i]);
-    waiting_.add(ids[i]);
+    if (graph_.is_open(ids[i])) waiting_.add(ids[i]);
   }
 }
 
@@ -125,6 +125,7 @@ void Prover::prove_trapped() {
 }
 
 void Prover::invalidate(const std::vector<bool>& changed_cells) {
+  waiting_.take();  // some may be of no leaf any more; `settle` begins with all that are open
   fly(graph_.invalidate(flow_, changed_cells));
 }
 

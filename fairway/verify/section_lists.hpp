@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "fairway/base/error.hpp"
+
 namespace fairway {
 
 template <typename T>
@@ -56,6 +58,8 @@ class SectionLists {
     if (free_.size() <= power) free_.resize(power + std::size_t{1});
     std::uint32_t first = static_cast<std::uint32_t>(slot_.size());
     if (free_[power].empty()) {
+      require(slot_.size() + (std::size_t{1} << power) <= ~std::uint32_t{0},
+              "the lists together hold fewer than 2^32 entries");
       slot_.resize(slot_.size() + (std::size_t{1} << power));
     } else {
       first = free_[power].back();

@@ -3,7 +3,6 @@
 
 #include "fairway/verify/flow.hpp"
 #include "fairway/verify/section_verdicts.hpp"
-#include "fairway/verify/undecided_sections.hpp"
 
 namespace fairway {
 
