@@ -77,7 +77,7 @@ fs::path summary_place(const VerifyArguments& a) {
   return a.output.parent_path() / (a.output.stem().string() + ".summary.json");
 }
 
-int verify_command(VerifyArguments a, const Session& session) {
+int verify_command(const VerifyArguments& a, const Session& session) {
   const fs::path summary_file = summary_place(a);
   const Places inputs = files_of({a.plan, a.resume});
   require_places({a.output, summary_file, a.failures}, inputs, session.existing());
