@@ -1,12 +1,8 @@
 #include "fairway/base/atomic_file.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
-#include <charconv>
-#include <csignal>
 #include <cstring>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,11 +12,16 @@
 #include <unistd.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/unfinished.hpp"
 
 namespace fairway {
 namespace {
 
 namespace fs = std::filesystem;
+using unfinished::discard;
+using unfinished::forget;
+using unfinished::Lock;
+using unfinished::register_temporary;
 
 [[noreturn]] void fail(const fs::path& path, const char* what, int error) {
   throw InputError(path.string(), std::string(what) + ": " + std::strerror(error));
@@ -28,114 +29,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void refuse_existing(const fs::path& path) {
   throw InputError(path.string(), "exists already and is kept; --force replaces it");
-}
-
-struct Unfinished {
-  std::mutex mutex;
-  std::vector<fs::path> paths;
-};
-Unfinished& unfinished() {
-  static Unfinished places;
-  return places;
-}
-
-/// A lock on a file or folder that goes with its process, however that ends; with `wait`, once
-/// others have let go of it. Held while the object lives.
-class Lock {
- public:
-  Lock() = default;
-  Lock(const fs::path& path, bool wait) {
-    descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-    if (descriptor_ < 0) return;
-    int done = 0;
-    do done = ::flock(descriptor_, LOCK_EX | (wait ? 0 : LOCK_NB));
-    while (done != 0 && errno == EINTR);
-    held_ = done == 0;
-  }
-  ~Lock() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  Lock(const Lock&) = delete;
-  Lock& operator=(const Lock&) = delete;
-
-  bool held() const { return held_; }
-  int release() { return std::exchange(descriptor_, -1); }  ///< the descriptor that keeps it
-
- private:
-  int descriptor_ = -1;
-  bool held_ = false;
-};
-
-std::string partial_prefix(const fs::path& path) {
-  return "." + path.filename().string() + ".partial-";
-}
-
-/// The process that a name PREFIX-PID-N speaks of.
-std::optional<pid_t> owner_of(std::string_view name, std::string_view prefix) {
-  if (!name.starts_with(prefix)) return std::nullopt;
-  name.remove_prefix(prefix.size());
-  pid_t owner = 0;
-  unsigned number = 0;
-  const char* const end = name.data() + name.size();
-  const auto pid = std::from_chars(name.data(), end, owner);
-  if (pid.ec != std::errc() || owner <= 0 || pid.ptr == end || *pid.ptr != '-') return std::nullopt;
-  const auto count = std::from_chars(pid.ptr + 1, end, number);
-  if (count.ec != std::errc() || count.ptr != end) return std::nullopt;
-  return owner;
-}
-
-/// Removes what killed processes left beside `path` under its name. That nobody works on it any
-/// more is told by the process, which is gone, and by the lock, which is free: the number alone
-/// would mislead where another machine or container writes into the same folder.
-void sweep(const fs::path& path) {
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  const std::string prefix = partial_prefix(path);
-  std::error_code ignored;
-  std::vector<fs::path> left;
-  for (fs::directory_iterator it(folder, ignored), end; !ignored && it != end;
-       it.increment(ignored)) {
-    const std::string name = it->path().filename().string();
-    const std::optional<pid_t> owner = owner_of(name, prefix);
-    if (!owner) continue;
-    if (*owner == ::getpid()) {  // ours, or of a process that had our number
-      const std::scoped_lock lock(unfinished().mutex);
-      const auto& ours = unfinished().paths;
-      if (std::any_of(ours.begin(), ours.end(),
-                      [&](const fs::path& p) { return p.filename() == name; })) {
-        continue;
-      }
-    } else if (::kill(*owner, 0) == 0 || errno != ESRCH) {
-      continue;
-    }
-    left.push_back(folder / name);
-  }
-  for (const fs::path& partial : left) {
-    const Lock lock(partial, false);
-    if (lock.held()) fs::remove_all(partial, ignored);
-  }
-}
-
-/// A hidden name in the same folder, hence on the same file system: rename is then atomic.
-fs::path register_temporary(const fs::path& path) {
-  static std::atomic<unsigned> count{0};
-  sweep(path);
-  const std::string name =
-      partial_prefix(path) + std::to_string(::getpid()) + "-" + std::to_string(count++);
-  const fs::path temporary = path.parent_path() / name;
-  const std::scoped_lock lock(unfinished().mutex);
-  unfinished().paths.push_back(temporary);
-  return temporary;
-}
-
-void forget(const fs::path& temporary) {
-  const std::scoped_lock lock(unfinished().mutex);
-  std::erase(unfinished().paths, temporary);
-}
-
-void discard(const fs::path& temporary) noexcept {
-  std::error_code ignored;
-  fs::remove_all(temporary, ignored);
-  forget(temporary);
 }
 
 void flush_to_disk(const fs::path& path) {  // best effort: some file systems refuse
@@ -347,12 +240,6 @@ void AtomicFolder::move_products() {
     }
   }
   fs::remove(temporary_, error);
-}
-
-void remove_unfinished() noexcept {
-  const std::scoped_lock lock(unfinished().mutex);
-  std::error_code ignored;
-  for (const fs::path& path : unfinished().paths) fs::remove_all(path, ignored);
 }
 
 }  // namespace fairway
