@@ -23,6 +23,7 @@
 #include <limits>
 
 #include "fairway/base/tensor_header.hpp"
+#include "fairway/vehicle/bang_bang.hpp"
 #include "fairway/verify/flow.hpp"
 #include "fairway/verify/section_view.hpp"
 #include "fairway/verify/state_flight.hpp"
@@ -42,11 +43,7 @@ struct Answer {
   double time_bound_s = std::numeric_limits<double>::infinity();  ///< finite for `reach` alone
 };
 
-/// What the plan commands at a state.
-struct Command {
-  double heading_rad = std::numeric_limits<double>::quiet_NaN();  ///< NaN: none, fly straight
-  double turn_rate_radps = 0.0;  ///< bang-bang; positive to the left, 0 when aligned or none
-};
+using Command = HeadingCommand;
 
 class Certificate {
  public:
@@ -141,17 +138,8 @@ class Certificate {
 
   /// What to steer at a state; no command outside the grid.
   Command command(double x_m, double y_m, double heading_rad) const noexcept {
-    Command answer;
-    if (!is_near(x_m, y_m) || !std::isfinite(heading_rad)) return answer;
-    const Cell cell = flow_.grid.cell_of({x_m, y_m});
-    if (!flow_.grid.contains(cell)) return answer;
-    const double command_rad = static_cast<double>(flow_.heading_rad[flow_.grid.index(cell)]);
-    if (std::isnan(command_rad)) return answer;
-    answer.heading_rad = command_rad;
-    const double turn = std::remainder(command_rad - heading_rad, 2.0 * 3.14159265358979323846);
-    const double rate = flow_.vehicle.speed_mps / flow_.vehicle.turn_radius_m;
-    answer.turn_rate_radps = turn == 0.0 ? 0.0 : turn > 0.0 ? rate : -rate;
-    return answer;
+    if (!opened_) return {};
+    return bang_bang(flow_.grid, flow_.vehicle, flow_.heading_rad, x_m, y_m, heading_rad);
   }
 
   const Flow& flow() const noexcept { return flow_; }

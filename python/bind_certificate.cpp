@@ -130,8 +130,8 @@ py::object check(const std::filesystem::path& path, const py::object& plan) {
   if (run.exit_code == 0 || run.exit_code == 1) return python_of_json(run.output);
   if (run.exit_code == 127) {
     throw std::runtime_error(
-        "cannot run fairway-check: it is installed with fairway, expected on "
-        "the PATH");
+        "cannot run fairway-check: expected in the bin/ of the folder that fairway was installed "
+        "to, or on the PATH");
   }
   if (run.exit_code == 65) throw py::value_error(run.output);
   throw std::runtime_error(run.output);
@@ -155,6 +155,14 @@ states  float64 [n, 3]: x_m, y_m, heading_rad
 
 Returns (verdict int8 [n], time_bound_s float64 [n]): codes of Verdict; seconds within
 which a state that reaches does, else +inf.)")
+      .def(
+          "command",
+          [](const HeldCertificate& held, double x_m, double y_m, double heading_rad) {
+            const Certificate& c = held.certificate;
+            return tuple_of(
+                bang_bang(c.grid, c.vehicle, c.heading_rad.data(), x_m, y_m, heading_rad));
+          },
+          "x_m"_a, "y_m"_a, "heading_rad"_a, command_words)
       .def("verdict_map", &verdict_map, "heading_rad"_a,
            R"(The verdict of the vehicle near every cell's middle for one heading.
 
@@ -210,11 +218,11 @@ last: for Plan.fly and a look at its tracks.)")
             const py::gil_scoped_release unlocked;
             write_certificate(held.certificate, path, force ? Existing::replace : Existing::keep);
           },
-          "path"_a, py::kw_only(), "force"_a = false,
-          "Writes a certificate file (safetensors), whole or not at all. One that is there is kept "
-          "unless `force`: then ValueError.")
+          "path"_a, py::kw_only(), "force"_a = true,
+          "Writes a certificate file (safetensors), whole or not at all. One that is there is "
+          "replaced; with force=False it is kept: InputError.")
       .def("save_geotiff", &save_geotiff, "path"_a, "headings_rad"_a = py::none(), py::kw_only(),
-           "force"_a = false,
+           "force"_a = true,
            "verdict_map() of each heading (default: eight, evenly spaced) as the bands of a "
            "GeoTIFF, laid on Earth where the map was (docs/exchange.md).")
       .def("_repr_png_",

@@ -66,21 +66,29 @@ void bind_plan(py::module_& m) {
           "How the plan came about, a dict: mission, every effective option, inputs, frame "
           "(docs/formats.md).")
       .def(
+          "command",
+          [](const HeldPlan& p, double x_m, double y_m, double heading_rad) {
+            return tuple_of(bang_bang(p.plan.grid, p.plan.vehicle, p.plan.heading_rad.data(), x_m,
+                                      y_m, heading_rad));
+          },
+          "x_m"_a, "y_m"_a, "heading_rad"_a, command_words)
+      .def(
           "save",
           [](const HeldPlan& p, const std::filesystem::path& path, bool force) {
             const py::gil_scoped_release unlocked;
             write_plan(p.plan, path, force ? Existing::replace : Existing::keep);
           },
-          "path"_a, py::kw_only(), "force"_a = false,
-          "Writes a plan file (safetensors), whole or not at all. One that is there is kept unless "
-          "`force`: then ValueError.")
+          "path"_a, py::kw_only(), "force"_a = true,
+          "Writes a plan file (safetensors), whole or not at all. One that is there is replaced; "
+          "with "
+          "force=False it is kept: InputError.")
       .def(
           "save_geotiff",
           [](const HeldPlan& p, const std::filesystem::path& path, bool force) {
             const py::gil_scoped_release unlocked;
             write_plan_raster(p.plan, path, force ? Existing::replace : Existing::keep);
           },
-          "path"_a, py::kw_only(), "force"_a = false,
+          "path"_a, py::kw_only(), "force"_a = true,
           "Heading, cost and region as the bands of a GeoTIFF, laid on Earth where the map was "
           "(docs/exchange.md).")
       .def("__repr__", [](const HeldPlan& p) {

@@ -44,8 +44,8 @@ void bind_picture(py::module_& m) {
           "svg", [](const Picture& drawn) { return py::str(drawn.svg); }, "The SVG's text.")
       .def_property_readonly(
           "png", [](const Picture& drawn) { return py::bytes(drawn.png); }, "The PNG's bytes.")
-      .def("save", &save, "path"_a, py::kw_only(), "force"_a = false,
-           "To a file that ends in .svg or .png.")
+      .def("save", &save, "path"_a, py::kw_only(), "force"_a = true,
+           "To a file that ends in .svg or .png; one that is there is replaced unless force=False.")
       .def("_repr_png_", [](const Picture& drawn) { return py::bytes(drawn.png); })
       .def("__repr__", [](const Picture&) { return "<fairway.Picture>"; });
 }

@@ -120,11 +120,12 @@ progress  called as progress(stage, left_s) in the calling thread; left_s: secon
           unknown. What it raises ends the work, and so does Ctrl-C, at the next call.
 
 Raises InputError (a ValueError) for bad input, MissionRefused when the goal cannot be reached.)");
-  m.def("run", &run_whole, "scenario"_a, "dir"_a, py::kw_only(), "force"_a = false,
+  m.def("run", &run_whole, "scenario"_a, "dir"_a, py::kw_only(), "force"_a = true,
         "progress"_a = py::none(),
         R"(The main job: map, plan, flights, verdicts, check, pictures, all into the folder `dir`.
 
-The folder appears whole or not at all; one with products in it is kept unless `force`.
+The folder appears whole or not at all. Products of an earlier run in it are replaced, and nothing
+else; with force=False a folder with files in it is kept: InputError.
 progress: as in plan(). Returns a RunResult; raises as plan() does.)");
   m.def("limit_threads", &limit_threads, "n"_a,
         "Bounds the threads of all that follows; None: all cores. Results never depend on it.");

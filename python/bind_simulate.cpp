@@ -305,24 +305,24 @@ void bind_flights(py::module_& m) {
           [](const Flights& f, const std::filesystem::path& path, bool force) {
             save(f, path, Text::outcomes, {}, force);
           },
-          "path"_a, py::kw_only(), "force"_a = false,
+          "path"_a, py::kw_only(), "force"_a = true,
           "CSV, a line per start: x_m,y_m,heading_rad,outcome,time_s,length_m.")
       .def(
           "save_csv",
           [](const Flights& f, const std::filesystem::path& path, std::optional<double> step_m,
              bool force) { save(f, path, Text::tracks, step_m, force); },
-          "path"_a, py::kw_only(), "step_m"_a = py::none(), "force"_a = false,
+          "path"_a, py::kw_only(), "step_m"_a = py::none(), "force"_a = true,
           "The tracks as CSV (docs/formats.md), points at most `step_m` metres apart.")
       .def(
           "save_geojson",
           [](const Flights& f, const std::filesystem::path& path, std::optional<double> step_m,
              bool force) { save(f, path, Text::geojson, step_m, force); },
-          "path"_a, py::kw_only(), "step_m"_a = py::none(), "force"_a = false,
+          "path"_a, py::kw_only(), "step_m"_a = py::none(), "force"_a = true,
           "The tracks as GeoJSON: longitude and latitude when the map had a place on Earth, else "
           "metres and a note that says so.")
       .def("save_mission", &save_mission, "i"_a, "path"_a, py::kw_only(),
            "altitude_m"_a = QgcMissionOptions{}.altitude_m,
-           "tolerance_m"_a = QgcMissionOptions{}.tolerance_m, "force"_a = false,
+           "tolerance_m"_a = QgcMissionOptions{}.tolerance_m, "force"_a = true,
            "Flight `i` as a mission: .plan for QGroundControl, .waypoints or .txt for QGC WPL 110; "
            "`altitude_m` above its start, its line within `tolerance_m` of the flight, metres. "
            "ValueError when the plan's map has no place on Earth.")

@@ -20,6 +20,7 @@
 #include "fairway/report/picture.hpp"
 #include "fairway/run/flight_engine.hpp"
 #include "fairway/run/progress.hpp"
+#include "fairway/vehicle/bang_bang.hpp"
 #include "fairway/vehicle/mission.hpp"
 
 namespace fairway::python {
@@ -71,6 +72,15 @@ void raise_on_signal();
 [[nodiscard]] std::vector<State> starts_of(const py::object& rows, const char* name);
 /// One row.
 [[nodiscard]] State state_of(const py::object& row, const char* name);
+/// A command for Python: (heading_rad, turn_rate_radps).
+[[nodiscard]] inline py::tuple tuple_of(const HeadingCommand& command) {
+  return py::make_tuple(command.heading_rad, command.turn_rate_radps);
+}
+inline constexpr const char* command_words =
+    "What to steer at a state (metres, radians): (heading_rad, turn_rate_radps), the heading that "
+    "the cell commands, NaN without a command, and the bang-bang turn towards it, positive to the "
+    "left, 0 when aligned or without a command. Outside the grid: no command.";
+
 /// Rows x_m, y_m.
 [[nodiscard]] std::vector<Vec2> points_of(const py::object& rows, const char* name);
 [[nodiscard]] Vec2 point_of(const py::object& row, const char* name);

@@ -6,8 +6,10 @@ Usage: docs_commands_test.py SOURCE PROGRAM [unittest arguments]
 - A fenced block ```console is run, line by line, those that begin with "$ "; "> " continues one. What
   follows is its output: `...` stands for anything in a line, a line of `...` for any lines. Without
   output in the page, anything may be printed. A command must end with 0, unless the next asks with
-  `echo $?`. A page is run from top to bottom in a folder of its own, which has `demo/`.
-- A block with title="NAME" is a file NAME in that folder.
+  `echo $?`. A page is typed from top to bottom into one shell, in a folder of its own that has
+  `demo/`; README into a fresh copy of the sources, built already and with nothing on the PATH.
+- A block with title="NAME" is a file NAME in that folder; one whose NAME begins with tests/ is that
+  file of the sources, to the letter.
 - A block with title="Not run by the tests: REASON" is not run; nor is any other block, but its
   commands, and those in `code` within sentences, must exist, with every option they are given.
 - Every link of README, CHANGELOG and the like and of docs/ to a file leads to one, and to a heading that is there.
@@ -90,6 +92,38 @@ def anchor(heading):
     return re.sub(r"\s+", "-", kept.strip())
 
 
+class Shell:
+    """Runs command after command, as one shell: what is exported and where it is stay."""
+
+    def __init__(self, folder, environment):
+        self.environment, self.ended = environment, 0
+        self.folder = folder
+        self.kept = pathlib.Path(tempfile.mkstemp(prefix="fairway-docs-")[1])
+
+    def run(self, command):
+        script = (f"(exit {self.ended})\n{command}\nended=$?\n"
+                  f"{{ pwd; env -0; }} > {self.kept}\nexit $ended")
+        done = subprocess.run(["bash", "-c", script], cwd=self.folder, env=self.environment,
+                              stdin=subprocess.DEVNULL, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.ended = done.returncode
+        folder, _, kept = self.kept.read_text().partition("\n")
+        self.folder = folder
+        self.environment = dict(pair.split("=", 1) for pair in kept.split("\0") if "=" in pair)
+        return done.stdout
+
+
+def copy_of_the_sources(folder):
+    """As after `make build` in a fresh clone."""
+    files = subprocess.run(["git", "-C", SOURCE, "ls-files", "-z"], capture_output=True, text=True)
+    for name in filter(None, files.stdout.split("\0")):
+        if (SOURCE / name).is_file():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(SOURCE / name, folder / name)
+    (folder / "build/release").mkdir(parents=True)
+    (folder / "build/release/bin").symlink_to(PROGRAM.parent)
+
+
 class Docs(unittest.TestCase):
     maxDiff = None
 
@@ -97,26 +131,35 @@ class Docs(unittest.TestCase):
         """Types a page into a shell, in a folder of its own."""
         folder = pathlib.Path(tempfile.mkdtemp(prefix="fairway-docs-"))
         self.addCleanup(shutil.rmtree, folder)
-        shutil.copytree(SOURCE / "demo", folder / "demo")
         environment = {**os.environ, "PATH": f"{PROGRAM.parent}:/usr/bin:/bin", "LC_ALL": "C.UTF-8",
                        "CPLUS_INCLUDE_PATH": str(SOURCE)}
-        ended = 0
+        if page == "README.md":
+            copy_of_the_sources(folder)
+            # Built already: `make` takes its target `build` as done.
+            shim = pathlib.Path(tempfile.mkdtemp(prefix="fairway-docs-"))
+            self.addCleanup(shutil.rmtree, shim)
+            (shim / "make").write_text('#!/bin/sh\nexec /usr/bin/make -o build "$@"\n')
+            (shim / "make").chmod(0o755)
+            environment["PATH"] = f"{shim}:/usr/bin:/bin"
+        else:
+            shutil.copytree(SOURCE / "demo", folder / "demo")
+        shell = Shell(folder, environment)
+        self.addCleanup(shell.kept.unlink)
         for language, title, lines, first in blocks(text):
             if title.startswith(NOT_RUN):
                 continue
             if language == "console":
                 told = steps(lines, first)
                 for i, (command, output, number) in enumerate(told):
-                    done = subprocess.run(["bash", "-c", f"(exit {ended})\n{command}"], cwd=folder,
-                                          env=environment, stdin=subprocess.DEVNULL, text=True,
-                                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-                    ended = done.returncode
-                    where = f"{page}:{number}: $ {command}\n{done.stdout}"
+                    printed = shell.run(command)
+                    where = f"{page}:{number}: $ {command}\n{printed}"
                     asked = i + 1 < len(told) and told[i + 1][0] == "echo $?"
-                    self.assertTrue(ended == 0 or asked, f"{where}ended with {ended}")
+                    self.assertTrue(shell.ended == 0 or asked, f"{where}ended with {shell.ended}")
                     if output is not None and not pattern_of(output).fullmatch(
-                            "".join(line.rstrip() + "\n" for line in done.stdout.splitlines())):
+                            "".join(line.rstrip() + "\n" for line in printed.splitlines())):
                         self.fail(f"{where}-- but the page says --\n" + "\n".join(output))
+            elif title.startswith("tests/"):
+                self.assertEqual("\n".join(lines) + "\n", (SOURCE / title).read_text(), title)
             elif title and language:
                 (folder / title).parent.mkdir(parents=True, exist_ok=True)
                 (folder / title).write_text("\n".join(lines) + "\n")
@@ -178,13 +221,13 @@ class Docs(unittest.TestCase):
             with self.assertRaises(AssertionError, msg=wrong):
                 self.run_page("a page", wrong)
         self.run_page("a page", '```csv title="a/b.csv"\n1,2\n```\n```console\n$ cat a/b.csv\n1,...\n'
-                      "$ false\n$ echo $?\n1\n$ printf 'a\\nb\\nc\\n'\na\n...\n```")
+                      "$ false\n$ echo $?\n1\n$ cd a\n$ export B=2\n$ cat b.csv; echo $B\n1,2\n2\n$ printf 'a\\nb\\nc\\n'\na\n...\n```")
 
 
 def add_pages():
     for page in pages():
         text = (SOURCE / page).read_text()
-        if any(language == "console" and not title.startswith(NOT_RUN)
+        if any(language == "console" and not title.startswith(NOT_RUN) or title.startswith("tests/")
                for language, title, _, _ in blocks(text)):
             name = re.sub(r"\W+", "_", page.removesuffix(".md"))
             setattr(Docs, f"test_page_{name}",

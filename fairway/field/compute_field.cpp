@@ -23,24 +23,26 @@ void check(const ObstacleMap& map, const Vehicle& vehicle, const Mission& missio
            const FieldOptions& options) {
   const Grid& g = map.grid;
   require(g.nx > 0 && g.ny > 0 && map.obstacle.size() == g.size(),
-          "compute_field: a map with cells");
+          "compute_field: expected a map with cells");
   require(
       std::isfinite(g.x0_m) && std::isfinite(g.y0_m) && g.cell_m > 0.0 && std::isfinite(g.cell_m),
-      "compute_field: a finite grid");
+      "compute_field: expected a grid of finite numbers, cell_m > 0");
   require(std::isfinite(vehicle.turn_radius_m) && vehicle.turn_radius_m > g.cell_m,
-          "compute_field: the turning radius is larger than the cell");
-  require(std::isfinite(vehicle.speed_mps) && vehicle.speed_mps > 0.0, "compute_field: speed > 0");
+          "compute_field: expected turn_radius_m larger than the cell");
+  require(std::isfinite(vehicle.speed_mps) && vehicle.speed_mps > 0.0,
+          "compute_field: expected speed_mps > 0");
   const auto positive = [](double v) { return std::isfinite(v) && v > 0.0; };
   const auto not_negative = [](double v) { return std::isfinite(v) && v >= 0.0; };
-  require(positive(options.alpha) && positive(options.beta), "compute_field: alpha, beta > 0");
+  require(positive(options.alpha) && positive(options.beta),
+          "compute_field: expected alpha and beta > 0");
   require(not_negative(options.sigma_cells) && not_negative(options.sigma_path) &&
               not_negative(options.sigma_border),
-          "compute_field: sigma >= 0");
+          "compute_field: expected every sigma >= 0");
   require(options.axis_capture_rad >= 0.0 && options.axis_capture_rad <= 0.1,
-          "compute_field: 0 <= axis_capture_rad <= 0.1");
+          "compute_field: expected 0 <= axis_capture_rad <= 0.1");
   require(positive(options.mu_path) && options.mu_path <= 1.0 && positive(options.mu_border) &&
               options.mu_border <= 1.0,
-          "compute_field: 0 < mu <= 1");
+          "compute_field: expected 0 < mu <= 1");
   const auto finite = [](Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); };
   if (const auto* goal = std::get_if<GoalMission>(&mission)) {
     require(finite(goal->goal_m), "compute_field: a finite goal");

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <system_error>
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -42,9 +43,20 @@ std::string read_all(int from) {
 
 std::string checker_program() {
   std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  const auto beside = self.parent_path() / "fairway-check";
-  return !error && std::filesystem::exists(beside, error) ? beside.string() : "fairway-check";
+  const auto beside =
+      std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "fairway-check";
+  if (!error && std::filesystem::exists(beside, error)) return beside.string();
+  // The Python module, PREFIX/lib/python3/dist-packages/fairway/*.so, or python/fairway/*.so of a
+  // build: bin/ is in a folder above it.
+  Dl_info self;
+  if (::dladdr(reinterpret_cast<const void*>(&run_checker), &self) != 0) {
+    const auto file = std::filesystem::weakly_canonical(self.dli_fname, error);
+    for (auto up = file.parent_path(); !error && up.has_relative_path(); up = up.parent_path()) {
+      const auto program = up / "bin" / "fairway-check";
+      if (std::filesystem::exists(program, error)) return program.string();
+    }
+  }
+  return "fairway-check";
 }
 
 CheckRun run_checker(std::vector<std::string> arguments, bool capture) {

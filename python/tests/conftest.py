@@ -51,8 +51,3 @@ def command():
         assert done.returncode == 0, done.stderr
         return done.stdout
     return run
-
-
-@pytest.fixture(autouse=True)
-def checker_on_the_path(monkeypatch):
-    monkeypatch.setenv("PATH", str(FAIRWAY.parent) + os.pathsep + os.environ["PATH"])

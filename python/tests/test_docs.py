@@ -8,6 +8,13 @@ import pytest
 BLOCK = re.compile(r'^```(python|text)( title="Not run by the tests: [^"]*")?\n(.*?)^```$', re.MULTILINE | re.DOTALL)
 
 
+def printed_by(code, names):
+    out = io.StringIO()
+    with contextlib.redirect_stdout(out):
+        exec(code, names)
+    return out.getvalue()
+
+
 def test_the_tutorial_prints_what_it_shows(source, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = (source / "docs/python.md").read_text()
@@ -19,10 +26,9 @@ def test_the_tutorial_prints_what_it_shows(source, tmp_path, monkeypatch):
             printed, compared = None, compared + 1
         elif not no_run:
             assert not printed, f"block {number - 1} prints {printed!r}, and nothing shows it"
-            out = io.StringIO()
-            with contextlib.redirect_stdout(out):
-                exec(compile(body, f"docs/python.md, block {number}", "exec"), names)
-            printed = out.getvalue()
+            code = compile(body, f"docs/python.md, block {number}", "exec")
+            printed = printed_by(code, names)
+            assert printed_by(code, names) == printed, "a cell of a notebook is run again"
     assert compared >= 8
     assert {path.name for path in tmp_path.iterdir()} == {
         "plan.svg", "lost.png", "lake.safetensors", "lake.cert.safetensors"}

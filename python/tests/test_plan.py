@@ -100,8 +100,8 @@ def test_a_plan_file_reads_back_the_same(plan, tmp_path):
     assert (back.cell_m, back.origin_m, back.record["mission"]) == (
         plan.cell_m, plan.origin_m, plan.record["mission"])
     with pytest.raises(fairway.InputError, match="exists"):
-        plan.save(path)
-    plan.save(path, force=True)
+        plan.save(path, force=False)
+    plan.save(path)
     path.write_bytes(path.read_bytes()[:-1])
     with pytest.raises(fairway.InputError) as error:
         fairway.load_plan(path)
@@ -136,9 +136,10 @@ def test_other_arrays_are_refused_in_words(obstacles, error, words):
 
 
 @pytest.mark.parametrize("keywords, error, words", [
-    ({"speed_mps": -1.0}, ValueError, "speed > 0"),
-    ({"speed_mps": math.nan}, ValueError, "speed > 0"),
-    ({"turn_radius_m": 1.0}, ValueError, "turning radius is larger than the cell"),
+    ({"speed_mps": -1.0}, ValueError, "expected speed_mps > 0"),
+    ({"speed_mps": math.nan}, ValueError, "expected speed_mps > 0"),
+    ({"turn_radius_m": 0.0}, ValueError, "expected turn_radius_m larger than the cell"),
+    ({"turn_radius_m": 1.0}, ValueError, "expected turn_radius_m larger than the cell"),
     ({"goal_m": (1.0, math.inf)}, ValueError, "goal_m: is not finite"),
     ({"goal_m": (1.0, 2.0, 3.0)}, ValueError, "2 numbers: x_m, y_m"),
     ({"goal_m": None}, ValueError, "one of the two"),
@@ -176,3 +177,24 @@ def test_a_wrong_scenario_names_the_line(tmp_path):
         fairway.Scenario(tmp_path / "nowhere.toml")
     with pytest.raises(ValueError, match="there is no such key"):
         fairway.Scenario.from_text("[map]\nfiel = 'a'\n")
+
+
+def test_a_command_is_that_of_the_cell_and_a_turn_through_the_smaller_angle(plan):
+    rate = plan.vehicle["speed_mps"] / plan.vehicle["turn_radius_m"]
+    x0, y0 = plan.origin_m
+    checked = 0
+    for x, y, h in plan.random_starts(300, seed=21, where="not_obstacle"):
+        heading, turn = plan.command(x, y, h)
+        cell = plan.heading_rad[int((y - y0) // plan.cell_m), int((x - x0) // plan.cell_m)]
+        if np.isnan(cell):
+            assert np.isnan(heading) and turn == 0
+            continue
+        assert heading == cell
+        left = (float(cell) - h) % (2 * np.pi)
+        assert turn == (0 if left == 0 else rate if left < np.pi else -rate)
+        assert plan.command(x, y, heading) == (heading, 0)
+        checked += 1
+    assert checked > 200
+    for x, y, h in [(-1e9, 0, 0), (1e300, 0, 0), (float("nan"), 0, 0), (0, 0, float("inf"))]:
+        heading, turn = plan.command(x, y, h)
+        assert np.isnan(heading) and turn == 0

@@ -34,8 +34,10 @@ def test_run_leaves_every_product(scenario, tmp_path):
     plan = fairway.load_plan(tmp_path / "out/plan.safetensors")
     assert np.array_equal(plan.heading_rad, fairway.plan(scenario).heading_rad, equal_nan=True)
     with pytest.raises(fairway.InputError):
-        fairway.run(scenario, tmp_path / "out")
-    fairway.run(scenario, tmp_path / "out", force=True)
+        fairway.run(scenario, tmp_path / "out", force=False)
+    (tmp_path / "out/notes.txt").write_text("mine")
+    fairway.run(scenario, tmp_path / "out")
+    assert (tmp_path / "out/notes.txt").read_text() == "mine"
 
 
 def test_a_run_that_is_stopped_leaves_nothing(scenario, tmp_path):
@@ -76,7 +78,7 @@ def test_pictures_for_notebooks_and_files(plan, certificate, tmp_path):
     with pytest.raises(ValueError, match=".svg or .png"):
         drawn.save(tmp_path / "plan.jpg")
     with pytest.raises(ValueError, match="exists"):
-        drawn.save(tmp_path / "plan.svg")
+        drawn.save(tmp_path / "plan.svg", force=False)
 
 
 def test_everything_says_what_it_is(plan, certificate):

@@ -144,7 +144,7 @@ def test_files_of_flights(plan, tmp_path):
     features = json.loads((tmp_path / "t.geojson").read_text())["features"]
     assert [f["properties"]["outcome"] for f in features] == ["reach"] * 3
     with pytest.raises(ValueError, match="exists"):
-        flights.save_csv(tmp_path / "t.csv")
+        flights.save_csv(tmp_path / "t.csv", force=False)
 
 
 def test_random_starts_begin_alike_and_lie_where_asked(plan):

@@ -2,6 +2,8 @@
 import csv
 import io
 import math
+import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -98,11 +100,24 @@ def test_a_certificate_of_another_plan_is_refused(plan, certificate, tmp_path):
         fairway.verify(plan, resume=certificate)
 
 
-def test_the_checker_is_looked_for_on_the_path(certificate, tmp_path, monkeypatch):
-    certificate.save(tmp_path / "c.safetensors")
+def test_the_checker_is_found_where_the_package_is_installed_else_on_the_path(
+        certificate, tmp_path, monkeypatch):
+    file = tmp_path / "c.safetensors"
+    certificate.save(file)
     monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(RuntimeError, match="cannot run fairway-check"):
-        fairway.check(tmp_path / "c.safetensors")
+    assert fairway.check(file)["accepted"] is True
+    # The package by itself, elsewhere.
+    package = pathlib.Path(fairway.__file__).parent
+    program = next(up / "bin/fairway-check" for up in package.parents
+                   if (up / "bin/fairway-check").exists())
+    shutil.copytree(package, tmp_path / "alone/fairway")
+    ask = [sys.executable, "-c", f"import fairway; print(fairway.check({str(file)!r})['accepted'])"]
+
+    def asked(path):
+        return subprocess.run(ask, capture_output=True, text=True, cwd=tmp_path, env={
+            "PYTHONPATH": str(tmp_path / "alone"), "PATH": path})
+    assert "RuntimeError: cannot run fairway-check: expected in" in asked(str(tmp_path)).stderr
+    assert asked(str(program.parent)).stdout == "True\n"
 
 
 def test_more_work_goes_on_from_an_earlier_certificate(small_plan, certificate):
