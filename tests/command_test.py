@@ -426,14 +426,14 @@ class Verify(Command):
                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
                 for name, more in (("c", ()), ("d", ("--quiet",)))]
         told, silence = [process.communicate(timeout=120)[1] for process in both]
-        self.assertRegex(told, r"^fairway: verifying[^\n]*, 1\d s so far, time limit in \d s\n")
+        self.assertRegex(told, r"^fairway: verifying[^\n]*, 1\d s so far, time limit (in \d s|reached)\n")
         self.assertEqual(silence, "")
 
     def test_a_terminal_is_told_the_time_that_is_left(self):
         self.plan()
         terminal, end = pty.openpty()
         running = subprocess.Popen([FAIRWAY, "verify", "p.safetensors", "-o", "c", "--undecided-max", "0",
-                                    "--time-limit", "2"], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=end)
+                                    "--time-limit", "4", "--volume-samples", "1000"], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=end)
         os.close(end)
         shown = b""
         while True:
@@ -443,8 +443,7 @@ class Verify(Command):
                 break
         os.close(terminal)
         self.assertEqual(running.wait(60), 0)
-        self.assertIn(b"% undecided  ", shown)
-        self.assertRegex(shown, rb" 1 s so far, time limit in [12] s")
+        self.assertRegex(shown, rb"% undecided  \d s so far, time limit in \d s")
 
     def test_bitmaps_have_no_pictures(self):
         self.plan()

@@ -62,22 +62,23 @@ Action declare_run(CLI::App& options) {
       .add_option("-o,--output", a.folder,
                   "folder for every product (default: the scenario's name with -out, here)")
       ->type_name("DIR");
-  CLI::Option* time_limit =
-      options
-          .add_option("--time-limit", a.time_limit_s,
-                      "stop proving after this time, seconds (verify.time_limit_s)")
-          ->check(finite_above(0.0))
-          ->type_name("S");
-  CLI::Option* undecided_max =
-      options
-          .add_option("--undecided-max", a.undecided_max,
-                      "stop proving once this share of the volume is undecided; 1: a first look "
-                      "(verify.undecided_max)")
-          ->check(CLI::Range(0.0, 1.0))
-          ->type_name("F");
-  options.add_flag("--no-verify", a.no_verify, "plan and fly, and prove nothing")
-      ->excludes(time_limit)
-      ->excludes(undecided_max);
+  options
+      .add_option("--time-limit", a.time_limit_s,
+                  "stop proving after this time, seconds (verify.time_limit_s)")
+      ->check(finite_above(0.0))
+      ->type_name("S");
+  options
+      .add_option("--undecided-max", a.undecided_max,
+                  "stop proving once this share of the volume is undecided; 1: a first look "
+                  "(verify.undecided_max)")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("F");
+  options.add_flag("--no-verify", a.no_verify, "plan and fly, and prove nothing");
+  options.final_callback([&a] {
+    if (a.no_verify && (a.time_limit_s || a.undecided_max)) {
+      throw CLI::ValidationError("--no-verify", "has no --time-limit or --undecided-max");
+    }
+  });
   options.footer(
       "Leaves in the folder, which appears whole or not at all: report.html, the page to look\n"
       "at (fairway view DIR serves it, and it then answers live); plan.safetensors;\n"

@@ -37,9 +37,12 @@ std::optional<double> UndecidedTrend::end_s() const {
     at += (p->log_at - mean_at) * (p->log_at - mean_at);
   }
   if (!(at > 0.0) || !(both < -least_slope * at)) return std::nullopt;
-  // From the last level on, along the line: what it lies off the line is not made up for.
+  // From the last level on, along the line: what it lies off the line is not made up for. The work
+  // ends with a level, on average half a level beyond the goal.
   const Point& last = points_.back();
-  const double ahead = std::max(0.0, (std::log(undecided_max_) - last.log_share) * at / both);
+  const double a_level = (last.log_share - begin->log_share) / static_cast<double>(n - 1);
+  const double to_go = std::log(undecided_max_) - last.log_share + 0.5 * a_level;
+  const double ahead = std::max(0.0, to_go * at / both);
   if (ahead > std::log(farthest_factor)) return std::nullopt;
   return std::exp(last.log_at + ahead);
 }

@@ -11,7 +11,8 @@ namespace fairway {
 
 /// The undecided share against time: near enough a straight line in logarithms, for a level takes
 /// longer than the one before by about the same factor as it leaves less. One level may decide
-/// nothing and the next half of what was left: the line goes through the last few.
+/// nothing and the next half of what was left: the line goes through the last few. It bends, in
+/// practice, so that estimates grow by a half or so as the work goes on.
 class UndecidedTrend {
  public:
   explicit UndecidedTrend(double undecided_max) : undecided_max_(undecided_max) {}

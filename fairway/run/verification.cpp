@@ -69,7 +69,7 @@ json evidence_of(const CertifyOptions& options, const Certified& outcome) {
 
 /// Seconds of a limit that are left after `so_far_s`; 0 is no limit, so at least next to nothing.
 double rest_of_limit(double limit_s, double so_far_s) {
-  constexpr double next_to_nothing_s = 1e-3;
+  constexpr double next_to_nothing_s = 1e-9;
   return limit_s > 0.0 ? std::max(limit_s - so_far_s, next_to_nothing_s) : 0.0;
 }
 

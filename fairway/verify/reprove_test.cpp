@@ -138,7 +138,9 @@ TEST(Reprove, WhatIsNotFlownInTimeIsUndecidedAndTheRestIsStillProved) {
                                             [&] { return flown++ < blocks; });
       expect_true(kept, truth, "seed " + std::to_string(seed));
       EXPECT_LE(decided(kept), decided(truth.sections));
-      if (blocks == 0) EXPECT_EQ(decided(kept), 0U);
+      if (blocks == 0) {
+        EXPECT_EQ(decided(kept), 0U);
+      }
     }
     EXPECT_EQ(decided(reproved(truth.loop.flow(), truth.sections, most_crossings)),
               decided(truth.sections));
