@@ -10,6 +10,7 @@ import math
 import os
 import pathlib
 import pty
+import re
 import resource
 import shutil
 import signal
@@ -116,7 +117,8 @@ class Run(Command):
         if absent:
             self.assertIn("report.html was left out: ", done.stderr)
         else:
-            self.assertEqual(done.stderr, "")  # no progress without a terminal
+            # Without a terminal no progress, but for a line now and then where it takes long.
+            self.assertEqual(re.sub("(?m)^fairway: .* so far.*\n", "", done.stderr), "")
         summary = json.loads((folder / "summary.json").read_text())
         self.assertEqual(summary["cells"], [62, 47])
         self.assertEqual(sum(summary["region_cells"].values()), 62 * 47)

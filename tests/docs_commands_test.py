@@ -25,6 +25,7 @@ import unittest
 SOURCE = PROGRAM = None
 FENCE = re.compile(r"^```(\S*)[ ]?(.*)$")
 TITLE = re.compile(r'title="([^"]*)"')
+PROGRESS = re.compile(r"^fairway: .* so far.*\n", re.M)  # a line now and then, on a slow machine
 NOT_RUN = "Not run by the tests: "
 
 
@@ -111,6 +112,7 @@ class Docs(unittest.TestCase):
                                           env=environment, stdin=subprocess.DEVNULL, text=True,
                                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
                     ended = done.returncode
+                    done.stdout = PROGRESS.sub("", done.stdout)
                     where = f"{page}:{number}: $ {command}\n{done.stdout}"
                     asked = i + 1 < len(told) and told[i + 1][0] == "echo $?"
                     self.assertTrue(ended == 0 or asked, f"{where}ended with {ended}")

@@ -22,7 +22,8 @@ struct PlanArguments {
 
 int plan_command(const PlanArguments& arguments, const Session& session) {
   const Scenario scenario = arguments.scenario.read();
-  require_places({arguments.output, arguments.picture}, {scenario.file}, session.existing());
+  const Places inputs{scenario.file, scenario.map.file, scenario.mission.path_file.value_or("")};
+  require_places({arguments.output, arguments.picture}, inputs, session.existing());
   std::optional<TerminalProgress> terminal(std::in_place, session.quiet);
   const RunResult result = run_plan_only(scenario, arguments.output, session.existing(),
                                          terminal->progress(), arguments.picture);

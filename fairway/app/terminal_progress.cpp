@@ -1,5 +1,6 @@
 #include "fairway/app/terminal_progress.hpp"
 
+#include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -44,7 +45,8 @@ Progress TerminalProgress::progress() {
 }
 
 std::string TerminalProgress::line(Clock::time_point now, const char* between) const {
-  return fmt::format("{}{}{} so far{}", stage_, between, duration_text(seconds(now - begin_)),
+  return fmt::format("{}{}{} so far{}", stage_, between,
+                     duration_text(std::floor(seconds(now - begin_))),
                      time_left_words(left_, seconds(now - told_)));
 }
 
