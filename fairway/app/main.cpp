@@ -157,7 +157,8 @@ int main_with(int argc, char** argv) {
   bool show_keys = false;
   app.add_flag("--scenario-keys", show_keys, "print every scenario key with its range and default");
   app.footer(
-      "Exit codes: 0 done, whatever becomes of the states asked about; 1 the answer is no (the goal "
+      "Exit codes: 0 done, whatever becomes of the states asked about; 1 the answer is no (the "
+      "goal "
       "cannot be reached from anywhere, the certificate was refused); 64 wrong usage; 65 bad input "
       "(told with file and line); 70 our fault; 74 standard output could not be written; 130 ended "
       "by Ctrl-C.");

@@ -285,7 +285,8 @@ TEST_F(Fences, GeoJsonThatIsWrongIsNamedWithItsPlace) {
               StartsWith("a.geojson:3: is not JSON: syntax error"));
   EXPECT_EQ(error("a.geojson", R"({"type":"Polygon","type":"Point"})"),
             "a.geojson: has the key \"type\" twice in one object");
-  EXPECT_THAT(error("a.geojson", std::string(100000, '[')), HasSubstr("nests more than 64 levels of JSON"));
+  EXPECT_THAT(error("a.geojson", std::string(100000, '[')),
+              HasSubstr("nests more than 64 levels of JSON"));
   EXPECT_THAT(error("a.geojson", R"({"type":"Point","coordinates":[1e999,0]})"),
               HasSubstr("is not JSON: "));
   EXPECT_THAT(
