@@ -9,42 +9,55 @@
 namespace fairway {
 namespace {
 
-constexpr std::size_t fitted = 5;       // levels that the line goes through
-constexpr double least_slope = 0.15;    // share ~ time^-slope; flatter lines lead nowhere
-constexpr double farthest_factor = 10;  // of the time so far, that a line is believed for
+constexpr std::size_t shares_seen = 7;    // levels, for what a level leaves undecided
+constexpr std::size_t times_seen = 4;     // levels, for how their times grow
+constexpr double least_fall = 0.05;       // of log share a level; flatter leads nowhere
+constexpr double least_growth = 1.2;      // of a level's time over the one before: what a single
+constexpr double most_growth = 1.8;       // level of an odd length must not be taken for
+constexpr double farthest_factor = 10.0;  // of the time so far, that this is believed for
 
 }  // namespace
 
 void UndecidedTrend::add(double at_s, double undecided) {
   if (!(at_s > 0.0 && undecided > 0.0)) return;
-  points_.push_back({std::log(at_s), std::log(undecided)});
+  if (!levels_.empty() && !(at_s > levels_.back().at_s)) return;
+  levels_.push_back({at_s, std::log(undecided)});
+}
+
+std::optional<UndecidedTrend::Pace> UndecidedTrend::pace() const {
+  if (levels_.size() < 3) return std::nullopt;
+  // A straight line through the logarithms of the last levels' times.
+  const std::size_t n = std::min(levels_.size() - 1, times_seen);
+  double mean = 0.0;
+  double rise = 0.0;
+  double spread = 0.0;
+  const double middle = 0.5 * static_cast<double>(n - 1);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = levels_.size() - n + k;
+    const double log_took = std::log(levels_[i].at_s - levels_[i - 1].at_s);
+    const double x = static_cast<double>(k) - middle;
+    mean += log_took / static_cast<double>(n);
+    rise += x * log_took;
+    spread += x * x;
+  }
+  const double slope = std::clamp(rise / spread, std::log(least_growth), std::log(most_growth));
+  return Pace{std::exp(mean + slope * middle), std::exp(slope)};
 }
 
 std::optional<double> UndecidedTrend::end_s() const {
-  if (points_.size() < 3 || !(undecided_max_ > 0.0)) return std::nullopt;
-  const std::size_t n = std::min(points_.size(), fitted);
-  const auto begin = points_.end() - static_cast<std::ptrdiff_t>(n);
-  double mean_at = 0.0;
-  double mean_share = 0.0;
-  for (auto p = begin; p != points_.end(); ++p) {
-    mean_at += p->log_at / static_cast<double>(n);
-    mean_share += p->log_share / static_cast<double>(n);
-  }
-  double both = 0.0;
-  double at = 0.0;
-  for (auto p = begin; p != points_.end(); ++p) {
-    both += (p->log_at - mean_at) * (p->log_share - mean_share);
-    at += (p->log_at - mean_at) * (p->log_at - mean_at);
-  }
-  if (!(at > 0.0) || !(both < -least_slope * at)) return std::nullopt;
-  // From the last level on, along the line: what it lies off the line is not made up for. The work
-  // ends with a level, on average half a level beyond the goal.
-  const Point& last = points_.back();
-  const double a_level = (last.log_share - begin->log_share) / static_cast<double>(n - 1);
-  const double to_go = std::log(undecided_max_) - last.log_share + 0.5 * a_level;
-  const double ahead = std::max(0.0, to_go * at / both);
-  if (ahead > std::log(farthest_factor)) return std::nullopt;
-  return std::exp(last.log_at + ahead);
+  const std::optional<Pace> pace = this->pace();
+  if (!pace || !(undecided_max_ > 0.0)) return std::nullopt;
+  const std::size_t n = std::min(levels_.size(), shares_seen);
+  const Level& last = levels_.back();
+  const double fall =
+      (levels_[levels_.size() - n].log_share - last.log_share) / static_cast<double>(n - 1);
+  if (!(fall >= least_fall)) return std::nullopt;
+  // The work ends with a level, on average half a level beyond the goal.
+  const double levels = std::max(0.0, (last.log_share - std::log(undecided_max_)) / fall) + 0.5;
+  const double g = pace->growth;
+  const double left_s = pace->took_s * g * (std::pow(g, levels) - 1.0) / (g - 1.0);
+  if (!(left_s <= (farthest_factor - 1.0) * last.at_s)) return std::nullopt;
+  return last.at_s + left_s;
 }
 
 std::string duration_text(double seconds) {

@@ -9,10 +9,9 @@
 
 namespace fairway {
 
-/// The undecided share against time: near enough a straight line in logarithms, for a level takes
-/// longer than the one before by about the same factor as it leaves less. One level may decide
-/// nothing and the next half of what was left: the line goes through the last few. It bends, in
-/// practice, so that estimates grow by a half or so as the work goes on.
+/// From levels that are done to those that are left: each leaves about the same part of what was
+/// undecided, and takes longer than the one before by about the same factor. Single levels do
+/// neither, so both are taken over the last few; a guess, then, that may be off by half.
 class UndecidedTrend {
  public:
   explicit UndecidedTrend(double undecided_max) : undecided_max_(undecided_max) {}
@@ -20,18 +19,24 @@ class UndecidedTrend {
   /// After a level: seconds from the start of the proof, growing, and the share left undecided.
   void add(double at_s, double undecided);
 
-  /// Seconds from the start at which undecided_max will be met; nothing when that cannot be told:
-  /// after less than three levels, when the share hardly falls, or when it would be so far away
-  /// that the line does not reach there.
+  /// Seconds from the start at which the level will end that meets undecided_max; nothing when that
+  /// cannot be told: after less than three levels, when the share hardly falls, or when it would be
+  /// more than ten times as far as what is done.
   [[nodiscard]] std::optional<double> end_s() const;
 
  private:
-  struct Point {
-    double log_at;
+  struct Level {
+    double at_s;
     double log_share;
   };
+  struct Pace {
+    double took_s;  ///< the last level, by the trend
+    double growth;  ///< factor to the next
+  };
+  [[nodiscard]] std::optional<Pace> pace() const;
+
   double undecided_max_;
-  std::vector<Point> points_;
+  std::vector<Level> levels_;
 };
 
 /// ", about 40 s left", ", time limit in 12 s" or "": what will end the work first. `since_s`:
