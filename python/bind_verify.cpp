@@ -65,10 +65,10 @@ std::shared_ptr<HeldCertificate> verify(const std::shared_ptr<HeldPlan>& plan,
   const py::gil_scoped_release unlocked;
   std::optional<EarlierProof> earlier;
   if (resume) earlier = EarlierProof{resume->certificate, "resume"};
-  if (told) told("verifying", unknown_time);
+  if (told) told("verifying", {});
   Verification made = verify_plan(plan->plan, "plan", of_interest, options, std::move(earlier),
                                   [&told](const LevelRecord& level) {
-                                    if (told) told(level_words(level), unknown_time);
+                                    if (told) told(level_words(level), {});
                                   });
   return std::make_shared<HeldCertificate>(HeldCertificate{std::move(made.certificate)});
 }

@@ -93,12 +93,13 @@ void raise_on_signal() {
 
 Progress progress_of(const py::object& callback) {
   const py::handle called = callback;
-  return [called](std::string_view stage, double left_s) {
+  return [called](std::string_view stage, const TimeLeft& left) {
     const py::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (called.is_none()) return;
-    called(py::str(stage.data(), stage.size()),
-           left_s < 0.0 ? py::object(py::none()) : py::object(py::float_(left_s)));
+    called(py::str(stage.data(), stage.size()), left.estimate_s < 0.0
+                                                    ? py::object(py::none())
+                                                    : py::object(py::float_(left.estimate_s)));
   };
 }
 

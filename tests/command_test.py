@@ -9,6 +9,8 @@ import json
 import math
 import os
 import pathlib
+import pty
+import re
 import resource
 import shutil
 import signal
@@ -115,7 +117,8 @@ class Run(Command):
         if absent:
             self.assertIn("report.html was left out: ", done.stderr)
         else:
-            self.assertEqual(done.stderr, "")  # no progress without a terminal
+            # Without a terminal no progress, but for a line now and then where it takes long.
+            self.assertEqual(re.sub("(?m)^fairway: .* so far.*\n", "", done.stderr), "")
         summary = json.loads((folder / "summary.json").read_text())
         self.assertEqual(summary["cells"], [62, 47])
         self.assertEqual(sum(summary["region_cells"].values()), 62 * 47)
@@ -232,6 +235,93 @@ class Run(Command):
         self.assertEqual(self.names(), ["map.pgm", "s.toml"])
 
 
+class Overrides(Command):
+    def test_set_is_as_though_it_stood_in_the_scenario(self):
+        text = (self.folder / "s.toml").read_text()
+        (self.folder / "t.toml").write_text(text.replace("cell_m = 2.0", "cell_m = 3.0") + '[plan]\nmetric = "paper"\n')
+        self.expect(0, "plan", "t.toml", "-o", "written")
+        done = self.expect(0, "plan", "s.toml", "-o", "set", "--set", "map.cell_m=3", "--set", "plan.metric=paper", "--json")
+        written, arrays, _ = read_safetensors(self.folder / "written")
+        record, same_arrays, _ = read_safetensors(self.folder / "set")
+        for name, array in arrays.items():
+            np.testing.assert_array_equal(array, same_arrays[name])
+        self.assertEqual(record["options"], written["options"])
+        self.assertEqual(record["options"]["map"]["cell_m"], 3.0)
+        digest = hashlib.sha256(text.encode()).hexdigest()  # the file's own
+        self.assertIn({"path": "s.toml", "sha256": digest}, record["inputs"])
+        self.assertEqual(json.loads(done.stdout)["set"], {"map.cell_m": 3.0, "plan.metric": "paper"})
+        self.assertNotIn("set", json.loads(self.expect(0, "plan", "s.toml", "-o", "p", "--json").stdout))
+
+    def test_a_wrong_key_or_value_is_wrong_usage_told_before_files_are_read(self):
+        for command in ("run", "plan"):
+            for text, expected in (
+                    ("map.cel_m=3", "map.cel_m: there is no such key; did you mean map.cell_m?"),
+                    ("map.cell_m=-3", "map.cell_m: expected a number in (0, 1000000000], found -3"),
+                    ("map.cell_m", "expected KEY=VALUE, such as map.cell_m=4.0"),
+                    ("plan.metric=exact", 'plan.metric: expected "euclidean", "octile" or "paper", found \'exact\'')):
+                done = self.expect(64, command, "none.toml", "-o", "o", "--set", text)
+                self.assertIn(f"--set: {expected}", done.stderr)
+
+    def test_what_only_the_map_can_tell_names_the_option_too(self):
+        done = self.expect(65, "plan", "s.toml", "-o", "p", "--set", "mission.goal_m=[500, 45]")
+        self.assertTrue(done.stderr.startswith("fairway: --set: mission.goal_m: "), done.stderr)
+        done = self.expect(65, "plan", "s.toml", "-o", "p", "--set", "map.file=none.pgm")
+        self.assertIn("none.pgm: no such file (map.file of --set)", done.stderr)
+        done = self.expect(65, "plan", "s.toml", "-o", "p", "--set", "map.cell_m=1e-6")
+        self.assertTrue(done.stderr.startswith("fairway: --set: map.cell_m: "), done.stderr)
+        self.assertEqual(self.names(), ["map.pgm", "s.toml"])
+
+    def test_the_short_names_say_how_far_a_proof_goes(self):
+        def options(*words):
+            done = self.expect(0, "run", "s.toml", "-o", "out", "--force", "--json", *words)
+            return json.loads(done.stdout)["verify"]["options"]
+        self.assertEqual(options()["undecided_max"], 0.1)
+        self.assertEqual(options("--undecided-max", "1")["undecided_max"], 1.0)
+        self.assertEqual(options("--time-limit", "7.5")["time_limit_s"], 7.5)
+        self.assertEqual(options("--set", "verify.time_limit_s=3", "--time-limit", 7)["time_limit_s"], 7.0)
+        self.expect(64, "run", "s.toml", "--time-limit", "0")
+        self.expect(64, "run", "s.toml", "--undecided-max", "2")
+        self.expect(64, "run", "s.toml", "--no-verify", "--time-limit", "3")
+        self.expect(64, "plan", "s.toml", "-o", "p", "--no-verify")
+
+    def test_a_run_without_proof_says_so_and_has_no_certificate(self):
+        done = self.expect(0, "run", "s.toml", "-o", "out", "--no-verify")
+        self.assertIn("Nothing was verified.", done.stdout)
+        names = {p.name for p in (self.folder / "out").iterdir()}
+        self.assertEqual(names & {"certificate.safetensors", "failures.csv", "verdicts.svg", "proved.svg"}, set())
+        self.assertIn("plan.svg", names)
+        summary = json.loads((self.folder / "out/summary.json").read_text())
+        self.assertEqual(summary["verify"]["method"], "none")
+        self.assertEqual(summary["set"], {"verify.method": "none"})
+
+
+class Draw(Command):
+    def test_a_plan_and_its_verdicts_by_the_ending_of_the_name(self):
+        self.expect(0, "plan", "s.toml", "-o", "p", "--picture", "with.svg")
+        self.expect(0, "draw", "p", "-o", "p.png")
+        self.assertTrue((self.folder / "p.png").read_bytes().startswith(b"\x89PNG"))
+        shutil.copy(self.folder / "p", self.folder / "s")
+        self.expect(0, "draw", "s", "-o", "s.svg")
+        # The same picture, whether it is drawn with the plan or from its file of the same name.
+        self.assertEqual((self.folder / "s.svg").read_bytes(), (self.folder / "with.svg").read_bytes())
+        self.expect(0, "verify", "p", "-o", "c", "--undecided-max", "0.5", "--volume-samples", "1000")
+        done = self.expect(0, "draw", "c", "-o", "c.svg", "--json")
+        self.assertEqual(json.loads(done.stdout), {"picture": "c.svg", "of": "verdicts"})
+        self.assertIn("<svg", (self.folder / "c.svg").read_text())
+
+    def test_wrong_endings_and_wrong_files_are_refused(self):
+        plan = self.plan()
+        for words in (("draw", plan, "-o", "p.jpg"), ("draw", plan, "-o", "p"),
+                      ("plan", "s.toml", "-o", "q", "--picture", "q.pdf")):
+            self.assertIn(".svg or .png", self.expect(64, *words).stderr)
+        self.expect(65, "draw", "s.toml", "-o", "s.svg")
+        (self.folder / "kept.svg").write_text("precious")
+        self.expect(65, "draw", plan, "-o", "kept.svg")
+        self.expect(65, "plan", "s.toml", "-o", "q", "--picture", "kept.svg")
+        self.assertEqual((self.folder / "kept.svg").read_text(), "precious")
+        self.assertNotIn("q", self.names())
+
+
 class Plan(Command):
     def test_the_file_reads_as_plain_safetensors(self):
         record, arrays, length = read_safetensors(self.plan())
@@ -318,6 +408,44 @@ class Verify(Command):
         self.expect(0, "verify", "p.safetensors", "-o", "d.safetensors", "--resume",
                     "c.safetensors", *quick)
         self.expect(0, "check", "d.safetensors")
+
+    def test_what_is_resumed_says_how_much_was_dropped_and_keeps_to_the_time_limit(self):
+        self.plan()
+        quick = ("--undecided-max", "0.5", "--volume-samples", "1000")
+        self.expect(0, "verify", "p.safetensors", "-o", "c", *quick)
+        done = self.expect(0, "verify", "p.safetensors", "-o", "d", "--resume", "c", *quick)
+        self.assertRegex(done.stdout, r"All \d+ decided leaves of c were proved again\.")
+        resumed = json.loads((self.folder / "d.summary.json").read_text())["resumed"]
+        self.assertEqual((resumed["dropped_leaves"], resumed["in_time"]), (0, True))
+        done = self.expect(0, "verify", "p.safetensors", "-o", "e", "--resume", "c", "--time-limit", "1e-9", *quick)
+        self.assertRegex(done.stdout, r"Of \d+ decided leaves of c, \d+ were dropped: the time limit left no time")
+        self.expect(0, "check", "e")
+
+    def test_a_line_now_and_then_where_nobody_watches_and_none_with_quiet(self):
+        self.plan()
+        endless = ("verify", "p.safetensors", "--undecided-max", "0", "--time-limit", "11")
+        both = [subprocess.Popen([FAIRWAY, *endless, "-o", name, *more], cwd=self.folder, text=True,
+                                 stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+                for name, more in (("c", ()), ("d", ("--quiet",)))]
+        told, silence = [process.communicate(timeout=120)[1] for process in both]
+        self.assertRegex(told, r"^fairway: verifying[^\n]*, 1\d s so far, time limit (in \d s|reached)\n")
+        self.assertEqual(silence, "")
+
+    def test_a_terminal_is_told_the_time_that_is_left(self):
+        self.plan()
+        terminal, end = pty.openpty()
+        running = subprocess.Popen([FAIRWAY, "verify", "p.safetensors", "-o", "c", "--undecided-max", "0",
+                                    "--time-limit", "4", "--volume-samples", "1000"], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=end)
+        os.close(end)
+        shown = b""
+        while True:
+            try:
+                shown += os.read(terminal, 65536)
+            except OSError:  # the other end is closed
+                break
+        os.close(terminal)
+        self.assertEqual(running.wait(60), 0)
+        self.assertRegex(shown, rb"% undecided  \d s so far, time limit in \d s")
 
     def test_bitmaps_have_no_pictures(self):
         self.plan()

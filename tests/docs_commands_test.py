@@ -27,6 +27,7 @@ import unittest
 SOURCE = PROGRAM = None
 FENCE = re.compile(r"^```(\S*)[ ]?(.*)$")
 TITLE = re.compile(r'title="([^"]*)"')
+PROGRESS = re.compile(r"^fairway: .* so far.*\n", re.M)  # a line now and then, on a slow machine
 NOT_RUN = "Not run by the tests: "
 
 
@@ -151,7 +152,7 @@ class Docs(unittest.TestCase):
             if language == "console":
                 told = steps(lines, first)
                 for i, (command, output, number) in enumerate(told):
-                    printed = shell.run(command)
+                    printed = PROGRESS.sub("", shell.run(command))
                     where = f"{page}:{number}: $ {command}\n{printed}"
                     asked = i + 1 < len(told) and told[i + 1][0] == "echo $?"
                     self.assertTrue(shell.ended == 0 or asked, f"{where}ended with {shell.ended}")

@@ -7,6 +7,7 @@ import hashlib
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -90,6 +91,8 @@ class Inputs(Files):
         os.link(self.folder / "p", self.folder / "hard")
         os.link(self.folder / "p", self.folder / "p.tif")
         os.link(self.folder / "c", self.folder / "c.tif")
+        os.link(self.folder / "p", self.folder / "p.svg")
+        os.symlink("map.pgm", self.folder / "map.png")
         (self.folder / "pictures").mkdir()
         os.link(self.folder / "p", self.folder / "pictures/proved.png")
         before = self.content()
@@ -100,6 +103,7 @@ class Inputs(Files):
                       ("verify", "p", "-o", "d", "--summary", "p"), ("verify", "p", "-o", "d", "--failures", "p"),
                       ("verify", "p", "-o", "c", "--resume", "c"),
                       ("verify", "p", "-o", "d", "--pictures", "pictures"),
+                      ("draw", "p", "-o", "p.svg"), ("plan", "s.toml", "-o", "q", "--picture", "map.png"),
                       ("export", "p", "-o", "p.tif"), ("export", "c", "-o", "c.tif"),
                       ("simulate", "p", "--state", "20,20,0", "--outcomes", "p"),
                       ("simulate", "p", "--state", "20,20,0", "--csv", "hard"),
@@ -128,6 +132,7 @@ class Inputs(Files):
         done = self.expect(65, "simulate", "p", "--state", "20,20,0", "--csv", "a", "--outcomes", "./a")
         self.assertIn("two products", done.stderr)
         self.expect(65, "verify", "p", "-o", "c", "--summary", "c")
+        self.expect(65, "plan", "s.toml", "-o", "a.svg", "--picture", "./a.svg")
         self.assertNotIn("a", self.content())
 
 
@@ -193,6 +198,7 @@ class Interrupted(Files):
         process.send_signal(signal.SIGINT)
         _, told = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 128 + signal.SIGINT)
+        told = re.sub("(?m)^fairway: .* so far.*\n", "", told)  # where it took long
         self.assertEqual(told.count("\n"), 1, told)
         return told
 
@@ -200,7 +206,10 @@ class Interrupted(Files):
         self.scenario("long.toml", sample=10_000_000)
         process = self.start("run", "long.toml", "-o", "out")
         self.wait_for(process, ".out.partial-*/plan.safetensors")
-        self.assertEqual(self.interrupted(process), "fairway: interrupted: nothing half-made was left\n")
+        told = self.interrupted(process)
+        self.assertTrue(told.startswith("fairway: interrupted: nothing of this run was kept; "), told)
+        self.assertIn("--time-limit", told)
+        self.assertIn("--resume", told)
         self.assertEqual(set(self.content()), {"map.pgm", "s.toml", "long.toml"})
         self.assertFalse((self.folder / "out").exists())
 
@@ -218,7 +227,7 @@ class Interrupted(Files):
 
 class Help(Files):
     def test_common_options_stand_in_the_help_of_every_command(self):
-        for command in ("run", "plan", "simulate", "verify", "query", "check", "export", "steer", "view"):
+        for command in ("run", "plan", "simulate", "verify", "query", "check", "draw", "export", "steer", "view"):
             told = self.expect(0, command, "--help").stdout
             common = told.partition("Common options:\n")[2]
             for option in ("--threads", "--quiet", "--json"):

@@ -69,6 +69,7 @@ class Output(unittest.TestCase):
                       ["plan", "s.toml", "-o", "again", "--force"],
                       ["verify", "p", "-o", "d", "--force", "--volume-samples", "20000"],
                       ["export", "p", "-o", "p.tif", "--force"],
+                      ["draw", "p", "-o", "p.svg", "--force"],
                       ["simulate", "p", *state],
                       ["simulate", "p", "--random", "5000", "--json"],
                       ["simulate", "p", "--random", "10", "--outcomes", "-"],

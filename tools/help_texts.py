@@ -10,7 +10,7 @@ COLUMN = 30  # where descriptions begin
 # Names, then: the value's name, what is checked, the default, how many.
 LABEL = re.compile(
     r"(?P<names>-[^ ]+|[A-Za-z_-]+)"
-    r"(?: (?P<value>(?!REQUIRED)[^ :={]+)?"
+    r"(?: (?P<value>KEY=VALUE|(?!REQUIRED)[^ :={]+)?"
     r"(?::(?P<check>\{[^}]*\}|[A-Z]+(?: in \[[^]]*\])?))?"
     r"(?:=(?P<default>[^ ]+))?)?"
     r"(?P<many> x \d+| \.\.\.)?(?P<required> REQUIRED)?")

@@ -78,4 +78,12 @@ CLI::Validator angle_argument() {
   return {[](const std::string& text) { return complaint_of(text, angle_of_argument_rad); }, ""};
 }
 
+CLI::Validator picture_argument() {
+  return {[](const std::string& file) -> std::string {
+            if (file.ends_with(".svg") || file.ends_with(".png")) return {};
+            return file + ": expected a file that ends in .svg or .png";
+          },
+          ""};
+}
+
 }  // namespace fairway

@@ -23,4 +23,7 @@ namespace fairway {
 [[nodiscard]] CLI::Validator angle_argument();
 [[nodiscard]] double angle_of_argument_rad(const std::string& text);
 
+/// A picture's file, as SVG or PNG by its ending.
+[[nodiscard]] CLI::Validator picture_argument();
+
 }  // namespace fairway

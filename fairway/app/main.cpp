@@ -42,6 +42,7 @@ constexpr Command commands[] = {
      declare_verify, true},
     {"query", "what a certificate says of a state", declare_query, false},
     {"check", "re-prove a certificate with a separate program", declare_check, false},
+    {"draw", "a plan or verdicts as a picture", declare_draw, true},
     {"export", "a plan or verdicts as GeoTIFF, for GIS programs", declare_export, true},
     {"steer", "to a pose by a shortest path, or under a control law; nothing is in the way",
      declare_steer, true},
@@ -156,8 +157,11 @@ int main_with(int argc, char** argv) {
   bool show_keys = false;
   app.add_flag("--scenario-keys", show_keys, "print every scenario key with its range and default");
   app.footer(
-      "Exit codes: 0 done, 1 the answer is no, 64 wrong usage, 65 bad input (told with file and "
-      "line), 70 our fault, 74 standard output could not be written.");
+      "Exit codes: 0 done, whatever becomes of the states asked about; 1 the answer is no (the "
+      "goal "
+      "cannot be reached from anywhere, the certificate was refused); 64 wrong usage; 65 bad input "
+      "(told with file and line); 70 our fault; 74 standard output could not be written; 130 ended "
+      "by Ctrl-C.");
   app.require_subcommand(0, 1);
   app.fallthrough();
 

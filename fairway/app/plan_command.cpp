@@ -4,7 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
+#include "fairway/app/places.hpp"
+#include "fairway/app/scenario_arguments.hpp"
 #include "fairway/app/terminal_progress.hpp"
 #include "fairway/run/run.hpp"
 
@@ -12,15 +15,18 @@ namespace fairway {
 namespace {
 
 struct PlanArguments {
-  std::filesystem::path scenario;
+  ScenarioArguments scenario;
   std::filesystem::path output;
+  std::filesystem::path picture;
 };
 
 int plan_command(const PlanArguments& arguments, const Session& session) {
-  const Scenario scenario = read_scenario(arguments.scenario);
+  const Scenario scenario = arguments.scenario.read();
+  const Places inputs{scenario.file, scenario.map.file, scenario.mission.path_file.value_or("")};
+  require_places({arguments.output, arguments.picture}, inputs, session.existing());
   std::optional<TerminalProgress> terminal(std::in_place, session.quiet);
-  const RunResult result =
-      run_plan_only(scenario, arguments.output, session.existing(), terminal->progress());
+  const RunResult result = run_plan_only(scenario, arguments.output, session.existing(),
+                                         terminal->progress(), arguments.picture);
   terminal.reset();
   return session.tell(result);
 }
@@ -29,13 +35,14 @@ int plan_command(const PlanArguments& arguments, const Session& session) {
 
 Action declare_plan(CLI::App& options) {
   auto arguments = std::make_shared<PlanArguments>();
-  options.add_option("scenario", arguments->scenario, "the scenario, TOML")
-      ->required()
-      ->type_name("SCENARIO.toml");
+  declare(options, arguments->scenario);
   options.add_option("-o,--output", arguments->output, "the plan file to write")
       ->required()
       ->type_name("PLAN.safetensors");
-  options.footer("Example: fairway plan demo/demo.toml -o demo.safetensors");
+  options.add_option("--picture", arguments->picture, "draw the plan, too; see fairway draw")
+      ->check(picture_argument())
+      ->type_name("FILE");
+  options.footer("Example: fairway plan demo/demo.toml -o demo.safetensors --picture demo.svg");
   return [arguments](const Session& session) { return plan_command(*arguments, session); };
 }
 

@@ -1,10 +1,15 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
+#include "fairway/app/ending.hpp"
+#include "fairway/app/scenario_arguments.hpp"
 #include "fairway/app/terminal_progress.hpp"
 #include "fairway/run/run.hpp"
 
@@ -14,12 +19,30 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RunArguments {
-  fs::path scenario;
+  ScenarioArguments scenario;
   fs::path folder;
+  std::optional<double> time_limit_s;
+  std::optional<double> undecided_max;
+  bool no_verify = false;
+
+  /// The short names of what --set could say, too.
+  std::vector<ScenarioOverride> overrides() const {
+    std::vector<ScenarioOverride> all;
+    const auto add = [&](const char* key, const std::optional<double>& value, const char* option) {
+      if (value) all.push_back({key, fmt::format("{}", *value), option});
+    };
+    add("verify.time_limit_s", time_limit_s, "--time-limit");
+    add("verify.undecided_max", undecided_max, "--undecided-max");
+    if (no_verify) all.push_back({"verify.method", "none", "--no-verify"});
+    return all;
+  }
 };
 
 int run_command(const RunArguments& arguments, const Session& session) {
-  const Scenario scenario = read_scenario(arguments.scenario);
+  say_when_interrupted(
+      "nothing of this run was kept; with --time-limit S a run keeps what is proved by then, and "
+      "fairway verify --resume goes on from its certificate");
+  const Scenario scenario = arguments.scenario.read(arguments.overrides());
   const fs::path folder = arguments.folder.empty()
                               ? fs::path(scenario.file.stem().string() + "-out")
                               : arguments.folder;
@@ -33,13 +56,29 @@ int run_command(const RunArguments& arguments, const Session& session) {
 
 Action declare_run(CLI::App& options) {
   auto arguments = std::make_shared<RunArguments>();
-  options.add_option("scenario", arguments->scenario, "the scenario (docs/scenario.md)")
-      ->required()
-      ->type_name("SCENARIO.toml");
+  RunArguments& a = *arguments;
+  declare(options, a.scenario);
   options
-      .add_option("-o,--output", arguments->folder,
+      .add_option("-o,--output", a.folder,
                   "folder for every product (default: the scenario's name with -out, here)")
       ->type_name("DIR");
+  options
+      .add_option("--time-limit", a.time_limit_s,
+                  "stop proving after this time, seconds (verify.time_limit_s)")
+      ->check(finite_above(0.0))
+      ->type_name("S");
+  options
+      .add_option("--undecided-max", a.undecided_max,
+                  "stop proving once this share of the volume is undecided; 1: a first look "
+                  "(verify.undecided_max)")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("F");
+  options.add_flag("--no-verify", a.no_verify, "plan and fly, and prove nothing");
+  options.final_callback([&a] {
+    if (a.no_verify && (a.time_limit_s || a.undecided_max)) {
+      throw CLI::ValidationError("--no-verify", "has no --time-limit or --undecided-max");
+    }
+  });
   options.footer(
       "Leaves in the folder, which appears whole or not at all: report.html, the page to look\n"
       "at (fairway view DIR serves it, and it then answers live); plan.safetensors;\n"

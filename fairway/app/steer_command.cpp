@@ -14,6 +14,7 @@
 #include "fairway/app/command.hpp"
 #include "fairway/app/places.hpp"
 #include "fairway/base/atomic_file.hpp"
+#include "fairway/run/product_picture.hpp"
 #include "fairway/run/steering.hpp"
 #include "fairway/steer/dubins_words.hpp"
 #include "fairway/steer/pose_csv.hpp"
@@ -94,8 +95,7 @@ int steer_command(const SteerArguments& a, const Session& session) {
   if (!a.track.empty()) write_whole(a.track, session.existing(), track_csv(legs));
   if (!a.picture.empty()) {
     const Picture picture = steering_picture(legs, a.turn_radius_m, a.steering_law());
-    write_whole(a.picture, session.existing(),
-                a.picture.extension() == ".png" ? picture.png : picture.svg);
+    write_picture(picture, a.picture, session.existing());
   }
   if (session.json) {
     session.tell(report(a, legs), "");
@@ -128,9 +128,6 @@ void check_arguments(const SteerArguments& a) {
     throw CLI::ValidationError(
         "--turn-radius",
         fmt::format("the poses are more than {:g} turning radii apart", a.most_radii()));
-  }
-  if (!a.picture.empty() && a.picture.extension() != ".svg" && a.picture.extension() != ".png") {
-    throw CLI::ValidationError("--picture", "expected a file that ends in .svg or .png");
   }
   if (!a.picture.empty() && a.picture == a.track) {
     throw CLI::ValidationError("--picture, --track", "expected two files");
@@ -173,6 +170,7 @@ Action declare_steer(CLI::App& options) {
   options
       .add_option("--picture", a.picture,
                   "draw the path, the shortest path and V; as SVG or PNG, by the file's ending")
+      ->check(picture_argument())
       ->type_name("FILE");
   options
       .add_option("--track", a.track,

@@ -1,26 +1,27 @@
 #include "fairway/app/terminal_progress.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "fairway/app/session.hpp"
+#include "fairway/run/time_left.hpp"
+
 namespace fairway {
 namespace {
 
-std::string duration(double seconds) {
-  if (seconds < 60.0) return fmt::format("{:.0f} s", std::ceil(seconds));
-  return fmt::format("{:.0f} min {:02.0f} s", std::floor(seconds / 60.0), std::fmod(seconds, 60.0));
+double seconds(std::chrono::steady_clock::duration time) {
+  return std::chrono::duration<double>(time).count();
 }
 
 }  // namespace
 
 TerminalProgress::TerminalProgress(bool quiet) {
-  if (!quiet && ::isatty(STDERR_FILENO) == 1) {
-    thread_ = std::thread([this] { show_until_done(); });
-  }
+  if (quiet) return;
+  const bool terminal = ::isatty(STDERR_FILENO) == 1;
+  thread_ = std::thread([this, terminal] { terminal ? show_until_done() : log_until_done(); });
 }
 
 TerminalProgress::~TerminalProgress() {
@@ -35,32 +36,42 @@ TerminalProgress::~TerminalProgress() {
 
 Progress TerminalProgress::progress() {
   if (!thread_.joinable()) return {};
-  return [this](std::string_view stage, double left_s) {
+  return [this](std::string_view stage, const TimeLeft& left) {
     const std::scoped_lock lock(mutex_);
     stage_ = stage;
-    end_estimate_.reset();
-    if (left_s < 0.0) return;
-    end_estimate_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                       std::chrono::duration<double>(std::min(left_s, 1e6)));
+    left_ = left;
+    told_ = Clock::now();
   };
+}
+
+std::string TerminalProgress::line(Clock::time_point now, const char* between) const {
+  return fmt::format("{}{}{} so far{}", stage_, between,
+                     duration_text(std::floor(seconds(now - begin_))),
+                     time_left_words(left_, seconds(now - told_)));
 }
 
 void TerminalProgress::show_until_done() {
   constexpr auto step = std::chrono::milliseconds(200);
   std::unique_lock lock(mutex_);
   while (!changed_.wait_for(lock, step, [this] { return done_; })) {
-    const auto now = Clock::now();
-    const double so_far_s = std::chrono::duration<double>(now - begin_).count();
-    std::string left;
-    if (end_estimate_) {
-      const double left_s = std::chrono::duration<double>(*end_estimate_ - now).count();
-      left = left_s > 1.0 ? ", about " + duration(left_s) + " left" : ", almost done";
-    }
-    fmt::print(stderr, "\r\033[K{}  {} so far{}", stage_, duration(so_far_s), left);
+    fmt::print(stderr, "\r\033[K{}", line(Clock::now(), "  "));
     std::fflush(stderr);
   }
   fmt::print(stderr, "\r\033[K");
   std::fflush(stderr);
+}
+
+void TerminalProgress::log_until_done() {
+  std::unique_lock lock(mutex_);
+  double due_s = next_line_s(0.0);
+  const auto due = [&] {
+    return begin_ +
+           std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s));
+  };
+  while (!changed_.wait_until(lock, due(), [this] { return done_; })) {
+    complain("fairway: " + line(Clock::now(), ", "));
+    due_s = next_line_s(seconds(Clock::now() - begin_));
+  }
 }
 
 }  // namespace fairway

@@ -1,11 +1,10 @@
-// One line on a terminal's stderr: the stage, the time so far and the time left. Nothing when
-// stderr is not a terminal.
+// Where a long run is, on stderr: the stage, the time so far and the time left. One line that is
+// written anew on a terminal; elsewhere, in a log say, a line now and then.
 #pragma once
 
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 
@@ -26,13 +25,16 @@ class TerminalProgress {
  private:
   using Clock = std::chrono::steady_clock;
   void show_until_done();
+  void log_until_done();
+  std::string line(Clock::time_point now, const char* between) const;
 
   std::mutex mutex_;
   std::condition_variable changed_;
   bool done_ = false;
   std::string stage_;
+  TimeLeft left_;
+  Clock::time_point told_;  // `left_`
   Clock::time_point begin_ = Clock::now();
-  std::optional<Clock::time_point> end_estimate_;
   std::thread thread_;  // joinable only when something is shown
 };
 

@@ -20,6 +20,7 @@
 #include "fairway/run/verification.hpp"
 #include "fairway/run/verification_summary.hpp"
 #include "fairway/run/verify_limits.hpp"
+#include "fairway/run/verify_progress.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 
 namespace fairway {
@@ -110,10 +111,9 @@ int verify_command(const VerifyArguments& a, const Session& session) {
   } else {
     std::optional<EarlierProof> earlier;
     if (!a.resume.empty()) earlier = EarlierProof{read_certificate(a.resume), a.resume.string()};
-    clock.begin("verifying", unknown_time);
-    const Verification made = verify_plan(plan, a.plan.string(), region,
-                                          certify_options(a.limits, a.seed, a.volume_samples),
-                                          std::move(earlier), levels_told_by(clock));
+    const CertifyOptions options = certify_options(a.limits, a.seed, a.volume_samples);
+    const Verification made = verify_plan(plan, a.plan.string(), region, options,
+                                          std::move(earlier), begin_verifying(clock, options));
     clock.begin("writing the certificate", unknown_time);
     write_certificate(made.certificate, a.output, session.existing());
     std::vector<FailingState> failing;
@@ -134,6 +134,10 @@ int verify_command(const VerifyArguments& a, const Session& session) {
     clock.end();
     summary = verification_json(made);
     words = verification_words(made);
+    if (made.resumed) {
+      summary["resumed"] = resumed_json(*made.resumed);
+      words += " " + resumed_words(*made.resumed);
+    }
   }
   terminal.reset();
   summary["plan"] = a.plan.string();

@@ -124,7 +124,7 @@ Safetensors parse_safetensors(std::span<const std::byte> bytes, const std::strin
   if (!std::all_of(text.begin(), text.end(), is_ascii)) {
     throw InputError(header_place, "expected ASCII text: other characters are written as \\uXXXX");
   }
-  const json header = parse_strict_json(text, header_place, most_members);
+  const json header = parse_strict_json(text, header_place, {.most_members = most_members});
   Safetensors content;
   std::vector<Placed> placed;
   for (const auto& [name, entry] : header.items()) {

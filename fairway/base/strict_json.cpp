@@ -17,8 +17,8 @@ namespace {
 /// callback that could refuse, takes time quadratic in the members of an object.
 class Looker : public nlohmann::json_sax<json> {
  public:
-  Looker(const std::string& where, std::size_t most_members)
-      : where_(where), most_members_(most_members) {}
+  Looker(std::string_view text, const std::string& where, const JsonLimits& limits)
+      : text_(text), where_(where), limits_(limits) {}
 
   bool null() override { return true; }
   bool boolean(bool) override { return true; }
@@ -34,11 +34,11 @@ class Looker : public nlohmann::json_sax<json> {
   }
   bool key(string_t& name) override {
     if (!keys_.back().insert(name).second) {
-      throw InputError(where_, "has the key \"" + name + "\" twice");
+      throw InputError(where_, "has the key " + shown(json(name)) + " twice in one object");
     }
-    if (keys_.back().size() > most_members_) {
-      throw InputError(where_,
-                       "has an object of more than " + std::to_string(most_members_) + " members");
+    if (keys_.back().size() > limits_.most_members) {
+      throw InputError(where_, "has an object of more than " +
+                                   std::to_string(limits_.most_members) + " members");
     }
     return true;
   }
@@ -55,28 +55,42 @@ class Looker : public nlohmann::json_sax<json> {
     --depth_;
     return true;
   }
-  bool parse_error(std::size_t, const std::string&, const json::exception& error) override {
-    throw InputError(where_, std::string("is not JSON: ") + error.what());
+  bool parse_error(std::size_t byte, const std::string&, const json::exception& error) override {
+    throw InputError(place_of(byte), "is not JSON: " + reason_of(error));
   }
 
  private:
   void open() {
-    constexpr int deepest = 32;
-    if (++depth_ > deepest) throw InputError(where_, "nests more than 32 levels of JSON");
+    if (++depth_ > limits_.deepest) {
+      throw InputError(where_,
+                       "nests more than " + std::to_string(limits_.deepest) + " levels of JSON");
+    }
+  }
+  std::string place_of(std::size_t byte) const {
+    if (text_.find('\n') == std::string_view::npos) return where_;
+    const std::string_view before = text_.substr(0, byte);
+    return where_ + ":" + std::to_string(1 + std::count(before.begin(), before.end(), '\n'));
+  }
+  /// Without the parser's name for the kind of error.
+  static std::string reason_of(const json::exception& error) {
+    const std::string_view what = error.what();
+    const std::size_t from = what.find("syntax error");
+    return std::string(from == std::string_view::npos ? what : what.substr(from));
   }
 
+  std::string_view text_;
   const std::string& where_;
-  std::size_t most_members_;
+  const JsonLimits& limits_;
   int depth_ = 0;
   std::vector<std::unordered_set<std::string>> keys_;  // of the objects that are open
 };
 
 }  // namespace
 
-json parse_strict_json(std::string_view text, const std::string& where, std::size_t most_members) {
+json parse_strict_json(std::string_view text, const std::string& where, const JsonLimits& limits) {
   // Where a zero byte stands, nlohmann takes the text to end.
   if (text.find('\0') != std::string_view::npos) throw InputError(where, "holds a zero byte");
-  Looker looker(where, most_members);
+  Looker looker(text, where, limits);
   try {
     json::sax_parse(text.begin(), text.end(), &looker);
     return json::parse(text.begin(), text.end());

@@ -11,11 +11,16 @@
 
 namespace fairway {
 
+struct JsonLimits {
+  std::size_t most_members = std::numeric_limits<std::size_t>::max();  ///< of an object
+  int deepest = 32;                                                    ///< levels
+};
+
 /// Throws InputError{where, ...} for text that is not one JSON value, repeats a key in an object,
-/// nests more than 32 deep, or has an object of more members than it may.
-[[nodiscard]] nlohmann::json parse_strict_json(
-    std::string_view text, const std::string& where,
-    std::size_t most_members = std::numeric_limits<std::size_t>::max());
+/// nests deeper or has an object of more members than it may; `where` with the line for broken
+/// syntax in a text of several lines. Cost: linear in the text.
+[[nodiscard]] nlohmann::json parse_strict_json(std::string_view text, const std::string& where,
+                                               const JsonLimits& limits = {});
 
 /// A value for an error message, cut when long.
 [[nodiscard]] std::string shown(const nlohmann::json& value);

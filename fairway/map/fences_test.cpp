@@ -282,12 +282,13 @@ TEST_F(Fences, GeoJsonThatIsWrongIsNamedWithItsPlace) {
             "a.geojson: type: is \"Blob\", expected a GeoJSON geometry");
   EXPECT_EQ(error("a.geojson", "{}"), "a.geojson: is no GeoJSON, the key \"type\" is missing");
   EXPECT_THAT(error("a.geojson", "{\n\"type\": \"Polygon\",\n oops}"),
-              StartsWith("a.geojson:3: is no JSON: syntax error"));
+              StartsWith("a.geojson:3: is not JSON: syntax error"));
   EXPECT_EQ(error("a.geojson", R"({"type":"Polygon","type":"Point"})"),
-            "a.geojson: the key \"type\" occurs twice in one object");
-  EXPECT_THAT(error("a.geojson", std::string(100000, '[')), HasSubstr("nested deeper than 64"));
+            "a.geojson: has the key \"type\" twice in one object");
+  EXPECT_THAT(error("a.geojson", std::string(100000, '[')),
+              HasSubstr("nests more than 64 levels of JSON"));
   EXPECT_THAT(error("a.geojson", R"({"type":"Point","coordinates":[1e999,0]})"),
-              HasSubstr("is no JSON: "));
+              HasSubstr("is not JSON: "));
   EXPECT_THAT(
       error(
           "a.geojson",
@@ -413,7 +414,7 @@ TEST_F(Fences, ErrorsSayTheScenariosLineToo) {
   request.file = folder_.file("gone.geojson");
   EXPECT_EQ(error(), "gone.geojson: no such file (map.file of s.toml:2)");
   request.file = folder_.write("a.geojson", "{\n]");
-  EXPECT_THAT(error(), AllOf(StartsWith("a.geojson:2: is no JSON"), HasSubstr("of s.toml:2)")));
+  EXPECT_THAT(error(), AllOf(StartsWith("a.geojson:2: is not JSON"), HasSubstr("of s.toml:2)")));
   request.file = folder_.write("b.geojson", feature(polygon(square(0, 0, 5000))));
   request.cell_m = 1e-3;
   EXPECT_THAT(error(), StartsWith("s.toml:3: map.cell_m: 0.001 m cells on a map of 1"));

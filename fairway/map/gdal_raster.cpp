@@ -1,7 +1,10 @@
 #include "fairway/map/gdal_raster.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <gdal_priv.h>
 
 #include "fairway/base/error.hpp"
@@ -19,6 +22,33 @@ GdalRaster::GdalRaster(const std::filesystem::path& file) : file_(file) {
       GDALOpenEx(name.c_str(), GDAL_OF_READONLY | GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, drivers,
                  options, nullptr));
   if (dataset_ == nullptr) fail("cannot be opened as TIFF, PNG, BMP or JPEG");
+  try {
+    require_modest_blocks();
+  } catch (...) {
+    GDALClose(dataset_);
+    throw;
+  }
+}
+
+// GDAL reads whole blocks, and allocates them before it finds out what the file holds.
+void GdalRaster::require_modest_blocks() const {
+  constexpr std::uint64_t always_fine = std::uint64_t{1} << 24;  // pixels; tiles have 2^8 to 2^20
+  const auto area = [](int width, int height) {
+    return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  };
+  const int width = dataset_->GetRasterXSize();
+  const int height = dataset_->GetRasterYSize();
+  for (int b = 1; b <= dataset_->GetRasterCount(); ++b) {
+    int block_width = 0;
+    int block_height = 0;
+    dataset_->GetRasterBand(b)->GetBlockSize(&block_width, &block_height);
+    if (area(block_width, block_height) <= std::max(area(width, height), always_fine)) continue;
+    throw InputError(file_.string(),
+                     fmt::format("is stored in blocks of {} x {} pixels for an image of {} x {}, "
+                                 "expected no more than the image, or 2^24 pixels; gdal_translate "
+                                 "makes a copy with others",
+                                 block_width, block_height, width, height));
+  }
 }
 
 GdalRaster::~GdalRaster() {

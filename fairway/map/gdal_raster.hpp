@@ -15,7 +15,8 @@ namespace fairway {
 
 class GdalRaster {
  public:
-  /// Opens TIFF, PNG, BMP or JPEG. Throws InputError with GDAL's reason.
+  /// Opens TIFF, PNG, BMP or JPEG. Throws InputError with GDAL's reason, and for files whose blocks
+  /// would take far more memory than the image.
   explicit GdalRaster(const std::filesystem::path& file);
   ~GdalRaster();
   GdalRaster(const GdalRaster&) = delete;
@@ -34,6 +35,7 @@ class GdalRaster {
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
+  void require_modest_blocks() const;
   /// GDAL's words, with the file's name as the user gave it.
   [[nodiscard]] std::string in_our_words(std::string said) const;
 

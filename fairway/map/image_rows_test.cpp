@@ -1,5 +1,7 @@
 #include "fairway/map/image_rows.hpp"
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include <gdal_frmts.h>
@@ -298,6 +300,30 @@ TEST(Occupancy, DeepImagesAreReadLikeShallowOnesOfTheSameShade) {
   for (const auto mode : {OccupancyRule::Mode::trinary, OccupancyRule::Mode::scale})
     EXPECT_EQ(read_occupancy(a, {mode, 0.65, 0.196, false}, 1000).pixels,
               read_occupancy(b, {mode, 0.65, 0.196, false}, 1000).pixels);
+}
+
+std::filesystem::path write_empty_tiff(const std::filesystem::path& file, int side, int tile) {
+  GDALRegister_GTiff();
+  auto* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  const std::string width = "BLOCKXSIZE=" + std::to_string(tile);
+  const std::string height = "BLOCKYSIZE=" + std::to_string(tile);
+  const char* options[] = {"TILED=YES", "SPARSE_OK=TRUE", width.c_str(), height.c_str(), nullptr};
+  const auto dataset = std::unique_ptr<GDALDataset>(
+      driver->Create(file.string().c_str(), side, side, 1, GDT_Byte, const_cast<char**>(options)));
+  EXPECT_NE(dataset, nullptr);
+  return file;
+}
+
+// A tile of 32768 x 32768 pixels takes a gigabyte, for an image of 100 x 100.
+TEST(GdalImages, BlocksFarLargerThanTheImageAreRefusedUnread) {
+  const ScratchFolder folder;
+  const auto file = write_empty_tiff(folder.file("bomb.tif"), 100, 32768);
+  EXPECT_EQ(input_error_of([&] { (void)load(file); }),
+            "bomb.tif: is stored in blocks of 32768 x 32768 pixels for an image of 100 x 100, "
+            "expected no more than the image, or 2^24 pixels; gdal_translate makes a copy with "
+            "others");
+  const Image fine = load(write_empty_tiff(folder.file("fine.tif"), 100, 4096));
+  EXPECT_EQ(fine.samples.size(), 10000U);
 }
 
 }  // namespace

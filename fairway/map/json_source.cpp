@@ -1,19 +1,17 @@
 #include "fairway/map/json_source.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/strict_json.hpp"
 #include "fairway/map/geodetic_fences.hpp"
 
 namespace fairway {
 
 namespace {
-
-constexpr int max_depth = 64;
 
 std::string kind_of(const nlohmann::json& value) {
   if (value.is_null()) return "null";
@@ -26,32 +24,7 @@ std::string kind_of(const nlohmann::json& value) {
 }  // namespace
 
 nlohmann::json parse_json(const SourceText& source) {
-  // One set of keys for each object that is open.
-  std::vector<std::set<std::string>> open;
-  const auto watch = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
-    using Event = nlohmann::json::parse_event_t;
-    if (depth > max_depth)
-      throw InputError(source.file.string(), fmt::format("is nested deeper than {}", max_depth));
-    if (event == Event::object_start) open.emplace_back();
-    if (event == Event::object_end) open.pop_back();
-    if (event == Event::key && !open.back().insert(parsed.get<std::string>()).second)
-      throw InputError(source.file.string(), fmt::format("the key {} occurs twice in one object",
-                                                         shown(parsed.get<std::string>())));
-    return true;
-  };
-  try {
-    return nlohmann::json::parse(source.text, watch);
-  } catch (const nlohmann::json::parse_error& e) {
-    const std::size_t end = std::min(e.byte, source.text.size());
-    const auto line = 1 + std::count(source.text.begin(),
-                                     source.text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
-    std::string what = e.what();
-    const std::size_t from = what.find("syntax error");
-    if (from != std::string::npos) what = what.substr(from);
-    throw InputError(at_line(source.file, static_cast<std::size_t>(line)), "is no JSON: " + what);
-  } catch (const nlohmann::json::exception& e) {
-    throw InputError(source.file.string(), std::string("is no JSON: ") + e.what());
-  }
+  return parse_strict_json(source.text, source.file.string(), {.deepest = 64});
 }
 
 void JsonPlace::fail(const std::string& what) const { throw InputError(where_, what); }
@@ -59,7 +32,8 @@ void JsonPlace::fail(const std::string& what) const { throw InputError(where_, w
 JsonPlace JsonPlace::at(const std::string& key) const {
   if (!value_->is_object()) fail(fmt::format("is {}, expected an object", kind_of(*value_)));
   const auto found = value_->find(key);
-  if (found == value_->end()) fail(fmt::format("the key {} is missing", shown(key)));
+  if (found == value_->end())
+    fail(fmt::format("the key {} is missing", shown(std::string_view(key))));
   return {*found, where_ + (where_.ends_with(": ") ? "" : ".") + key};
 }
 

@@ -11,8 +11,7 @@
 
 namespace fairway {
 
-/// Throws InputError{"FILE:LINE"} for broken syntax, a key that occurs twice in one object, numbers
-/// that no double holds, and nesting deeper than 64.
+/// Strictly (base/strict_json.hpp), but to 64 levels: GeoJSON nests.
 [[nodiscard]] nlohmann::json parse_json(const SourceText& source);
 
 /// A value and where it stands: "FILE: geoFence.polygons[0]". Missing keys and wrong types throw

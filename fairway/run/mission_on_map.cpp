@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -62,11 +63,9 @@ MapRequest map_request(const Scenario& scenario) {
   for (const State& s : scenario.simulate.states) request.also_hold_m.push_back(s.position_m);
   request.also_hold_path = asked.path_file;
   if (!scenario.file.empty()) {
-    const auto lines = [file = scenario.file.string(), lines = scenario.lines](auto key) {
-      const auto line = lines.find(key);
-      return line == lines.end() ? file : fmt::format("{}:{}", file, line->second);
+    request.place_of = [of = std::make_shared<const Scenario>(scenario)](std::string_view key) {
+      return of->place_of(key);
     };
-    request.place_of = [lines](std::string_view key) { return lines(key); };
   }
   return request;
 }

@@ -6,11 +6,16 @@
 
 namespace fairway {
 
-/// Called at the start of a stage and now and then within it, always from the thread that started
-/// the work: the stage, and how long the rest of the run will take, a rough estimate in seconds, or
-/// unknown_time. May be empty.
-using Progress = std::function<void(std::string_view stage, double left_s)>;
-
 inline constexpr double unknown_time = -1.0;
+
+/// How long the work will take from now, seconds, each unknown_time where nobody can say.
+struct TimeLeft {
+  double estimate_s = unknown_time;  ///< a rough estimate
+  double limit_s = unknown_time;     ///< until a time limit ends the stage, whatever the estimate
+};
+
+/// Called at the start of a stage and now and then within it, always from the thread that started
+/// the work. May be empty.
+using Progress = std::function<void(std::string_view stage, const TimeLeft& left)>;
 
 }  // namespace fairway

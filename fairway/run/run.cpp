@@ -22,15 +22,19 @@
 #include "fairway/run/flight_summary.hpp"
 #include "fairway/run/mission_on_map.hpp"
 #include "fairway/run/plan_record.hpp"
+#include "fairway/run/product_picture.hpp"
 #include "fairway/run/products.hpp"
 #include "fairway/run/report_page.hpp"
+#include "fairway/run/run_estimate.hpp"
 #include "fairway/run/run_pictures.hpp"
 #include "fairway/run/scenario_flights.hpp"
+#include "fairway/run/scenario_overrides.hpp"
 #include "fairway/run/stage_clock.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/run/verdict_pictures.hpp"
 #include "fairway/run/verification.hpp"
 #include "fairway/run/verification_summary.hpp"
+#include "fairway/run/verify_progress.hpp"
 
 namespace fairway {
 namespace {
@@ -39,23 +43,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* evidence_words = "Flights are evidence, not a proof.";
-
-/// Seconds that the stages after the map will take, from rates seen on one machine with two cores:
-/// no more than what a progress line needs.
-struct Estimate {
-  double field_s, plan_s, flights_s, pictures_s, page_s;
-  double from_field() const { return field_s + from_plan(); }
-  double from_plan() const { return plan_s + from_flights(); }
-  double from_flights() const { return flights_s + from_pictures(); }
-  double from_pictures() const { return pictures_s + page_s; }
-};
-Estimate estimate(const Scenario& scenario, const Grid& grid) {
-  const auto cells = static_cast<double>(grid.size());
-  const auto flights =
-      static_cast<double>(std::max(scenario.simulate.random, scenario.simulate.sample));
-  return {120e-9 * cells, 30e-9 * cells, flights * (grid.nx + grid.ny) * 100e-9,
-          0.5 + 500e-9 * cells, 0.2 + 20e-6 * cells};
-}
 
 RunResult unreachable(const Scenario& scenario, const MissionRefusal& refusal) {
   const char* key = place_key(scenario);
@@ -102,17 +89,19 @@ struct Proved {
   bool checked = false;
 };
 
-/// The paper's method, which proves nothing, or a proof.
-using Verified = std::variant<BitmapVerification, Proved>;
+struct NotVerified {};
+
+/// Nothing, the paper's method, which proves nothing, or a proof.
+using Verified = std::variant<NotVerified, BitmapVerification, Proved>;
 
 /// The verdicts into a certificate, re-proved by the independent program.
 Proved prove_and_check(const Plan& plan, const Scenario& scenario, const fs::path& place,
-                       StageClock& clock) {
+                       StageClock& clock, double after_s) {
   const fs::path file = place / product::certificate;
   const CertifyOptions options = certify_options(scenario.verify.limits, scenario.simulate.seed);
   Proved proved;
-  proved.verification =
-      verify_plan(plan, scenario.file.string(), {}, options, std::nullopt, levels_told_by(clock));
+  proved.verification = verify_plan(plan, scenario.file.string(), {}, options, std::nullopt,
+                                    begin_verifying(clock, options, after_s));
   const Certificate& certificate = proved.verification.certificate;
   write_certificate(certificate, file, Existing::keep);
   proved.failing = failing_states(certificate, 100, options.seed);
@@ -128,17 +117,19 @@ Proved prove_and_check(const Plan& plan, const Scenario& scenario, const fs::pat
 }
 
 Verified verify_and_check(const Plan& plan, const Scenario& scenario, const fs::path& place,
-                          StageClock& clock) {
-  clock.begin("verifying", unknown_time);
+                          StageClock& clock, double after_s) {
+  if (scenario.verify.method == VerifyMethod::none) return NotVerified{};
   if (scenario.verify.method == VerifyMethod::certified) {
-    return prove_and_check(plan, scenario, place, clock);
+    return prove_and_check(plan, scenario, place, clock, after_s);
   }
+  clock.begin("verifying", unknown_time);
   constexpr int samples_per_border = 200;
   return write_bitmap(plan, {}, samples_per_border, scenario.simulate.seed, place / product::bitmap,
                       Existing::keep);
 }
 
 std::string words_of(const Verified& verified) {
+  if (std::holds_alternative<NotVerified>(verified)) return "Nothing was verified.";
   if (const auto* bitmap = std::get_if<BitmapVerification>(&verified)) {
     return verification_words(*bitmap);
   }
@@ -149,6 +140,9 @@ std::string words_of(const Verified& verified) {
 }
 
 json json_of(const Verified& verified) {
+  if (std::holds_alternative<NotVerified>(verified)) {
+    return {{"method", "none"}, {"proved", false}, {"words", words_of(verified)}};
+  }
   const auto* proved = std::get_if<Proved>(&verified);
   json summary = proved != nullptr ? verification_json(proved->verification)
                                    : verification_json(std::get<BitmapVerification>(verified));
@@ -230,7 +224,7 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   const ScenarioFlights flown = fly_scenario(scenario, plan, engine, clock, left.from_pictures());
   write_flights(flown, plan, scenario.file.string(), place);
 
-  const Verified verified = verify_and_check(plan, scenario, place, clock);
+  const Verified verified = verify_and_check(plan, scenario, place, clock, left.from_pictures());
 
   clock.begin("drawing", left.from_pictures());
   const std::string title = scenario.file.stem().string();
@@ -244,6 +238,7 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
 
   clock.begin("making the page", left.page_s);
   RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
+  add_overrides(result.summary, scenario);
   add_flights(result.summary, flown, scenario.simulate.seed);
   result.summary["verify"] = json_of(verified);
   result.summary["products"] = product_digests(place);
@@ -266,9 +261,11 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
 }
 
 RunResult run_plan_only(const Scenario& scenario, const fs::path& file, Existing existing,
-                        const Progress& progress) {
-  require_no_inputs({file}, inputs_of(scenario));
-  require_writable_place(file, existing);
+                        const Progress& progress, const fs::path& picture) {
+  std::vector<fs::path> places{file};
+  if (!picture.empty()) places.push_back(picture);
+  require_no_inputs(places, inputs_of(scenario));
+  for (const fs::path& place : places) require_writable_place(place, existing);
   StageClock clock(progress);
 
   auto answer = plan_scenario(scenario, clock);
@@ -276,16 +273,24 @@ RunResult run_plan_only(const Scenario& scenario, const fs::path& file, Existing
     return unreachable(scenario, *refusal);
   const auto& [map, mission, plan] = std::get<Planned>(answer);
 
-  require_no_inputs({file}, inputs_of(map));
+  require_no_inputs(places, inputs_of(map));
   clock.begin("writing the plan", estimate(scenario, map.grid).plan_s);
   write_plan(plan, file, existing);
+  if (!picture.empty()) {
+    clock.begin("drawing", estimate(scenario, map.grid).pictures_s);
+    write_picture(picture_of_plan(plan, scenario.file.stem().string()), picture, existing);
+  }
   clock.end();
 
   RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
-  result.summary["products"] = {{file.filename().string(), sha256_file(file)}};
+  add_overrides(result.summary, scenario);
+  for (const fs::path& place : places) {
+    result.summary["products"][place.filename().string()] = sha256_file(place);
+  }
   add_cost(result.summary, clock);
-  result.paragraph = fmt::format("{} {}\nThe plan is {}.", plan_words(plan),
-                                 cost_words(result.summary), file.string());
+  result.paragraph =
+      fmt::format("{} {}\nThe plan is {}.", plan_words(plan), cost_words(result.summary),
+                  file.string() + (picture.empty() ? "" : ", drawn in " + picture.string()));
   return result;
 }
 

@@ -43,8 +43,9 @@ struct RunResult {
 [[nodiscard]] RunResult run(const Scenario& scenario, const std::filesystem::path& folder,
                             Existing existing, const Progress& progress);
 
-/// map -> field -> plan alone, into one file.
+/// map -> field -> plan alone, into one file, and into a picture where one is named.
 [[nodiscard]] RunResult run_plan_only(const Scenario& scenario, const std::filesystem::path& file,
-                                      Existing existing, const Progress& progress);
+                                      Existing existing, const Progress& progress,
+                                      const std::filesystem::path& picture = {});
 
 }  // namespace fairway

@@ -1,19 +1,18 @@
 #include "fairway/run/scenario.hpp"
 
 #include <algorithm>
-#include <numeric>
-#include <set>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include "fairway/base/digest.hpp"
-#include "fairway/base/edit_distance.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/base/file_kind.hpp"
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/base/plain_text.hpp"
+#include "fairway/run/scenario_key_lookup.hpp"
 #include "fairway/run/scenario_keys.hpp"
+#include "fairway/run/scenario_overrides.hpp"
 #include "fairway/vehicle/size_range.hpp"
 
 namespace fairway {
@@ -21,48 +20,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "; did you mean NAME?" for the nearest known name, or the known names when none is near.
-std::string suggestion(std::string_view wrong, const std::vector<std::string>& known) {
-  const auto distance = [&](const std::string& name) {
-    return edit_distance(wrong.substr(0, 64), name);
-  };
-  const auto leaf = [](const std::string& name) { return name.substr(name.find('.') + 1); };
-  const std::string* best = nullptr;
-  for (const std::string& name : known) {
-    if (leaf(name) == wrong.substr(wrong.find('.') + 1)) return "; did you mean " + name + "?";
-    if (best == nullptr || distance(name) < distance(*best)) best = &name;
-  }
-  if (best != nullptr && distance(*best) <= 3) return "; did you mean " + *best + "?";
-  return {};
-}
-
 std::string line_of(const fs::path& file, const toml::source_region& source) {
   return fmt::format("{}:{}", file.string(), source.begin.line);
 }
 
-[[noreturn]] void refuse_unknown(const std::string& name, const toml::source_region& source,
-                                 const fs::path& file) {
-  std::vector<std::string> names;
-  std::set<std::string> tables;
-  for (const ScenarioKey& key : scenario_keys()) {
-    names.push_back(key.name);
-    tables.insert(key.table());
-  }
-  const bool is_table = name.find('.') == std::string::npos;
-  if (is_table) names.insert(names.begin(), tables.begin(), tables.end());
-  throw InputError(line_of(file, source),
-                   fmt::format("{}: there is no such key{}", name, suggestion(name, names)));
-}
-
 void take_table(const toml::table& table, const std::string& table_name, Scenario& scenario) {
-  const std::string file = scenario.file.string();
+  const TomlSource file{scenario.file.string()};
   for (const auto& [toml_key, node] : table) {
     const std::string name = table_name + "." + std::string(toml_key.str());
-    const auto& keys = scenario_keys();
-    const auto key = std::find_if(keys.begin(), keys.end(),
-                                  [&](const ScenarioKey& k) { return k.name == name; });
-    if (key == keys.end()) refuse_unknown(name, toml_key.source(), scenario.file);
-    key->take(TomlValue(node, file, name, key->range), scenario);
+    const ScenarioKey& key = scenario_key(name, line_of(scenario.file, toml_key.source()));
+    key.take(TomlValue(node, file, name, key.range), scenario);
     scenario.lines[name] = static_cast<int>(node.source().begin.line);
   }
 }
@@ -185,12 +152,14 @@ void root_paths(Scenario& s) {
 }  // namespace
 
 std::string Scenario::place_of(std::string_view key) const {
+  if (const auto option = options.find(key); option != options.end()) return option->second;
   const auto line = lines.find(key);
   if (line == lines.end()) return file.string();
   return fmt::format("{}:{}", file.string(), line->second);
 }
 
-Scenario scenario_of_text(std::string_view bytes, const fs::path& file) {
+Scenario scenario_of_text(std::string_view bytes, const fs::path& file,
+                          std::span<const ScenarioOverride> overrides) {
   Scenario scenario;
   scenario.file = file;
   scenario.sha256 = sha256_hex(std::as_bytes(std::span(bytes.data(), bytes.size())));
@@ -208,7 +177,7 @@ Scenario scenario_of_text(std::string_view bytes, const fs::path& file) {
     const auto& keys = scenario_keys();
     if (std::none_of(keys.begin(), keys.end(),
                      [&](const ScenarioKey& k) { return k.table() == name; })) {
-      refuse_unknown(name, key.source(), file);
+      refuse_unknown_key(name, line_of(file, key.source()));
     }
     if (!node.is_table()) {
       throw InputError(line_of(file, node.source()),
@@ -216,12 +185,13 @@ Scenario scenario_of_text(std::string_view bytes, const fs::path& file) {
     }
     take_table(*node.as_table(), name, scenario);
   }
+  for (const ScenarioOverride& one : overrides) take_override(one, scenario);
   check(scenario);
   root_paths(scenario);
   return scenario;
 }
 
-Scenario read_scenario(const fs::path& file) {
+Scenario read_scenario(const fs::path& file, std::span<const ScenarioOverride> overrides) {
   const MappedFile mapped(file);
   const std::string_view text(reinterpret_cast<const char*>(mapped.bytes().data()),
                               mapped.bytes().size());
@@ -230,7 +200,7 @@ Scenario read_scenario(const fs::path& file) {
     if (text.size() > largest) {
       throw InputError(file.string(), "is larger than 1 MB, expected a scenario in TOML");
     }
-    return scenario_of_text(text, file);
+    return scenario_of_text(text, file, overrides);
   } catch (const InputError&) {
     refuse_other_kind(mapped.bytes(), FileKind::scenario, file.string());
     throw;

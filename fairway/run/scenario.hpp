@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,7 +44,7 @@ struct SimulateRequest {
   std::uint64_t seed = 1;
 };
 
-enum class VerifyMethod { certified, bitmap };
+enum class VerifyMethod { certified, bitmap, none };
 
 /// The [verify] table.
 struct VerifyRequest {
@@ -60,16 +61,28 @@ struct Scenario {
   FieldOptions plan;
   SimulateRequest simulate;
   VerifyRequest verify;
-  std::map<std::string, int, std::less<>> lines;  ///< line of every key that was given
+  std::map<std::string, int, std::less<>> lines;  ///< line of every key that was given; 0: below
+  std::map<std::string, std::string, std::less<>> options;  ///< of the command, that gave a key
 
-  /// "FILE:LINE" of a key such as "mission.goal_m", or "FILE" when the key was not given.
+  /// "FILE:LINE" of a key such as "mission.goal_m", the option that gave it ("--set"), or "FILE"
+  /// when the key was not given.
   [[nodiscard]] std::string place_of(std::string_view key) const;
 };
 
-/// Throws InputError{FILE:LINE, KEY ... what is expected}.
-[[nodiscard]] Scenario read_scenario(const std::filesystem::path& file);
+/// A value from the command line in place of the file's; the later of two for one key counts.
+struct ScenarioOverride {
+  std::string key;    ///< "map.cell_m"
+  std::string value;  ///< as TOML writes it; a text may go without quotes
+  std::string option = "--set";
+};
 
-/// The same for text already in memory; `file` names it and roots its relative paths.
-[[nodiscard]] Scenario scenario_of_text(std::string_view text, const std::filesystem::path& file);
+/// Throws InputError{FILE:LINE or option, KEY ... what is expected}. The digest is the file's own.
+[[nodiscard]] Scenario read_scenario(const std::filesystem::path& file,
+                                     std::span<const ScenarioOverride> overrides = {});
+
+/// The same for text already in memory; `file` names it and roots its relative paths, those of
+/// overrides too.
+[[nodiscard]] Scenario scenario_of_text(std::string_view text, const std::filesystem::path& file,
+                                        std::span<const ScenarioOverride> overrides = {});
 
 }  // namespace fairway

@@ -27,6 +27,7 @@ void take(const TomlValue& v, GeodeticPoint& x) {
   x = {pair.x, pair.y};
 }
 void take(const TomlValue& v, std::vector<State>& x) {
+  x.clear();
   for (const auto& row : v.rows(3)) x.push_back({{row[0], row[1]}, Heading::from_rad(row[2])});
 }
 template <typename T>
@@ -233,9 +234,11 @@ std::vector<ScenarioKey> simulate_and_verify_keys() {
             "of all random draws"),
       choice<VerifyMethod>(
           "verify.method",
-          {{"certified", VerifyMethod::certified}, {"bitmap", VerifyMethod::bitmap}},
+          {{"certified", VerifyMethod::certified},
+           {"bitmap", VerifyMethod::bitmap},
+           {"none", VerifyMethod::none}},
           FAIRWAY_MEMBER(verify.method),
-          "a proof for every state, or the paper's samples of the borders: a picture"),
+          "a proof for every state; or the paper's samples of the borders: a picture; or nothing"),
       number("verify.undecided_max", Range{0.0, 1.0}, FAIRWAY_MEMBER(verify.limits.undecided_max),
              "stop refining once this share of the volume is undecided"),
       number("verify.time_limit_s", Range{0.0, 1e9}, FAIRWAY_MEMBER(verify.limits.time_limit_s),

@@ -110,7 +110,7 @@ TEST(Scenarios, RefusalsNameLineKeyAndWhatIsExpected) {
     const char* message;
   } cases[] = {
       {with("cell_m = 4", "cell_m = -4"),
-       "dir/s.toml:3: map.cell_m: expected a number in (0, 1e+09], found -4"},
+       "dir/s.toml:3: map.cell_m: expected a number in (0, 1000000000], found -4"},
       {with("cell_m = 4", "cell_m = nan"), "dir/s.toml:3: map.cell_m: expected a number in"},
       {with("cell_m = 4", "cell_m = inf"), "dir/s.toml:3: map.cell_m: expected a number in"},
       {with("cell_m = 4", "cell_m = \"4\""), "dir/s.toml:3: map.cell_m: expected a number, found"},

@@ -17,17 +17,19 @@ class StageClock {
   explicit StageClock(const Progress& progress) : progress_(progress) {}
 
   /// Ends the stage before, begins this one. `left_s`: estimate for it and all that follow.
-  void begin(const std::string& stage, double left_s) {
+  void begin(const std::string& stage, double left_s) { begin(stage, TimeLeft{left_s}); }
+  void begin(const std::string& stage, const TimeLeft& left) {
     end();
     stage_ = stage;
     told_.clear();
     begin_ = Clock::now();
-    tell(left_s);
+    tell(left);
   }
   /// Another name for the stage under way, as it is told; its time is kept under the old one.
   void rename(std::string told) { told_ = std::move(told); }
-  void tell(double left_s) const {
-    if (progress_) progress_(told_.empty() ? stage_ : told_, left_s);
+  void tell(double left_s) const { tell(TimeLeft{left_s}); }
+  void tell(const TimeLeft& left) const {
+    if (progress_) progress_(told_.empty() ? stage_ : told_, left);
   }
   /// Of the stage that is under way.
   double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }

@@ -23,6 +23,13 @@ std::string shown(const toml::node& node) {
   return text;
 }
 
+/// Bounds are written in full, but for those with more digits than anybody types: pi.
+std::string bound_text(double bound) {
+  std::string text = fmt::format("{}", bound);
+  constexpr std::size_t longest = 16;
+  return text.size() > longest ? fmt::format("{:g}", bound) : text;
+}
+
 }  // namespace
 
 bool Range::contains(double x) const {
@@ -33,18 +40,18 @@ std::string Range::text() const {
   const Range all;
   const char* at_least = low_open ? "> " : ">= ";
   if (low == all.low && high == all.high) return "finite";
-  if (high == all.high) return fmt::format("{}{:g}", at_least, low);
-  return fmt::format("in {}{:g}, {:g}]", low_open ? "(" : "[", low, high);
+  if (high == all.high) return at_least + bound_text(low);
+  return fmt::format("in {}{}, {}]", low_open ? "(" : "[", bound_text(low), bound_text(high));
 }
 
-std::string TomlValue::place() const {
-  return fmt::format("{}:{}", file_, node_.source().begin.line);
+std::string TomlSource::place_of(const toml::node& node) const {
+  return has_lines ? fmt::format("{}:{}", name, node.source().begin.line) : name;
 }
 
 void TomlValue::refuse(const std::string& expected) const { refuse(node_, expected); }
 
 void TomlValue::refuse(const toml::node& node, const std::string& expected) const {
-  throw InputError(fmt::format("{}:{}", file_, node.source().begin.line),
+  throw InputError(source_.place_of(node),
                    fmt::format("{}: expected {}, found {}", key_, expected, shown(node)));
 }
 

@@ -1,11 +1,12 @@
-// One value of a TOML file, asked for by type and range; errors say FILE:LINE, key, and both what
-// was expected and what was found.
+// One value of a TOML file or of an option, asked for by type and range; errors say FILE:LINE or
+// the option, key, and both what was expected and what was found.
 #pragma once
 
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "fairway/base/vec2.hpp"
@@ -28,10 +29,17 @@ struct Range {
   [[nodiscard]] std::string text() const;
 };
 
+/// Where values stand: in the lines of a file, or in an option of the command.
+struct TomlSource {
+  std::string name;
+  bool has_lines = true;
+  [[nodiscard]] std::string place_of(const toml::node& node) const;
+};
+
 class TomlValue {
  public:
-  TomlValue(const toml::node& node, std::string file, std::string key, Range range)
-      : node_(node), file_(std::move(file)), key_(std::move(key)), range_(range) {}
+  TomlValue(const toml::node& node, TomlSource source, std::string key, Range range)
+      : node_(node), source_(std::move(source)), key_(std::move(key)), range_(range) {}
 
   [[nodiscard]] double number() const;
   [[nodiscard]] std::uint64_t whole_number() const;
@@ -41,7 +49,6 @@ class TomlValue {
   /// Rows of `width` numbers each.
   [[nodiscard]] std::vector<std::vector<double>> rows(std::size_t width) const;
 
-  [[nodiscard]] std::string place() const;
   [[noreturn]] void refuse(const std::string& expected) const;
 
  private:
@@ -49,7 +56,7 @@ class TomlValue {
   [[noreturn]] void refuse(const toml::node& node, const std::string& expected) const;
 
   const toml::node& node_;
-  std::string file_;
+  TomlSource source_;
   std::string key_;
   Range range_;
 };

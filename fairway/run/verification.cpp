@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <span>
 #include <string_view>
@@ -11,17 +12,16 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/heading.hpp"
+#include "fairway/base/number_text.hpp"
 #include "fairway/base/random.hpp"
 #include "fairway/base/safetensors.hpp"
 #include "fairway/bitmap/bitmap_backward.hpp"
 #include "fairway/bitmap/bitmap_volume.hpp"
 #include "fairway/certificate/certificate_file.hpp"
-#include "fairway/certificate/proof_identity.hpp"
 #include "fairway/run/verification_summary.hpp"
 #include "fairway/run/version.hpp"
 #include "fairway/simulate/flight.hpp"
 #include "fairway/verify/images.hpp"
-#include "fairway/verify/reprove.hpp"
 
 namespace fairway {
 namespace {
@@ -67,17 +67,10 @@ json evidence_of(const CertifyOptions& options, const Certified& outcome) {
           {"stopped_by", name_of(outcome.stopped_by)}};
 }
 
-/// What an earlier certificate has of the same proof, proved again.
-SectionVerdicts taken_over(EarlierProof&& earlier, const Certificate& now, int most_crossings) {
-  Certificate& certificate = earlier.certificate;
-  if (proof_identity(certificate) != proof_identity(now)) {
-    throw InputError(earlier.where,
-                     "belongs to a different plan, vehicle or region; cannot resume from it");
-  }
-  if (!sections_fit(now.flow(), certificate.sections)) {
-    throw InputError(earlier.where, "has leaves where there are none; cannot resume from it");
-  }
-  return reproved(now.flow(), std::move(certificate.sections), most_crossings);
+/// Seconds of a limit that are left after `so_far_s`; 0 is no limit, so at least next to nothing.
+double rest_of_limit(double limit_s, double so_far_s) {
+  constexpr double next_to_nothing_s = 1e-9;
+  return limit_s > 0.0 ? std::max(limit_s - so_far_s, next_to_nothing_s) : 0.0;
 }
 
 }  // namespace
@@ -86,9 +79,11 @@ Verification verify_plan(const Plan& plan, const std::string& where, const Regio
                          const CertifyOptions& options, std::optional<EarlierProof> earlier,
                          const CertifyProgress& progress) {
   if (!(plan.grid.cell_m < plan.vehicle.turn_radius_m)) {
-    throw InputError(where, fmt::format("its cells of {:g} m are not smaller than the turning "
-                                        "radius, {:g} m: such a plan cannot be verified",
-                                        plan.grid.cell_m, plan.vehicle.turn_radius_m));
+    throw InputError(
+        where,
+        fmt::format("its cells of {} m are not smaller than the turning radius, {} m: such a "
+                    "plan cannot be verified",
+                    length_text(plan.grid.cell_m), length_text(plan.vehicle.turn_radius_m)));
   }
   Verification made;
   Certificate& c = made.certificate;
@@ -103,10 +98,20 @@ Verification verify_plan(const Plan& plan, const std::string& where, const Regio
   std::vector<bool> is_free(plan.grid.size());
   for (std::size_t i = 0; i < is_free.size(); ++i) is_free[i] = plan.region[i] == Region::free;
   SectionVerdicts start;
+  CertifyOptions rest = options;
   if (earlier) {
-    start = taken_over(std::move(*earlier), c, options.most_crossings);
+    const auto began = std::chrono::steady_clock::now();
+    const auto so_far_s = [&] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    };
+    const auto go_on = [&] {
+      return options.time_limit_s <= 0.0 || so_far_s() < options.time_limit_s;
+    };
+    start =
+        taken_over(std::move(*earlier), c, options.most_crossings, go_on, made.resumed.emplace());
+    rest.time_limit_s = rest_of_limit(options.time_limit_s, so_far_s());
   }
-  made.outcome = certify(c.flow(), is_free, options, std::move(start), progress);
+  made.outcome = certify(c.flow(), is_free, rest, std::move(start), progress);
   c.sections = std::move(made.outcome.sections);
   c.evidence_json = evidence_of(options, made.outcome).dump();
   return made;

@@ -11,6 +11,7 @@
 #include "fairway/certificate/certificate.hpp"
 #include "fairway/plan/plan.hpp"
 #include "fairway/plan/plan_digests.hpp"
+#include "fairway/run/resume.hpp"
 #include "fairway/vehicle/vehicle.hpp"
 #include "fairway/verify/certify.hpp"
 
@@ -19,19 +20,14 @@ namespace fairway {
 /// A certificate of `plan`, and how it came about.
 struct Verification {
   Certificate certificate;
-  Certified outcome;  ///< but for its sections, which the certificate has
-};
-
-/// A certificate to go on from; `where` names it in errors.
-struct EarlierProof {
-  Certificate certificate;
-  std::string where;
+  Certified outcome;               ///< but for its sections, which the certificate has
+  std::optional<Resumed> resumed;  ///< when it went on from an earlier one
 };
 
 /// Proves what flights under `plan` do. `earlier`: a certificate of the same proof
 /// (proof_identity.hpp) to go on from, whose leaves are proved again before they count; throws
-/// InputError{earlier->where, ...} when it is of another one. Throws InputError when the plan
-/// cannot be verified, in words.
+/// InputError{earlier->where, ...} when it is of another one. The time limit holds for both. Throws
+/// InputError when the plan cannot be verified, in words.
 [[nodiscard]] Verification verify_plan(const Plan& plan, const std::string& where,
                                        const RegionOfInterest& region,
                                        const CertifyOptions& options,

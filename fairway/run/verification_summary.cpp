@@ -129,11 +129,4 @@ std::string level_words(const LevelRecord& level) {
   return fmt::format("verifying, {:.2f} % undecided", 100.0 * level.undecided_volume);
 }
 
-CertifyProgress levels_told_by(StageClock& clock) {
-  return [&clock](const LevelRecord& level) {
-    clock.rename(level_words(level));
-    clock.tell(unknown_time);
-  };
-}
-
 }  // namespace fairway

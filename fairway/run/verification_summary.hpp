@@ -33,7 +33,4 @@ namespace fairway {
 /// "verifying, 3.20 % undecided": the stage under way once a level is done.
 [[nodiscard]] std::string level_words(const LevelRecord& level);
 
-/// Tells the levels of a proof as the stage under way. `clock` must outlive it.
-[[nodiscard]] CertifyProgress levels_told_by(StageClock& clock);
-
 }  // namespace fairway

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "fairway/base/error.hpp"
@@ -93,6 +94,51 @@ TEST(Resume, TakesOverOnlyWhatIsProvedAgain) {
       ASSERT_EQ(a.verdict[i], b.verdict[i]);
     }
   }
+}
+
+TEST(Resume, SaysHowManyLeavesItDropped) {
+  const Plan plan = sample_plan();
+  const Certificate honest = verified(plan).certificate;
+  const auto undecided = [](const Certificate& c) {
+    return static_cast<std::size_t>(
+        std::count(c.sections.verdict.begin(), c.sections.verdict.end(), 0));
+  };
+  const std::size_t decided = honest.sections.leaves() - undecided(honest);
+  const auto kept = verified(plan, {}, EarlierProof{honest, "old"}).resumed;
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->decided, decided);
+  EXPECT_EQ(kept->dropped, 0U);
+  EXPECT_EQ(resumed_words(*kept),
+            "All " + std::to_string(decided) + " decided leaves of old were proved again.");
+  Certificate forged = honest;
+  std::size_t lies = 0;  // a bound of no time from a leaf that takes some
+  for (std::size_t i = 0; i < forged.sections.leaves(); ++i) {
+    if (forged.sections.verdict[i] != static_cast<std::uint8_t>(Verdict::reach)) continue;
+    forged.sections.time_s[i] = 0.0F;
+    ++lies;
+  }
+  ASSERT_GT(lies, 0U);
+  const auto dropped = verified(plan, {}, EarlierProof{forged, "forged"}).resumed;
+  EXPECT_EQ(dropped->dropped, lies);
+  EXPECT_TRUE(dropped->in_time);
+  EXPECT_EQ(resumed_words(*dropped), "Of " + std::to_string(decided) +
+                                         " decided leaves of forged, " + std::to_string(lies) +
+                                         " were dropped: they could not be proved again.");
+  EXPECT_FALSE(verified(plan).resumed);
+}
+
+TEST(Resume, TheTimeLimitHoldsForProvingAgain) {
+  const Plan plan = sample_plan();
+  const Certificate honest = verified(plan).certificate;
+  CertifyOptions options;
+  options.samples = 1000;
+  options.time_limit_s = 1e-9;
+  const Verification made = verify_plan(plan, "the plan", {}, options, EarlierProof{honest, "old"});
+  EXPECT_EQ(made.resumed->dropped, made.resumed->decided);
+  EXPECT_FALSE(made.resumed->in_time);
+  EXPECT_EQ(made.outcome.stopped_by, StoppedBy::time_limit);
+  EXPECT_THAT(resumed_words(*made.resumed),
+              testing::HasSubstr("the time limit left no time to prove them again"));
 }
 
 TEST(Resume, RefusesLeavesWhereThereCanBeNone) {

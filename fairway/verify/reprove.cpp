@@ -33,7 +33,8 @@ void drop_nonsense(SectionVerdicts& s) {
 }
 
 /// The decided leaves, each with its image.
-LeafGraph flown(const Flow& flow, const SectionVerdicts& claimed, int most_crossings) {
+LeafGraph flown(const Flow& flow, const SectionVerdicts& claimed, int most_crossings,
+                const std::function<bool()>& go_on) {
   LeafGraph graph(claimed, LeafGraph::Keep::all_links);
   std::vector<Id> decided;
   std::vector<LeafPlace> places;
@@ -42,7 +43,7 @@ LeafGraph flown(const Flow& flow, const SectionVerdicts& claimed, int most_cross
     decided.push_back(id);
     places.push_back(graph.place(id));
   }
-  const ImageStore images = leaf_images(flow, places, most_crossings, [] { return true; });
+  const ImageStore images = leaf_images(flow, places, most_crossings, go_on);
   for (std::size_t i = 0; i < decided.size(); ++i) graph.set_image(decided[i], images[i]);
   return graph;
 }
@@ -89,10 +90,11 @@ bool sections_fit(const Flow& flow, const SectionVerdicts& sections) {
   return true;
 }
 
-SectionVerdicts reproved(const Flow& flow, SectionVerdicts claimed, int most_crossings) {
+SectionVerdicts reproved(const Flow& flow, SectionVerdicts claimed, int most_crossings,
+                         const std::function<bool()>& go_on) {
   require(sections_fit(flow, claimed), "the sections with leaves are those of the flow");
   drop_nonsense(claimed);
-  const LeafGraph graph = flown(flow, claimed, most_crossings);
+  const LeafGraph graph = flown(flow, claimed, most_crossings, go_on);
   std::vector<std::uint8_t> holds(graph.ids());
   for (Id id = 0; id < graph.ids(); ++id) holds[id] = graph.is_open(id) ? 0 : 1;
 

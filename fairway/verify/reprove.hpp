@@ -5,6 +5,8 @@
 // answer. A leaf of an honest certificate of the same flow keeps its verdict, rank and time.
 #pragma once
 
+#include <functional>
+
 #include "fairway/verify/flow.hpp"
 #include "fairway/verify/section_verdicts.hpp"
 
@@ -14,8 +16,9 @@ namespace fairway {
 [[nodiscard]] bool sections_fit(const Flow& flow, const SectionVerdicts& sections);
 
 /// `claimed` with every decided leaf undecided for which the rule does not hold, given the others
-/// that are left. The sections fit.
-[[nodiscard]] SectionVerdicts reproved(const Flow& flow, SectionVerdicts claimed,
-                                       int most_crossings);
+/// that are left. The sections fit. What is not flown once `go_on` says no is undecided, too.
+[[nodiscard]] SectionVerdicts reproved(
+    const Flow& flow, SectionVerdicts claimed, int most_crossings,
+    const std::function<bool()>& go_on = [] { return true; });
 
 }  // namespace fairway

@@ -1,6 +1,8 @@
 // Leaves from outside: what is true of them is kept, and nothing that is not.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <functional>
 #include <limits>
 #include <string>
@@ -120,6 +122,28 @@ TEST(Reprove, BelievesNoLie) {
       EXPECT_EQ(again.rank, on.rank) << what;
       expect_true(on, truth, what);
     }
+  }
+}
+
+TEST(Reprove, WhatIsNotFlownInTimeIsUndecidedAndTheRestIsStillProved) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    const Proved truth(seed, 7);
+    const auto decided = [](const SectionVerdicts& s) {
+      return s.leaves() -
+             static_cast<std::size_t>(std::count(s.verdict.begin(), s.verdict.end(), 0));
+    };
+    for (const int blocks : {0, 1, 3}) {
+      std::atomic<int> flown = 0;
+      const SectionVerdicts kept = reproved(truth.loop.flow(), truth.sections, most_crossings,
+                                            [&] { return flown++ < blocks; });
+      expect_true(kept, truth, "seed " + std::to_string(seed));
+      EXPECT_LE(decided(kept), decided(truth.sections));
+      if (blocks == 0) {
+        EXPECT_EQ(decided(kept), 0U);
+      }
+    }
+    EXPECT_EQ(decided(reproved(truth.loop.flow(), truth.sections, most_crossings)),
+              decided(truth.sections));
   }
 }
 

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "fairway/base/number_text.hpp"
+
 namespace fairway {
 namespace {
 
@@ -61,13 +63,12 @@ State state_parameters(const Parameters& parameters, const Grid& grid, const cha
                       p.y < grid.y0_m + grid.height_m();
   if (!inside || !grid.contains(grid.cell_of(p))) {
     throw BadQuestion(fmt::format(
-        "({}, {}) = ({:g}, {:g}) is outside the plan, expected {:g} <= {} < {:g} and {:g} <= {} < "
-        "{:g}",
-        x, y, p.x, p.y, grid.x0_m, x, grid.x0_m + grid.width_m(), grid.y0_m, y,
-        grid.y0_m + grid.height_m()));
+        "({}, {}) = ({}, {}) is outside the plan, expected {} <= {} < {} and {} <= {} < {}", x, y,
+        p.x, p.y, coordinate_text(grid.x0_m), x, coordinate_text(grid.x0_m + grid.width_m()),
+        coordinate_text(grid.y0_m), y, coordinate_text(grid.y0_m + grid.height_m())));
   }
   if (std::abs(heading_rad) > 1e6) {
-    throw BadQuestion(fmt::format("{} = {:g} is no heading, expected radians", h, heading_rad));
+    throw BadQuestion(fmt::format("{} = {} is no heading, expected radians", h, heading_rad));
   }
   return {p, Heading::from_rad(heading_rad)};
 }

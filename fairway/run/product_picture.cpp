@@ -1,0 +1,30 @@
+#include "fairway/run/product_picture.hpp"
+
+#include "fairway/certificate/certificate_file.hpp"
+#include "fairway/plan/plan_file.hpp"
+#include "fairway/report/draw_plan.hpp"
+#include "fairway/report/draw_verdicts.hpp"
+#include "fairway/run/product_file.hpp"
+#include "fairway/verify/sample_verdicts.hpp"
+
+namespace fairway {
+
+Picture picture_of_plan(const Plan& plan, const std::string& title) {
+  return draw_plan(plan, {.title = title, .mission = plan.record.mission});
+}
+
+ProductPicture picture_of_product(const std::filesystem::path& file) {
+  const std::string title = file.stem().string();
+  if (product_kind(file) == ProductKind::plan) {
+    return {picture_of_plan(read_plan(file), title), "plan"};
+  }
+  const Certificate certificate = read_certificate(file);
+  const VerdictMap map = verdict_map_of(certificate.flow(), certificate.sections.view(), {});
+  return {draw_verdicts(map, {.title = title}), "verdicts"};
+}
+
+void write_picture(const Picture& picture, const std::filesystem::path& file, Existing existing) {
+  write_whole(file, existing, file.extension() == ".png" ? picture.png : picture.svg);
+}
+
+}  // namespace fairway

@@ -1,0 +1,16 @@
+// A scenario's key by its name, and what may have been meant by a wrong one.
+#pragma once
+
+#include <string>
+
+#include "fairway/run/scenario_keys.hpp"
+
+namespace fairway {
+
+/// The key called "TABLE.LEAF". Throws InputError{place, ...}, with what may have been meant.
+[[nodiscard]] const ScenarioKey& scenario_key(const std::string& name, const std::string& place);
+
+/// Of a key or a table that does not exist.
+[[noreturn]] void refuse_unknown_key(const std::string& name, const std::string& place);
+
+}  // namespace fairway

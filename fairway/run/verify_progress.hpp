@@ -1,0 +1,14 @@
+// What is told while a proof is under way.
+#pragma once
+
+#include "fairway/run/stage_clock.hpp"
+#include "fairway/verify/certify.hpp"
+
+namespace fairway {
+
+/// Begins the stage "verifying", and tells its levels with the time left; what comes after the
+/// proof takes another `after_s`, seconds. `clock` must outlive it.
+[[nodiscard]] CertifyProgress begin_verifying(StageClock& clock, const CertifyOptions& options,
+                                              double after_s = 0.0);
+
+}  // namespace fairway
