@@ -165,6 +165,8 @@ struct PageServer::Parts {
       send(response, std::move(*bytes), type_of(name));
     } catch (const BadQuestion& wrong) {
       refuse(response, 400, wrong.what());
+    } catch (const NotNow& busy) {
+      refuse(response, 503, busy.what());
     } catch (const std::out_of_range&) {
       refuse(response, 404, reason_of(404));
     }
@@ -178,8 +180,18 @@ struct PageServer::Parts {
       return engine.info();
     }
     if (request.path == "/api/state") {
+      if (given.contains("goal_x") || given.contains("goal_y")) {
+        require_parameters(given, {"x", "y", "h", "goal_x", "goal_y"});
+        return engine.state(state_parameters(given, "x", "y", "h"),
+                            place_parameters(given, "goal_x", "goal_y"));
+      }
       require_parameters(given, {"x", "y", "h"});
-      return engine.state(state_parameters(given, engine.grid(), "x", "y", "h"));
+      return engine.state(state_parameters(given, "x", "y", "h"));
+    }
+    if (request.path == "/api/replan" || request.path == "/api/proof") {
+      require_parameters(given, {"goal_x", "goal_y"});
+      const Vec2 goal_m = place_parameters(given, "goal_x", "goal_y");
+      return request.path == "/api/replan" ? engine.replan(goal_m) : engine.proof(goal_m);
     }
     if (request.path == "/api/steer") {
       require_parameters(given, {"x", "y", "h", "to_x", "to_y", "to_h"});

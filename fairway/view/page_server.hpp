@@ -8,8 +8,8 @@
 //   3. A client that is slow, or silent, is let go after `PageLimits`, and keeps no other waiting:
 //      each has a thread of its own, as long as there are no more than `connections`.
 //   4. Every answer but a product is a JSON object; what is wrong is {"error": ...} with status 400
-//      (malformed), 403 (another host), 404 (unknown), 405 (anything but GET and HEAD) or 500. A
-//      product is given whole: Range is not heeded.
+//      (malformed), 403 (another host), 404 (unknown), 405 (anything but GET and HEAD), 500, or 503
+//      (another plan or proof is being made). A product is given whole: Range is not heeded.
 #pragma once
 
 #include <chrono>

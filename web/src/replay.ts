@@ -50,7 +50,10 @@ export class Replay {
     const row = (k: number, ...cells: (Node | string)[]): HTMLTableRowElement => {
       const tr = el("tr", { tabindex: k < 0 ? 0 : -1, "aria-selected": "false", "data-flight": k },
         ...cells.map((cell, c) => el("td", { class: c >= 2 ? "num" : undefined }, cell)));
-      tr.addEventListener("click", () => this.choose(k));
+      tr.addEventListener("click", () => {
+        this.choose(k);
+        if (k >= 0) byId("stage-map").scrollIntoView({ block: "nearest" });  // where it is highlighted
+      });
       return tr;
     };
     this.rows = [row(-1, "all", `${this.flights.length} flights`, "", "")];
@@ -120,6 +123,9 @@ export class Replay {
     };
     this.frame = requestAnimationFrame(step);
   }
+
+  /** The charts, in other colours or for another width. */
+  redraw(): void { this.charts.redraw(); }
 
   stop(): void {
     cancelAnimationFrame(this.frame);
