@@ -113,7 +113,7 @@ export class HeadingSlider {
   strip(): void {
     const canvas = byId<HTMLCanvasElement>("heading-strip");
     const info = this.record.verdicts;
-    canvas.hidden = !info;
+    canvas.classList.toggle("none", !info);
     if (!info) return;
     if (fitted(canvas) || !this.shares) this.shares = this.paintShares(canvas);
     const context = canvas.getContext("2d")!;

@@ -175,6 +175,7 @@ export class MapPage implements MapHands, PlanView {
     const { record } = this;
     const { mission, cost_step_m } = record;
     this.arrays = arrays;
+    record.verdicts = info;
     this.take({ mission, cost_step_m, field: this.field }, info, new VerdictLayers(arrays, record));
     await this.verdicts!.ask(this.slider.index);
     await this.needCounts();
@@ -262,7 +263,13 @@ export class MapPage implements MapHands, PlanView {
     }
   }
 
+  /** A layer of its own; on paper, where layers hide each other, the cells' picture. */
   private cleared(id: string): CanvasRenderingContext2D {
+    if (isPrinting()) {
+      const context = byId<HTMLCanvasElement>("map-base").getContext("2d")!;
+      context.setTransform(pixelRatio(), 0, 0, pixelRatio(), 0, 0);
+      return context;
+    }
     const canvas = byId<HTMLCanvasElement>(id);
     const context = canvas.getContext("2d")!;
     fitted(canvas);
@@ -317,7 +324,7 @@ export class MapPage implements MapHands, PlanView {
       shares.hidden = name !== "share";
       void this.needCounts().then(() => {
         this.showLegend();
-        this.redraw("base");
+        this.redraw("base", "readout");
       });
     });
     byId("views").querySelector("input[value=share]")?.parentElement!.after(shares);

@@ -20,8 +20,8 @@ export interface PlanView {
 }
 
 const reasons: Record<string, string> = {
-  undecided_max: "as far as a run would go", time_limit: "stopped after five seconds", memory_limit: "stopped at its memory limit",
-  last_level: "stopped at its finest cells", stalled: "stopped where more work decided no more" };
+  undecided_max: "just now", time_limit: "for five seconds", memory_limit: "up to its memory limit",
+  last_level: "to the finest level", stalled: "until more work decided no more" };
 
 /** Other places that a refusal names, "[x, y]". */
 export function placesIn(message: string, but: [number, number]): [number, number][] {
@@ -102,7 +102,7 @@ export class MovedGoal {
       await this.view.showProof(proof.verdicts, new Arrays(proof.arrays));
       const { reach, failing, undecided } = this.record.codes;
       const share = (...codes: number[]) => percent(codes.reduce((sum, code) => sum + proof.volume_fraction[this.record.styles.verdict[code].name], 0), 1);
-      this.tell(`Verified just now, ${reasons[proof.stopped_by] ?? proof.stopped_by}: of all states ${share(...failing)} are proved to fail, ` +
+      this.tell(`Verified ${reasons[proof.stopped_by] ?? proof.stopped_by}: of all states ${share(...failing)} are proved to fail, ` +
         `${share(undecided)} are undecided, ${share(reach)} are proved to reach. No other program has checked this proof, and it is not kept.`);
     } catch (error) {
       if (asked !== this.asked) return;

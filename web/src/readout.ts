@@ -28,6 +28,11 @@ function verdictTerms(record: PageRecord, cell: Cell, verdicts: ShownVerdicts): 
   return terms;
 }
 
+function wide(element: HTMLElement): HTMLElement {
+  element.className = "wide";
+  return element;
+}
+
 export function showReadout(record: PageRecord, field: FieldArrays, place: [number, number] | null, verdicts: ShownVerdicts | null): void {
   const cell = place && cellAt(record, place);
   if (!place || !cell) {
@@ -40,7 +45,7 @@ export function showReadout(record: PageRecord, field: FieldArrays, place: [numb
   const earth = earthWords(record, place);
   byId("readout").replaceChildren(
     term("x, y", `${short(place[0])}, ${short(place[1])} m`),
-    ...(earth ? [term("latitude, longitude", earth)] : []), term("cell", cell.join(", ")), term("region", region_names[region[i]]),
+    ...(earth ? [wide(term("latitude, longitude", earth))] : []), term("cell", cell.join(", ")), term("region", region_names[region[i]]),
     term("cost to go", cost[i] === no_value ? "no way" : `${short(cost[i] * record.cost_step_m)} m`),
     term("commanded heading", heading[i] === no_value || region[i] === RegionCode.obstacle ? "none" : bearingWords(record, headingOfCode(heading[i]))),
     ...(verdicts ? verdictTerms(record, cell, verdicts) : []),
