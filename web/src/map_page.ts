@@ -2,7 +2,7 @@
 import type { Arrays } from "./arrays";
 import { BaseMap } from "./base_map";
 import { checkBox, oneOf, radios } from "./choices";
-import { byId, el, fitted, grouped, isPrinting, pixelRatio, wind } from "./dom";
+import { byId, el, fitted, grouped, headingWords, isPrinting, pixelRatio, turnOf, wind } from "./dom";
 import type { ShownFlight } from "./flights";
 import { bearingWords } from "./earth";
 import { HeadingSlider } from "./heading";
@@ -158,7 +158,8 @@ export class MapPage implements MapHands, PlanView {
   /** A click without a live tool: the state there, to link to. */
   picked(): void {
     if (!this.cross) return;
-    writeLink({ ...linkable(this.grid, { x: this.cross[0], y: this.cross[1], h: this.slider.rad }), goal: null });
+    const h = turnOf(parseFloat(headingWords(this.slider.rad)));  // as it is shown
+    writeLink({ ...linkable(this.grid, { x: this.cross[0], y: this.cross[1], h }), goal: null });
   }
 
   showMoved(plan: MovedPlan): void {
