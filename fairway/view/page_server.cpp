@@ -135,6 +135,12 @@ struct PageServer::Parts {
       refuse(response, 403, fmt::format("only {}:{} and localhost are answered", loopback, port));
       return true;
     }
+    const std::string from = request.get_header_value("Sec-Fetch-Site");
+    if (request.path.starts_with("/api/") && !from.empty() && from != "same-origin" &&
+        from != "none") {
+      refuse(response, 403, "questions of other pages are not answered");
+      return true;
+    }
     if (request.method != "GET" && request.method != "HEAD") {
       response.set_header("Allow", "GET, HEAD");
       refuse(response, 405, "only GET and HEAD are answered");

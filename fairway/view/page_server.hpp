@@ -2,7 +2,8 @@
 //
 // Properties that always hold:
 //   1. Only 127.0.0.1 is bound, and only requests that name it (or localhost) as their host are
-//      answered.
+//      answered. A browser's question for another page (Sec-Fetch-Site) is refused: nobody else
+//      can have plans made.
 //   2. Of the folder only products of a run are served, by their own names, regular files alone: a
 //      link is not followed, a path cannot be given.
 //   3. A client that is slow, or silent, is let go after `PageLimits`, and keeps no other waiting:

@@ -212,6 +212,16 @@ TEST_F(Served, OtherHostsAreRefused) {
             std::string::npos);  // no host at all
 }
 
+TEST_F(Served, QuestionsOfOtherPagesInABrowserAreRefused) {
+  for (const char* site : {"cross-site", "same-site", "anything"}) {
+    EXPECT_EQ(get("/api/info", {{"Sec-Fetch-Site", site}})->status, 403) << site;
+    EXPECT_EQ(get("/api/proof?goal_x=1&goal_y=10", {{"Sec-Fetch-Site", site}})->status, 403);
+  }
+  for (const char* site : {"same-origin", "none"}) {
+    EXPECT_EQ(get("/api/info", {{"Sec-Fetch-Site", site}})->status, 200) << site;
+  }
+}
+
 TEST_F(Served, NoOtherAddressOfThisMachineAnswers) {
   ifaddrs* all = nullptr;
   ASSERT_EQ(::getifaddrs(&all), 0);

@@ -11,6 +11,7 @@ import { costLayer, costLooks, headingsOfKind, regionLayer, regionLooks, share_k
 import { showCostLegend, showRegionLegend, showShareLegend, showVerdictLegend, updateVerdictLegend } from "./legend";
 import type { Live } from "./live";
 import { MapInput, type MapHands } from "./map_input";
+import { mapSize, placeTable, wide_window } from "./map_size";
 import { Overlay, type FieldArrays, type LayerChoice } from "./overlay";
 import { showReadout } from "./readout";
 import type { PageRecord, VerdictInfo } from "./record";
@@ -24,9 +25,6 @@ type Part = "base" | "lines" | "marks" | "readout";
 
 const view_names: [View, string][] = [
   ["verdict", "Verdicts at a heading"], ["share", "Share of headings proved"], ["cost", "Cost to go"], ["region", "Regions"]];
-const wide_window = "(min-width: 62.01rem)";  // as the style has it
-const panel_px = 304;  // the least of the panel beside the map, with the gap
-const least_map_px = 500;
 const layer_names: [keyof LayerChoice, string][] = [
   ["streamlines", "Field as streamlines"], ["arrows", "Field as arrows"], ["contours", "Cost contours"], ["flights", "Flights"], ["mission", "Mission"]];
 
@@ -80,15 +78,10 @@ export class MapPage implements MapHands, PlanView {
     });
     this.input = new MapInput(this);
     this.offerChoices();
-    const wide = window.matchMedia(wide_window);
-    const place = () => byId(wide.matches && !isPrinting() ? "table-beside" : "table-below").append(byId("flight-table"));
-    place();
-    wide.addEventListener("change", place);
-    this.placeTable = place;
+    placeTable();
+    window.matchMedia(wide_window).addEventListener("change", placeTable);
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.relayout());
   }
-
-  private readonly placeTable: () => void;
 
   /** Colours and patterns for the screen, or for paper. */
   private paintTiles(): void {
@@ -104,7 +97,7 @@ export class MapPage implements MapHands, PlanView {
 
   /** Anew in another medium or other colours, at once. */
   relayout(): void {
-    this.placeTable();
+    placeTable();
     this.paintTiles();
     this.fit();
     this.showLegend();
@@ -354,25 +347,12 @@ export class MapPage implements MapHands, PlanView {
     byId("shown-words").textContent = what + (layers.length > 0 ? `; on top: ${layers.join(", ")}` : "") + ".";
   }
 
-  /** As high as the window allows, with replay and readout in sight; as wide as the map is then. */
   private fit(): void {
-    const { map } = this;
-    const stage = byId("stage");
-    const wide = window.matchMedia(wide_window).matches && !isPrinting();
-    const aspect = this.grid.nx / this.grid.ny;
-    const room = stage.clientWidth - (wide ? panel_px : 0);
-    const replay = byId("replay").offsetHeight;
-    const below = (replay > 0 ? replay + 12 : 0) + 10;
-    const top = map.getBoundingClientRect().top + window.scrollY;
-    const alone = map.getBoundingClientRect().top - stage.getBoundingClientRect().top;  // once scrolled to
-    const left = window.innerHeight - alone - below;
-    const allowed = isPrinting() ? 500 : wide ? Math.max(window.innerHeight - top - below, Math.min(left, 360)) : left;
-    const tall = Math.max(Math.min(room / aspect, allowed), Math.min(room / aspect, 220));
-    const width = wide ? Math.min(Math.max(tall * aspect, least_map_px), room) : isPrinting() ? tall * aspect : room;
-    stage.style.setProperty("--map-width", `${Math.round(width)}px`);
-    map.style.height = `${Math.round(tall)}px`;
-    map.style.width = isPrinting() ? `${Math.round(width)}px` : "";
-    this.view.resize(map.clientWidth, map.clientHeight);
+    const { width, height } = mapSize(this.grid.nx / this.grid.ny);
+    byId("stage").style.setProperty("--map-width", `${width}px`);
+    this.map.style.height = `${height}px`;
+    this.map.style.width = isPrinting() ? `${width}px` : "";
+    this.view.resize(this.map.clientWidth, this.map.clientHeight);
     this.moved();
     this.slider.strip();
   }

@@ -77,7 +77,7 @@ export class Replay {
     byId("flight-table").replaceChildren(el("table", { "aria-label": "Flights" },
       el("thead", {}, el("tr", {}, el("th", {}, "outcome"), el("th", {}, "start"), el("th", { class: "num" }, "time"), el("th", { class: "num" }, "length"))),
       body));
-    if (left_out > 0) byId("flight-table").after(el("p", { class: "hint" }, `${left_out} more flights of the run are not in this page.`));
+    if (left_out > 0) byId("flight-table").append(el("p", { class: "hint" }, `${left_out} more flights of the run are not in this page.`));
   }
 
   choose(k: number): void {

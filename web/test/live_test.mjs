@@ -76,8 +76,10 @@ test("the goal is moved and planned anew; what was proved is withdrawn until it 
   await says(page, "#withdrawn", "Not proved: this plan has not been verified");
   await says(page, "#live .answer", "not proved: this plan has not been verified");
   await says(page, "#live .answer", "flown: reach");
-  const moved = JSON.parse(await page.evaluate(() => JSON.stringify(location.hash.match(/goal_x=([\d.]+)&goal_y=([\d.]+)/).slice(1).map(Number))));
-  assert.ok(Math.hypot(moved[0] - 45, moved[1] - 92) < 1, "the last place of the drag counts");
+  await page.waitForFunction(() => {  // the last place of the drag counts
+    const [, x, y] = /goal_x=([\d.]+)&goal_y=([\d.]+)/.exec(location.hash) ?? [];
+    return Math.hypot(x - 45, y - 92) < 1;
+  });
   assert.ok(await page.getByLabel("Verdicts at a heading").isDisabled());
   assert.ok(await page.locator("#flights-section").isHidden() && await page.locator("#solid-section").isHidden());
   assert.match(await page.evaluate(() => getComputedStyle(document.querySelector(".facts dd")).textDecorationLine), /line-through/);

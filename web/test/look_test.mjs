@@ -65,6 +65,8 @@ for (const colorScheme of ["light", "dark"]) {
     });
     assert.ok(Math.abs(shown - 1) < 0.01, "its pixels are square");
     assert.ok(legend.y >= map.y + map.height, "the legend is below");
+    // A second canvas would be printed as white paper over the first.
+    assert.equal(await page.evaluate(() => [...document.querySelectorAll("#map canvas")].filter((c) => c.getClientRects().length > 0).length), 1);
     const paper = 703;
     const wide = await page.evaluate((paper) => [...document.querySelectorAll("body *")]
       .filter((e) => e.getBoundingClientRect().right > paper && !e.closest("svg, .uplot, .skip")).map((e) => e.id || e.className || e.tagName), paper);

@@ -70,7 +70,7 @@ test("the slider changes the picture, and goes round", async (t) => {
   assert.equal(await picture(page), first, "a full turn shows the same again");
   await page.keyboard.press("ArrowLeft");
   assert.match(await page.locator("#heading-words").innerText(), /^355°/);
-  assert.match(await page.locator("#heading-range").getAttribute("aria-valuetext"), /^355°, east/);
+  assert.match(await page.locator("#heading-range").getAttribute("aria-valuetext"), /^355° \(course 095°\), east/);
   const play = page.locator("#heading-play");
   await play.click();
   await page.waitForFunction(() => !document.getElementById("heading-words").innerText.startsWith("355°"));
