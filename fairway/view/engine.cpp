@@ -150,10 +150,12 @@ json LiveEngine::replan(Vec2 goal_m) const {
   if (const auto* refused = std::get_if<MissionRefusal>(&answer)) {
     return {{"refused", refused->message}};
   }
-  const Plan& plan = std::get<std::shared_ptr<const LivePlan>>(answer)->plan;
+  const LivePlan& live = *std::get<std::shared_ptr<const LivePlan>>(answer);
+  const Plan& plan = live.plan;
   PagePayload arrays;
   add_plan_arrays(plan, arrays);
   return {{"refused", nullptr},
+          {"verified", live.proof() != nullptr},
           {"mission", json::parse(json_text(plan.record)).at("mission")},
           {"cost_step_m", page_cost_step_m(plan)},
           {"plan_sha256", json::parse(json_text(plan_digests(plan)))},

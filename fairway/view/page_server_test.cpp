@@ -348,6 +348,8 @@ TEST(LiveEngine, AMovedGoalHasItsOwnPlanFlightsAndProof) {
   const json proof = engine.proof(moved);
   EXPECT_GT(proof["volume_fraction"]["reach"].get<double>(), 0.5);
   EXPECT_EQ(proof["verdicts"]["nx"], 50);
+  EXPECT_EQ(found["verified"], false);
+  EXPECT_EQ(engine.replan(moved)["verified"], true);
   EXPECT_EQ(engine.state(start, moved)["verdict"], "reach");
 
   const json refused = engine.replan({92.0, 84.0});

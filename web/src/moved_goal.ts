@@ -7,7 +7,7 @@ import type { Mission, PageRecord, VerdictInfo } from "./record";
 
 export type Ask = <T>(question: string, parameters?: Record<string, number>) => Promise<T>;
 
-interface PlanAnswer { refused: string | null; mission: Mission; cost_step_m: number; arrays: string }
+interface PlanAnswer { refused: string | null; verified: boolean; mission: Mission; cost_step_m: number; arrays: string }
 interface ProofAnswer { volume_fraction: Record<string, number>; stopped_by: string; verdicts: VerdictInfo; arrays: string }
 
 /** What the map shows instead of the run's own plan. */
@@ -53,6 +53,7 @@ export class MovedGoal {
     if (asked !== this.asked) return;
     this.goal = goal;
     this.view.showMoved({ mission: answer.mission, cost_step_m: answer.cost_step_m, field });
+    if (answer.verified) return this.verify();  // what the server remembers
     this.tell("Not proved: this plan has not been verified.", this.verifyButton());
     box.replaceChildren(el("b", {}, `goal at ${short(goal[0])}, ${short(goal[1])}`), el("br"), "planned anew; not proved: this plan has not been verified");
     this.changed();

@@ -102,6 +102,10 @@ test("the goal is moved and planned anew; what was proved is withdrawn until it 
   await says(page, "#live .answer", "heading 200°");
   assert.match(await answer.innerText(), /^proved: reach within/);
   assert.notEqual(await picture(page), before);
+  // Who opens the link is told what the server remembers, in the banner and in the answer alike.
+  const { page: second } = await opened(t, page.url());
+  await says(second, "#withdrawn", "Verified ");
+  await says(second, "#live .answer", "^proved: reach");
   // Back to the run's own.
   await page.locator("#goal-back").click();
   await says(page, "#live .answer", "^proved");
