@@ -13,8 +13,10 @@
 #include "fairway/report/color.hpp"
 #include "fairway/report/outcome_style.hpp"
 #include "fairway/report/page_arrays.hpp"
+#include "fairway/report/page_frame.hpp"
 #include "fairway/report/page_payload.hpp"
 #include "fairway/report/page_template.hpp"
+#include "fairway/report/page_verdicts.hpp"
 #include "fairway/report/verdict_style.hpp"
 #include "fairway/vehicle/mission_json.hpp"
 #include "fairway/vehicle/vehicle_json.hpp"
@@ -86,27 +88,6 @@ json codes_json() {
           {"obstacle", page_obstacle},       {"target", page_target}};
 }
 
-json verdicts_json(const VerdictMap& map) {
-  // The offset of place_m() from the middle of a cell, which is the same for all.
-  const Vec2 middle = map.grid.center(map.cell_of_sample(0));
-  const Vec2 offset = map.place_m(0) - middle;
-  json counts = json::array();
-  for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
-    std::array<std::size_t, verdict_count> count{};
-    for (std::size_t i = 0; i < map.samples(); ++i) {
-      if (map.kind[i] == CellKind::ordinary)
-        ++count[static_cast<std::size_t>(map.verdict_at(h, i))];
-    }
-    counts.push_back(count);
-  }
-  return {{"nx", map.nx},
-          {"ny", map.ny},
-          {"cells_per_sample", map.cells_per_sample},
-          {"heading_rad", map.heading_rad},
-          {"offset_m", {offset.x, offset.y}},
-          {"count", std::move(counts)}};
-}
-
 json flights_json(const std::vector<PageFlights>& groups) {
   json shown = json::array();
   std::size_t begin = 0;
@@ -147,13 +128,14 @@ json record_of(const PageContent& content) {
            {{"nx", g.nx}, {"ny", g.ny}, {"x0_m", g.x0_m}, {"y0_m", g.y0_m}, {"cell_m", g.cell_m}}},
           {"values",
            {{"nx", values.nx}, {"ny", values.ny}, {"cells_per_value", values.cells_per_value}}},
+          {"frame", page_frame_json(g, frame_in(content.plan.record), content.lon_lat)},
           {"vehicle", json_of(content.plan.vehicle)},
           {"mission", json_of(content.mission)},
           {"cost_step_m", page_cost_step_m(content.plan)},
           {"styles", styles_json()},
           {"codes", codes_json()},
           {"verdicts", content.verdicts != nullptr && content.verdicts->samples() > 0
-                           ? verdicts_json(*content.verdicts)
+                           ? json::parse(page_verdicts_json(*content.verdicts))
                            : json()},
           {"flights", flights_json(content.flights)},
           {"flights_left_out", std::move(left_out)},

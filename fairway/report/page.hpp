@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fairway/base/frame.hpp"
 #include "fairway/plan/plan.hpp"
 #include "fairway/simulate/flight.hpp"
 #include "fairway/vehicle/mission.hpp"
@@ -39,6 +40,7 @@ struct PageContent {
   std::vector<std::string> words = {};        ///< the honest paragraph, by sentence groups
   std::string summary_json = "{}";            ///< an object, shown as numbers and digests
   std::vector<std::string> assumptions = {};  ///< what a proof rests on
+  LonLatOf lon_lat = {};                      ///< none: the map has no place on Earth
 };
 
 /// Throws PreconditionViolation when there is no template (page_template.hpp) or arrays do not fit.

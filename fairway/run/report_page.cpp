@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "fairway/base/atomic_file.hpp"
+#include "fairway/map/degrees_from_frame.hpp"
 #include "fairway/report/page.hpp"
 #include "fairway/report/page_template.hpp"
 #include "fairway/run/products.hpp"
@@ -50,7 +51,8 @@ std::string write_report_page(const Plan& plan, const Mission& mission,
                             verdicts ? &*verdicts : nullptr,
                             page.words,
                             page.summary.dump(-1, ' ', true),
-                            proof_assumptions()};
+                            proof_assumptions(),
+                            lon_lat_of(frame_in(plan.record), page.title)};
   write_whole(folder / product::report_page, Existing::keep, page_html(content));
   return {};
 }

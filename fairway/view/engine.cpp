@@ -1,17 +1,25 @@
 #include "fairway/view/engine.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <variant>
 #include <vector>
 
 #include "fairway/base/error.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/certificate/proof_identity.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/report/page_arrays.hpp"
+#include "fairway/report/page_payload.hpp"
+#include "fairway/report/page_verdicts.hpp"
 #include "fairway/run/final_legs.hpp"
 #include "fairway/run/path_segments.hpp"
 #include "fairway/run/products.hpp"
+#include "fairway/run/verification_summary.hpp"
 #include "fairway/run/version.hpp"
 #include "fairway/steer/dubins_words.hpp"
+#include "fairway/verify/sample_verdicts.hpp"
+#include "fairway/view/question.hpp"
 
 namespace fairway {
 namespace {
@@ -42,6 +50,53 @@ json leg_json(const FinalLeg& leg) {
           {"pieces", pieces_json(leg.segments)}};
 }
 
+/// Whether tracks can begin there: the border is its cells' own.
+bool is_on(const Grid& grid, Vec2 p) {
+  return p.x >= grid.x0_m && p.x < grid.x0_m + grid.width_m() && p.y >= grid.y0_m &&
+         p.y < grid.y0_m + grid.height_m() && grid.contains(grid.cell_of(p));
+}
+
+/// What has left before it flies.
+Flight left_at_once(const State& start) {
+  Flight flight;
+  flight.start = start;
+  flight.result = {Outcome::leave, 0.0, 0.0};
+  return flight;
+}
+
+json state_json(const FlightEngine& flights, const Grid& grid,
+                const runtime::Certificate* certificate, const State& start) {
+  json answer = {{"verdict", nullptr}, {"time_bound_s", nullptr}};
+  if (certificate != nullptr) {
+    const runtime::Answer found =
+        certificate->query(start.position_m.x, start.position_m.y, start.heading.rad());
+    answer["verdict"] = name_of(found.verdict);
+    answer["time_bound_s"] = finite_or_null(found.time_bound_s);
+  }
+  const Flight flight = is_on(grid, start.position_m) ? flights.record(start, 0, TrackEnd::path)
+                                                      : left_at_once(start);
+  answer["flight"] = {{"outcome", name_of(flight.result.outcome)},
+                      {"time_s", finite_or_null(flight.result.time_s)},
+                      {"length_m", finite_or_null(flight.result.length_m)},
+                      {"cut", flight.segments.size() > most_pieces},
+                      {"pieces", pieces_json(flight.segments)}};
+  if (flight.final_leg.state != FinalLegState::not_asked) {
+    answer["flight"]["leg"] = leg_json(flight.final_leg);
+  }
+  return answer;
+}
+
+/// A million states at most: about a second.
+VerdictMapOptions quick_sampling(const Grid& grid) {
+  constexpr std::size_t most_states = 1'000'000;
+  VerdictMapOptions options;
+  options.states_per_sample = 0;
+  options.headings = 72 * grid.size() <= most_states ? 72 : 36;
+  options.most_across = 166;
+  if (options.headings == 72) options.most_across = std::max(grid.nx, grid.ny);
+  return options;
+}
+
 const Plan& with_mission(const Plan& plan, const std::string& where) {
   if (plan.record.mission) return plan;
   throw InputError(where, "its record names no mission: expected a plan made by fairway");
@@ -49,9 +104,10 @@ const Plan& with_mission(const Plan& plan, const std::string& where) {
 
 }  // namespace
 
-LiveEngine::LiveEngine(const fs::path& folder)
+LiveEngine::LiveEngine(const fs::path& folder, const ReplanLimits& limits)
     : plan_(read_plan(folder / product::plan)),
-      flights_(with_mission(plan_, (folder / product::plan).string())) {
+      flights_(with_mission(plan_, (folder / product::plan).string())),
+      moved_(plan_, limits) {
   const fs::path file = folder / product::certificate;
   if (!fs::exists(file)) return;
   // Once as a whole, which checks digests; the answers then come from the file's own bytes, read
@@ -68,30 +124,62 @@ LiveEngine::LiveEngine(const fs::path& folder)
 }
 
 json LiveEngine::info() const {
+  const std::string fixed = moved_.refusal();
   return {{"live", true},
           {"program", program_version},
           {"verdicts", file_ != nullptr},
+          {"replan", fixed.empty()},
+          {"replan_refused", fixed.empty() ? json() : json(fixed)},
           {"plan_sha256", json::parse(json_text(plan_digests(plan_)))}};
 }
 
-json LiveEngine::state(const State& start) const {
-  json answer = {{"verdict", nullptr}, {"time_bound_s", nullptr}};
-  if (file_ != nullptr) {
-    const runtime::Answer found =
-        certificate_.query(start.position_m.x, start.position_m.y, start.heading.rad());
-    answer["verdict"] = name_of(found.verdict);
-    answer["time_bound_s"] = finite_or_null(found.time_bound_s);
+json LiveEngine::state(const State& start, std::optional<Vec2> goal_m) const {
+  if (!goal_m) return state_json(flights_, plan_.grid, file_ ? &certificate_ : nullptr, start);
+  auto answer = moved_.plan_to(*goal_m);
+  if (const auto* refused = std::get_if<MissionRefusal>(&answer)) {
+    throw BadQuestion(refused->message);
   }
-  const Flight flight = flights_.record(start, 0, TrackEnd::path);
-  answer["flight"] = {{"outcome", name_of(flight.result.outcome)},
-                      {"time_s", finite_or_null(flight.result.time_s)},
-                      {"length_m", finite_or_null(flight.result.length_m)},
-                      {"cut", flight.segments.size() > most_pieces},
-                      {"pieces", pieces_json(flight.segments)}};
-  if (flight.final_leg.state != FinalLegState::not_asked) {
-    answer["flight"]["leg"] = leg_json(flight.final_leg);
+  const auto& live = *std::get<std::shared_ptr<const LivePlan>>(answer);
+  const auto proof = live.proof();
+  const runtime::Certificate certificate = proof ? proof->asked() : runtime::Certificate{};
+  return state_json(live.flights, plan_.grid, proof ? &certificate : nullptr, start);
+}
+
+json LiveEngine::replan(Vec2 goal_m) const {
+  const auto answer = moved_.plan_to(goal_m);
+  if (const auto* refused = std::get_if<MissionRefusal>(&answer)) {
+    return {{"refused", refused->message}};
   }
-  return answer;
+  const LivePlan& live = *std::get<std::shared_ptr<const LivePlan>>(answer);
+  const Plan& plan = live.plan;
+  PagePayload arrays;
+  add_plan_arrays(plan, arrays);
+  return {{"refused", nullptr},
+          {"verified", live.proof() != nullptr},
+          {"mission", json::parse(json_text(plan.record)).at("mission")},
+          {"cost_step_m", page_cost_step_m(plan)},
+          {"plan_sha256", json::parse(json_text(plan_digests(plan)))},
+          {"arrays", base64(arrays.bytes())}};
+}
+
+json LiveEngine::proof(Vec2 goal_m) const {
+  auto answer = moved_.plan_to(goal_m);
+  if (const auto* refused = std::get_if<MissionRefusal>(&answer)) {
+    throw BadQuestion(refused->message);
+  }
+  const auto proof = moved_.proof_of(*std::get<std::shared_ptr<const LivePlan>>(answer));
+  const Certificate& certificate = proof->certificate;
+  const VerdictMap map = verdict_map_of(certificate.flow(), certificate.sections.view(),
+                                        quick_sampling(certificate.grid));
+  PagePayload arrays;
+  add_verdict_arrays(map, arrays);
+  return {{"volume_fraction", shares_json(proof->volume.all)},
+          {"volume_fraction_free", shares_json(proof->volume.free)},
+          {"volume_fraction_free_commanded", shares_json(proof->volume.commanded)},
+          {"volume_fraction_buffer", shares_json(proof->volume.buffer)},
+          {"stopped_by", name_of(proof->stopped_by)},
+          {"verdicts", json::parse(page_verdicts_json(map))},
+          {"arrays", base64(arrays.bytes())}};
 }
 
 json LiveEngine::steer(const State& from, const State& to) const {

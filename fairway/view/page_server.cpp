@@ -135,6 +135,12 @@ struct PageServer::Parts {
       refuse(response, 403, fmt::format("only {}:{} and localhost are answered", loopback, port));
       return true;
     }
+    const std::string from = request.get_header_value("Sec-Fetch-Site");
+    if (request.path.starts_with("/api/") && !from.empty() && from != "same-origin" &&
+        from != "none") {
+      refuse(response, 403, "questions of other pages are not answered");
+      return true;
+    }
     if (request.method != "GET" && request.method != "HEAD") {
       response.set_header("Allow", "GET, HEAD");
       refuse(response, 405, "only GET and HEAD are answered");
@@ -165,6 +171,8 @@ struct PageServer::Parts {
       send(response, std::move(*bytes), type_of(name));
     } catch (const BadQuestion& wrong) {
       refuse(response, 400, wrong.what());
+    } catch (const NotNow& busy) {
+      refuse(response, 503, busy.what());
     } catch (const std::out_of_range&) {
       refuse(response, 404, reason_of(404));
     }
@@ -178,8 +186,18 @@ struct PageServer::Parts {
       return engine.info();
     }
     if (request.path == "/api/state") {
+      if (given.contains("goal_x") || given.contains("goal_y")) {
+        require_parameters(given, {"x", "y", "h", "goal_x", "goal_y"});
+        return engine.state(state_parameters(given, "x", "y", "h"),
+                            place_parameters(given, "goal_x", "goal_y"));
+      }
       require_parameters(given, {"x", "y", "h"});
-      return engine.state(state_parameters(given, engine.grid(), "x", "y", "h"));
+      return engine.state(state_parameters(given, "x", "y", "h"));
+    }
+    if (request.path == "/api/replan" || request.path == "/api/proof") {
+      require_parameters(given, {"goal_x", "goal_y"});
+      const Vec2 goal_m = place_parameters(given, "goal_x", "goal_y");
+      return request.path == "/api/replan" ? engine.replan(goal_m) : engine.proof(goal_m);
     }
     if (request.path == "/api/steer") {
       require_parameters(given, {"x", "y", "h", "to_x", "to_y", "to_h"});

@@ -2,14 +2,15 @@
 //
 // Properties that always hold:
 //   1. Only 127.0.0.1 is bound, and only requests that name it (or localhost) as their host are
-//      answered.
+//      answered. A browser's question for another page (Sec-Fetch-Site) is refused: nobody else
+//      can have plans made.
 //   2. Of the folder only products of a run are served, by their own names, regular files alone: a
 //      link is not followed, a path cannot be given.
 //   3. A client that is slow, or silent, is let go after `PageLimits`, and keeps no other waiting:
 //      each has a thread of its own, as long as there are no more than `connections`.
 //   4. Every answer but a product is a JSON object; what is wrong is {"error": ...} with status 400
-//      (malformed), 403 (another host), 404 (unknown), 405 (anything but GET and HEAD) or 500. A
-//      product is given whole: Range is not heeded.
+//      (malformed), 403 (another host), 404 (unknown), 405 (anything but GET and HEAD), 500, or 503
+//      (another plan or proof is being made). A product is given whole: Range is not heeded.
 #pragma once
 
 #include <chrono>

@@ -28,9 +28,12 @@
 #include "fairway/map/testing/scratch_folder.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/report/testing/plans_to_draw.hpp"
+#include "fairway/run/plan_map.hpp"
 #include "fairway/run/verification.hpp"
+#include "fairway/runtime.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/view/engine.hpp"
+#include "fairway/view/question.hpp"
 
 namespace fairway {
 namespace {
@@ -159,7 +162,11 @@ TEST_F(Served, MalformedQuestionsGetAReason) {
   EXPECT_EQ(error("/api/state?x=1&x=2&y=10&h=0", 400),
             "parameter \"x\" is repeated, expected once");
   EXPECT_EQ(error("/api/state?x=one&y=10&h=0", 400), "x: \"one\" is not a finite decimal number");
-  EXPECT_NE(error("/api/state?x=1e5&y=10&h=0", 400).find("outside the plan"), std::string::npos);
+  EXPECT_NE(error("/api/steer?x=1e5&y=10&h=0&to_x=1&to_y=10&to_h=0", 400).find("outside the plan"),
+            std::string::npos);
+  EXPECT_NE(error("/api/state?x=1&y=10&h=0&goal_x=1", 400).find("\"goal_y\" is missing"),
+            std::string::npos);
+  EXPECT_NE(error("/api/replan?goal_x=1&goal_y=nan", 400).find("not a finite"), std::string::npos);
   EXPECT_NE(error("/api/state?x=1&y=10&h=0&z=1", 400).find("unknown parameter"), std::string::npos);
   EXPECT_NE(error("/api/info?x=1", 400).find("unknown parameter"), std::string::npos);
   EXPECT_NE(error("/?x=1", 400).find("unknown parameter"), std::string::npos);
@@ -203,6 +210,16 @@ TEST_F(Served, OtherHostsAreRefused) {
   }
   EXPECT_NE(raw("GET / HTTP/1.1\r\nConnection: close\r\n\r\n").find("403"),
             std::string::npos);  // no host at all
+}
+
+TEST_F(Served, QuestionsOfOtherPagesInABrowserAreRefused) {
+  for (const char* site : {"cross-site", "same-site", "anything"}) {
+    EXPECT_EQ(get("/api/info", {{"Sec-Fetch-Site", site}})->status, 403) << site;
+    EXPECT_EQ(get("/api/proof?goal_x=1&goal_y=10", {{"Sec-Fetch-Site", site}})->status, 403);
+  }
+  for (const char* site : {"same-origin", "none"}) {
+    EXPECT_EQ(get("/api/info", {{"Sec-Fetch-Site", site}})->status, 200) << site;
+  }
 }
 
 TEST_F(Served, NoOtherAddressOfThisMachineAnswers) {
@@ -270,6 +287,74 @@ TEST_F(Served, StatesAreAnsweredAsTheCertificateAndTheSimulatorDo) {
     EXPECT_EQ(first[1], y);
   }
   EXPECT_GT(reached, 10);
+}
+
+TEST_F(Served, AStateOutsideThePlanHasLeftAsAQueryOfTheCertificateSays) {
+  runtime::Certificate certificate;
+  const MappedFile file(place_ / "certificate.safetensors");
+  ASSERT_EQ(certificate.open(file.bytes().data(), file.bytes().size()), runtime::Status::ok);
+  for (const Vec2 p :
+       {Vec2{-9.0, 50.0}, Vec2{113.0, 50.0}, Vec2{50.0, 3.0}, Vec2{1e5, -1e5}, Vec2{1e300, 10.0}}) {
+    const json found = answer(fmt::format("/api/state?x={}&y={}&h=0.3", p.x, p.y), 200);
+    EXPECT_EQ(found["verdict"], name_of(certificate.query(p.x, p.y, 0.3).verdict));
+    EXPECT_EQ(found["flight"]["outcome"], "leave");
+    EXPECT_EQ(found["flight"]["time_s"], 0.0);
+    EXPECT_TRUE(found["flight"]["pieces"].empty());
+    EXPECT_EQ(found["verdict"], std::abs(p.x) < 1e9 ? "leave" : "undecided");
+  }
+}
+
+TEST_F(Served, APlanThatCannotBeMadeAgainSaysWhyItsGoalCannotBeMoved) {
+  const json info = answer("/api/info", 200);
+  EXPECT_EQ(info["replan"], false);  // made by hand, without options
+  const std::string why = info["replan_refused"].get<std::string>();
+  EXPECT_NE(why.find("names no options"), std::string::npos);
+  for (const char* question : {"/api/replan?goal_x=70&goal_y=20", "/api/proof?goal_x=70&goal_y=20",
+                               "/api/state?x=1&y=10&h=0&goal_x=70&goal_y=20"}) {
+    EXPECT_EQ(error(question, 400), why) << question;
+  }
+}
+
+TEST(LiveEngine, AMovedGoalHasItsOwnPlanFlightsAndProof) {
+  const ScratchFolder folder;
+  const fs::path place(folder.file(""));
+  ObstacleMap map;
+  map.grid = {50, 40, 0.0, 0.0, 4.0};
+  map.obstacle.assign(map.grid.size(), 0);
+  for (int iy = 18; iy < 24; ++iy) {
+    for (int ix = 20; ix < 26; ++ix) map.obstacle[map.grid.index({ix, iy})] = 1;
+  }
+  FieldOptions options;
+  options.alpha = 1.0;
+  const Plan plan =
+      std::get<Plan>(plan_map(map, {10.0, 9.0}, GoalMission{{150.0, 40.0}, {}}, options));
+  write_plan(plan, place / "plan.safetensors", Existing::keep);
+  const LiveEngine engine(place);
+  EXPECT_EQ(engine.info()["replan"], true);
+  const Vec2 moved{40.0, 120.0};
+  const json found = engine.replan(moved);
+  EXPECT_EQ(found["mission"]["goal_m"], json({40.0, 120.0}));
+  EXPECT_TRUE(found["refused"].is_null());
+  EXPECT_GT(found["arrays"].get<std::string>().size(), 1000U);
+
+  const State start{{170.0, 30.0}, Heading::from_rad(2.0)};
+  const json flown = engine.state(start, moved);
+  EXPECT_EQ(flown["flight"]["outcome"], "reach");
+  EXPECT_TRUE(flown["verdict"].is_null()) << "not verified";
+  const auto& last = flown["flight"]["pieces"].back();
+  EXPECT_LT(std::hypot(last[0].get<double>() - moved.x, last[1].get<double>() - moved.y), 80.0);
+  EXPECT_NE(engine.state(start)["flight"], flown["flight"]);
+
+  const json proof = engine.proof(moved);
+  EXPECT_GT(proof["volume_fraction"]["reach"].get<double>(), 0.5);
+  EXPECT_EQ(proof["verdicts"]["nx"], 50);
+  EXPECT_EQ(found["verified"], false);
+  EXPECT_EQ(engine.replan(moved)["verified"], true);
+  EXPECT_EQ(engine.state(start, moved)["verdict"], "reach");
+
+  const json refused = engine.replan({92.0, 84.0});
+  EXPECT_NE(refused["refused"].get<std::string>().find("lies in an obstacle"), std::string::npos);
+  EXPECT_THROW(static_cast<void>(engine.state(start, Vec2{92.0, 84.0})), BadQuestion);
 }
 
 TEST_F(Served, SteeringEndsAtThePoseAndTellsWhenAnObstacleIsInTheWay) {

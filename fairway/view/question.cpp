@@ -55,10 +55,23 @@ double number_parameter(const Parameters& parameters, const char* name) {
   return value;
 }
 
+Vec2 place_parameters(const Parameters& parameters, const char* x, const char* y) {
+  return {number_parameter(parameters, x), number_parameter(parameters, y)};
+}
+
+State state_parameters(const Parameters& parameters, const char* x, const char* y, const char* h) {
+  const Vec2 p = place_parameters(parameters, x, y);
+  const double heading_rad = number_parameter(parameters, h);
+  if (std::abs(heading_rad) > 1e6) {
+    throw BadQuestion(fmt::format("{} = {} is not a heading, expected radians", h, heading_rad));
+  }
+  return {p, Heading::from_rad(heading_rad)};
+}
+
 State state_parameters(const Parameters& parameters, const Grid& grid, const char* x, const char* y,
                        const char* h) {
-  const Vec2 p{number_parameter(parameters, x), number_parameter(parameters, y)};
-  const double heading_rad = number_parameter(parameters, h);
+  const State state = state_parameters(parameters, x, y, h);
+  const Vec2 p = state.position_m;
   const bool inside = p.x >= grid.x0_m && p.x < grid.x0_m + grid.width_m() && p.y >= grid.y0_m &&
                       p.y < grid.y0_m + grid.height_m();
   if (!inside || !grid.contains(grid.cell_of(p))) {
@@ -67,10 +80,7 @@ State state_parameters(const Parameters& parameters, const Grid& grid, const cha
         p.x, p.y, coordinate_text(grid.x0_m), x, coordinate_text(grid.x0_m + grid.width_m()),
         coordinate_text(grid.y0_m), y, coordinate_text(grid.y0_m + grid.height_m())));
   }
-  if (std::abs(heading_rad) > 1e6) {
-    throw BadQuestion(fmt::format("{} = {} is no heading, expected radians", h, heading_rad));
-  }
-  return {p, Heading::from_rad(heading_rad)};
+  return state;
 }
 
 bool is_local_host(std::string_view host, int port) {

@@ -27,7 +27,14 @@ void require_parameters(const Parameters& parameters, std::initializer_list<cons
 /// A finite decimal number, the whole of the text. Throws BadQuestion.
 [[nodiscard]] double number_parameter(const Parameters& parameters, const char* name);
 
-/// A state of which x, y, h are parameters: metres on the grid, radians. Throws BadQuestion.
+/// A place of which x and y are parameters, anywhere. Throws BadQuestion.
+[[nodiscard]] Vec2 place_parameters(const Parameters& parameters, const char* x, const char* y);
+
+/// A state of which x, y, h are parameters: metres, radians; anywhere. Throws BadQuestion.
+[[nodiscard]] State state_parameters(const Parameters& parameters, const char* x, const char* y,
+                                     const char* h);
+
+/// The same of a state on the grid.
 [[nodiscard]] State state_parameters(const Parameters& parameters, const Grid& grid, const char* x,
                                      const char* y, const char* h);
 

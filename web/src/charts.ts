@@ -1,6 +1,6 @@
 // Heading and distance over time of the flights looked at.
 import uPlot from "uplot";
-import { byId, cssVariable, el, short } from "./dom";
+import { byId, cssVariable, el, isDark, short } from "./dom";
 import type { Pose, ShownFlight } from "./flights";
 import type { Mission, PageRecord } from "./record";
 
@@ -20,10 +20,16 @@ export function distanceToMission(mission: Mission, pose: Pose): number {
   return least;
 }
 
-interface Curve { name: string; color: string; dash: number[]; t: number[]; heading: number[]; distance: number[] }
+interface Curve { name: string; color: string; dash: number[]; t: number[]; heading: (number | null)[]; distance: (number | null)[] }
+
+/** In (-180, 180]. */
+export function wrappedDegrees(rad: number): number {
+  const turned = rad * 180 / Math.PI % 360;
+  return turned > 180 ? turned - 360 : turned <= -180 ? turned + 360 : turned;
+}
 
 /** Curves of several flights on one axis of times. */
-function joined(curves: Curve[], of: (curve: Curve) => number[]): uPlot.AlignedData {
+function joined(curves: Curve[], of: (curve: Curve) => (number | null)[]): uPlot.AlignedData {
   return uPlot.join(curves.map((curve) => [curve.t, of(curve)] as uPlot.AlignedData));
 }
 
@@ -33,12 +39,16 @@ export class Charts {
   private flights: ShownFlight[] = [];
 
   constructor(private readonly record: PageRecord, private readonly moved: (time_s: number) => void) {
-    window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.show(this.flights));
     new ResizeObserver(() => {
-      const width = byId("charts").clientWidth;
+      const { width } = this;
       this.plots.forEach((plot) => { if (Math.abs(plot.width - width) > 1) plot.setSize({ width, height: plot.height }); });
     }).observe(byId("charts"));
   }
+
+  private get width(): number { return byId("charts").clientWidth || 600; }
+
+  /** In the colours and the width that hold now. */
+  redraw(): void { this.show(this.flights); }
 
   show(flights: ShownFlight[]): void {
     this.flights = flights;
@@ -50,21 +60,30 @@ export class Charts {
     byId("charts").replaceChildren(...boxes);
     if (this.curves.length === 0) return;
     this.plots = [
-      this.plot(boxes[0], "Heading, degrees", joined(this.curves, (c) => c.heading), false),
-      this.plot(boxes[1], `Distance to the ${goal ? "goal" : "path"}, m`, joined(this.curves, (c) => c.distance), true),
+      this.plot(boxes[0], "Heading, degrees", joined(this.curves, (c) => c.heading), { y: { range: () => [-180, 180] } }),
+      this.plot(boxes[1], `Distance to the ${goal ? "goal" : "path"}, m`, joined(this.curves, (c) => c.distance),
+        { y: { range: (_plot, _min, max) => [0, (max || 1) * 1.05] } }),
     ];
   }
 
   private curve(flight: ShownFlight, k: number): Curve {
-    const t: number[] = [], heading: number[] = [], distance: number[] = [];
-    let unwrapped: number | null = null;
+    const t: number[] = [];
+    const heading: (number | null)[] = [], distance: (number | null)[] = [];
+    let last = 0;
     for (const { t: time, pose } of flight.track.samples(700)) {
       if (t.length > 0 && time <= t[t.length - 1]) continue;
-      // The nearest of the angles that mean this heading: no jump of a whole turn.
-      unwrapped = unwrapped === null ? pose.h : unwrapped + Math.atan2(Math.sin(pose.h - unwrapped), Math.cos(pose.h - unwrapped));
+      const turned = wrappedDegrees(pose.h);
+      const apart = distanceToMission(this.record.mission, pose);
+      // Across the seam the line is cut: between the two places there is nothing.
+      if (t.length > 0 && Math.abs(turned - last) > 180) {
+        t.push((t[t.length - 1] + time) / 2);
+        heading.push(null);
+        distance.push(apart);
+      }
       t.push(time);
-      heading.push(unwrapped * 180 / Math.PI);
-      distance.push(distanceToMission(this.record.mission, pose));
+      heading.push(turned);
+      distance.push(apart);
+      last = turned;
     }
     const [x, y] = flight.record.start;
     const series = this.record.styles.series;
@@ -72,16 +91,17 @@ export class Charts {
       dash: k >= series.length ? [5, 3] : [], t, heading, distance };
   }
 
-  private plot(box: HTMLElement, title: string, data: uPlot.AlignedData, from_zero: boolean): uPlot {
+  private plot(box: HTMLElement, title: string, data: uPlot.AlignedData, scales: uPlot.Scales): uPlot {
     const stroke = cssVariable("--soft");
     const grid = { stroke: cssVariable("--line"), width: 1 };
     const family = getComputedStyle(document.body).fontFamily;
     const axis = { stroke, grid, ticks: grid, font: `11px ${family}`, labelFont: `12px ${family}` };
-    const dark = window.matchMedia("(prefers-color-scheme: dark)").matches;
+    const dark = isDark();
+    const turns = title.startsWith("Heading") ? { splits: () => [-180, -90, 0, 90, 180] } : {};
     box.setAttribute("role", "img");
     box.setAttribute("aria-label", `${title} over time, of ${this.curves.length} flight${this.curves.length === 1 ? "" : "s"}`);
     return new uPlot({
-      width: byId("charts").clientWidth || 600,
+      width: this.width,
       height: 205,
       title: undefined,
       cursor: { y: false, sync: { key: "fairway" }, drag: { x: false, y: false }, bind: { click: (plot, _target, handler) => (event) => {
@@ -90,10 +110,10 @@ export class Charts {
         if (left >= 0) this.moved(plot.posToVal(left, "x"));
         return null;
       } } },
-      scales: { x: { time: false }, y: from_zero ? { range: (_plot, _min, max) => [0, (max || 1) * 1.05] } : {} },
-      axes: [{ ...axis, label: "time, s", labelSize: 18, size: 34 }, { ...axis, label: title, labelSize: 20, size: 46 }],
+      scales: { x: { time: false }, ...scales },
+      axes: [{ ...axis, label: "time, s", labelSize: 18, size: 34 }, { ...axis, ...turns, label: title, labelSize: 20, size: 46 }],
       series: [{ label: "time, s", value: (_plot, value) => value === null ? "–" : value.toFixed(1) },
-        ...this.curves.map((curve) => ({ label: curve.name, stroke: dark ? lighter(curve.color) : curve.color, width: 1.6, dash: curve.dash, spanGaps: true,
+        ...this.curves.map((curve) => ({ label: curve.name, stroke: dark ? lighter(curve.color) : curve.color, width: 1.6, dash: curve.dash, spanGaps: false,
           points: { show: false }, value: (_plot: uPlot, value: number | null) => value === null ? "–" : value.toFixed(1) }))],
     }, data, box);
   }

@@ -28,7 +28,16 @@ export function fitted(canvas: HTMLCanvasElement, ratio = pixelRatio()): boolean
   return true;
 }
 
-export function pixelRatio(): number { return Math.min(window.devicePixelRatio || 1, 2); }
+let printing = false;
+/** While the page is laid out for paper: narrow, light, without what only a screen can use. */
+export function setPrinting(on: boolean): void {
+  printing = on;
+  document.documentElement.toggleAttribute("data-printing", on);
+}
+export function isPrinting(): boolean { return printing; }
+export function isDark(): boolean { return !printing && window.matchMedia("(prefers-color-scheme: dark)").matches; }
+
+export function pixelRatio(): number { return printing ? 2 : Math.min(window.devicePixelRatio || 1, 2); }
 
 export function cssVariable(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -57,4 +66,5 @@ export function percent(share: number, digits = 1): string {
 const winds = ["east", "north-east", "north", "north-west", "west", "south-west", "south", "south-east"];
 export const degrees = (rad: number): number => ((rad * 180 / Math.PI) % 360 + 360) % 360;
 export function wind(rad: number): string { return winds[Math.round(degrees(rad) / 45) % 8]; }
+export function turnOf(degrees: number): number { return degrees * Math.PI / 180; }
 export function headingWords(rad: number): string { return `${Math.round(degrees(rad) * 10) / 10}°`; }

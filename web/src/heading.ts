@@ -1,5 +1,6 @@
 // The heading of the vehicle: a slider with, above it, the shares of verdicts at every heading.
-import { byId, cssVariable, degrees, fitted, headingWords, percent, wind } from "./dom";
+import { byId, cssVariable, degrees, fitted, headingWords, percent, turnOf, wind } from "./dom";
+import { bearingWords, courseWords, northUp } from "./earth";
 import type { PageRecord } from "./record";
 import type { Tiles } from "./layers";
 
@@ -11,8 +12,7 @@ export class HeadingSlider {
 
   constructor(private readonly record: PageRecord, private readonly tiles: () => Tiles, private readonly changed: () => void) {
     const range = byId<HTMLInputElement>("heading-range");
-    const headings = record.verdicts?.heading_rad.length ?? 72;
-    range.max = String(headings - 1);
+    this.count();
     range.addEventListener("input", () => { this.stop(); this.turnTo(Number(range.value)); });
     // The arrow keys go round: after the last heading comes the first.
     range.addEventListener("keydown", (event) => {
@@ -25,6 +25,18 @@ export class HeadingSlider {
     });
     byId("heading-play").addEventListener("click", () => this.playing ? this.stop() : this.play());
     this.dial();
+  }
+
+  private count(): void {
+    byId<HTMLInputElement>("heading-range").max = String((this.record.verdicts?.heading_rad.length ?? 72) - 1);
+  }
+
+  /** Other verdicts, or none: the heading stays as near as it can. */
+  reset(rad: number): void {
+    this.count();
+    this.shares = null;
+    this.index = this.indexOf(rad);
+    this.show();
   }
 
   get rad(): number { return this.record.verdicts?.heading_rad[this.index] ?? this.index * Math.PI / 36; }
@@ -41,8 +53,11 @@ export class HeadingSlider {
 
   /** The heading nearest to an angle. */
   turnToRad(rad: number): void {
-    this.turnTo(Math.round(degrees(rad) / 360 * this.headings) % this.headings);
+    this.stop();
+    this.turnTo(this.indexOf(rad));
   }
+
+  private indexOf(rad: number): number { return Math.round(degrees(rad) / 360 * this.headings) % this.headings; }
 
   private play(): void {
     byId("heading-play").setAttribute("aria-pressed", "true");
@@ -77,14 +92,16 @@ export class HeadingSlider {
   show(): void {
     const range = byId<HTMLInputElement>("heading-range");
     range.value = String(this.index);
-    const words = `${headingWords(this.rad)}, ${wind(this.rad)}`;
+    const words = `${bearingWords(this.record, this.rad)}, ${wind(this.rad)}`;
     range.setAttribute("aria-valuetext", words);
     byId("heading-needle").setAttribute("transform", `rotate(${-degrees(this.rad)})`);
     const output = byId("heading-words");
     const big = document.createElement("b");
     big.textContent = headingWords(this.rad);
     const small = document.createElement("span");
-    small.textContent = `${this.rad.toFixed(3)} rad, ${wind(this.rad)}`;
+    // Of the degrees shown: what is sampled lies beside them by half a thousandth of a radian.
+    const shown_rad = turnOf(parseFloat(headingWords(this.rad)));
+    small.textContent = (northUp(this.record) ? `course ${courseWords(this.rad)}, ` : "") + `${wind(this.rad)} · ${shown_rad.toFixed(3)} rad`;
     const proved = document.createElement("span");
     const count = this.record.verdicts?.count[this.index];
     if (count) proved.textContent = `${percent(count[this.record.codes.reach] / Math.max(1, count.reduce((a, b) => a + b, 0)))} of places reach`;
@@ -96,6 +113,7 @@ export class HeadingSlider {
   strip(): void {
     const canvas = byId<HTMLCanvasElement>("heading-strip");
     const info = this.record.verdicts;
+    canvas.classList.toggle("none", !info);
     if (!info) return;
     if (fitted(canvas) || !this.shares) this.shares = this.paintShares(canvas);
     const context = canvas.getContext("2d")!;

@@ -1,6 +1,7 @@
 // Codes and how they look: every picture of cells is an array of codes and a tile of pixels for
 // each code, a ground colour with a pattern on it. Colours and patterns are those of the pictures.
 import type { Numbers, Arrays } from "./arrays";
+import { isDark } from "./dom";
 import { no_value, RegionCode, type PageRecord, type VerdictStyle } from "./record";
 
 export interface CodeLayer {
@@ -64,7 +65,10 @@ export function lookOf(style: VerdictStyle): Look {
     rising: style.rising, falling: style.falling };
 }
 
-export function obstacleLook(record: PageRecord): Look { return { ground: record.styles.obstacle }; }
+/** Lighter on a dark page, whose own colour that of the pictures nearly is. */
+const obstacle_in_the_dark = "#6d7782";
+export function obstacleColor(record: PageRecord): string { return isDark() ? obstacle_in_the_dark : record.styles.obstacle; }
+export function obstacleLook(record: PageRecord): Look { return { ground: obstacleColor(record) }; }
 export function goalLook(record: PageRecord): Look {
   const { goal, goal_pattern } = record.styles;
   return { ground: goal, pen: goal_pattern, pen_px: 1.1, rising: true, falling: true };

@@ -1,15 +1,19 @@
 // The engine behind the page, when `fairway view` serves it: a place and a heading are flown and
-// judged at once, and a pose is steered to.
-import { byId, degrees, el, headingWords, short } from "./dom";
+// judged at once, a pose is steered to, and the goal is moved.
+import { byId, degrees, el, short, turnOf } from "./dom";
+import { bearingWords, earthWords } from "./earth";
 import { drawVehicle, lineOf, strokeTrack, Track, type Pose } from "./flights";
+import { MovedGoal, type PlanView } from "./moved_goal";
 import type { PageRecord } from "./record";
+import { linkable, writeLink, type LinkedState } from "./state_link";
 import type { Viewport } from "./viewport";
 
 type Piece = [number, number, number, number, number];
 interface FlightAnswer { outcome: string; time_s: number | null; length_m: number | null; cut: boolean; pieces: Piece[]; leg?: SteerAnswer }
 interface StateAnswer { verdict: string | null; time_bound_s: number | null; flight: FlightAnswer }
 interface SteerAnswer { state: string; word: string; length_m: number; time_s: number; pieces: Piece[]; shortest?: { word: string; length_m: number; pieces: Piece[] } }
-type Mode = "look" | "fly" | "steer";
+type Mode = "look" | "fly" | "steer" | "goal";
+type Held = "start" | "target" | "goal";
 
 export interface Live {
   draw(context: CanvasRenderingContext2D, view: Viewport): void;
@@ -18,9 +22,12 @@ export interface Live {
   drags(place: [number, number], view: Viewport): boolean;
   releases(): void;
   flyFrom(place: [number, number], heading_rad: number): void;
+  /** A state, and a goal, that a link names. */
+  goTo(state: LinkedState): Promise<void>;
 }
 
-interface Page { redraw(): void; heading(): number; turnTo(rad: number): void }
+interface Page extends PlanView { redrawMarks(): void; heading_rad(): number; turnTo(rad: number): void; crossTo(place: [number, number]): void }
+interface Info { live?: boolean; plan_sha256?: Record<string, string>; replan?: boolean; replan_refused?: string | null }
 
 class NotAnswered extends Error {}
 
@@ -53,34 +60,36 @@ class Latest {
 class LiveTool implements Live {
   private mode: Mode = "fly";
   private start: Pose | null = null;
-  private goal: Pose | null = null;
-  private held: "start" | "goal" | null = null;
+  private target: Pose | null = null;
+  private held: Held | null = null;
   private pressed: [number, number] = [0, 0];
   private turned = false;
   private track: Track | null = null;
   private leg: Track | null = null;
   private outcome = "reach";  // whose line the track has
   private readonly latest = new Latest();
+  private readonly goals = new Latest();
   private readonly answer = el("div", { class: "answer", "aria-live": "polite" });
   private readonly fields = new Map<string, HTMLInputElement>();
   private readonly buttons = new Map<Mode, HTMLButtonElement>();
-  private readonly goal_fields: HTMLElement[] = [];
+  private readonly moved: MovedGoal;
+  private place: [number, number] | null = null;  // of the goal, as it is held
 
-  constructor(private readonly record: PageRecord, private readonly page: Page) {
+  constructor(private readonly record: PageRecord, private readonly page: Page, info: Info) {
+    this.moved = new MovedGoal(record, asked, page, () => { this.link(); this.ask(); });
     const modes = el("div", { class: "modes", role: "group", "aria-label": "What a press on the map does" });
-    for (const [mode, words] of [["fly", "Fly from here"], ["steer", "Steer to a pose"], ["look", "Pan"]] as [Mode, string][]) {
-      const button = el("button", { type: "button" }, words);
+    for (const [mode, words] of [["fly", "Fly from here"], ["steer", "Steer to a pose"], ["goal", "Move the goal"], ["look", "Pan"]] as [Mode, string][]) {
+      const kept = mode === "goal" && !info.replan;
+      const button = el("button", { type: "button", disabled: kept, title: kept ? info.replan_refused ?? undefined : undefined }, words);
       button.addEventListener("click", () => this.setMode(mode));
       this.buttons.set(mode, button);
       modes.append(button);
     }
     const form = el("form", { "aria-label": "State by numbers" });
-    for (const [name, words] of [["x", "x, m"], ["y", "y, m"], ["h", "heading, °"], ["to_x", "to x, m"], ["to_y", "to y, m"], ["to_h", "to heading, °"]]) {
+    for (const [name, words] of [["x", "x, m"], ["y", "y, m"], ["h", "heading, °"], ["to_x", "to x, m"], ["to_y", "to y, m"], ["to_h", "to heading, °"], ["goal_x", "goal x, m"], ["goal_y", "goal y, m"]]) {
       const input = el("input", { inputmode: "decimal", autocomplete: "off", name });
       this.fields.set(name, input);
-      const label = el("label", {}, words, input);
-      if (name.startsWith("to_")) this.goal_fields.push(label);
-      form.append(label);
+      form.append(el("label", {}, words, input));
     }
     form.append(el("button", { type: "submit" }, "Answer"));
     form.addEventListener("submit", (event) => { event.preventDefault(); this.takeForm(); });
@@ -92,14 +101,19 @@ class LiveTool implements Live {
   private setMode(mode: Mode): void {
     this.mode = mode;
     this.buttons.forEach((button, name) => button.setAttribute("aria-pressed", String(name === mode)));
-    this.goal_fields.forEach((label) => { label.hidden = mode !== "steer"; });
+    this.fields.forEach((input, name) => {
+      const of = name.startsWith("to_") ? ["steer"] : name.startsWith("goal_") ? ["goal"] : ["fly", "steer", "look"];
+      input.parentElement!.hidden = !of.includes(mode);
+    });
     const words = { fly: "Press on the map and drag to where the vehicle looks.",
-      steer: this.start ? "Press where it shall go, and drag to its heading there." : "First fly from somewhere: that is where steering starts.",
+      steer: this.start ? "Press where it should go, and drag to its heading there." : "First fly from somewhere: that is where steering starts.",
+      goal: "Press where the goal should be, and drag it about: it is planned anew at once.",
       look: "Drag to pan." };
     this.answer.replaceChildren(words[mode]);
     this.track = this.leg = null;
-    if (mode !== "look") this.ask();
-    this.page.redraw();
+    if (mode === "goal" && this.record.mission.kind === "goal") this.fill("goal_", this.record.mission.goal_m);
+    if (mode === "fly" || mode === "steer") this.ask();
+    this.page.redrawMarks();
   }
 
   private static near(pose: Pose | null, place: [number, number], view: Viewport): boolean {
@@ -108,17 +122,26 @@ class LiveTool implements Live {
 
   takes(place: [number, number], view: Viewport): boolean {
     if (this.mode === "look") return false;
-    const grabs_start = this.mode === "steer" && LiveTool.near(this.start, place, view);
-    this.held = this.mode === "fly" || grabs_start || !this.start ? "start" : "goal";
-    const now = this.held === "start" ? this.start : this.goal;
     this.pressed = place;
     this.turned = false;
-    this.set(this.held, { x: place[0], y: place[1], h: now?.h ?? this.page.heading() });
+    if (this.mode === "goal") {
+      this.held = "goal";
+      this.moveGoal(place);
+      return true;
+    }
+    const grabs_start = this.mode === "steer" && LiveTool.near(this.start, place, view);
+    this.held = this.mode === "fly" || grabs_start || !this.start ? "start" : "target";
+    const now = this.held === "start" ? this.start : this.target;
+    this.set(this.held, { x: place[0], y: place[1], h: now?.h ?? this.page.heading_rad() });
     return true;
   }
 
   drags(place: [number, number], view: Viewport): boolean {
     if (!this.held) return false;
+    if (this.held === "goal") {
+      this.moveGoal(place);
+      return true;
+    }
     const dx = place[0] - this.pressed[0], dy = place[1] - this.pressed[1];
     if (!this.turned && Math.hypot(dx, dy) * view.scale < 8) return true;
     this.turned = true;
@@ -127,43 +150,97 @@ class LiveTool implements Live {
   }
 
   releases(): void {
-    if (this.held === "start" && this.turned && this.start) this.page.turnTo(this.start.h);
+    if (this.held) this.link();
     this.held = null;
   }
 
   flyFrom(place: [number, number], heading_rad: number): void {
     if (this.mode !== "fly") this.setMode("fly");
     this.set("start", { x: place[0], y: place[1], h: heading_rad });
+    this.link();
   }
 
-  private set(which: "start" | "goal", pose: Pose): void {
-    if (which === "start") this.start = pose; else this.goal = pose;
-    const prefix = which === "start" ? "" : "to_";
-    const round = (value: number) => String(Math.round(value * 100) / 100);
-    this.fields.get(prefix + "x")!.value = round(pose.x);
-    this.fields.get(prefix + "y")!.value = round(pose.y);
-    this.fields.get(prefix + "h")!.value = round(degrees(pose.h));
+  async goTo(state: LinkedState): Promise<void> {
+    if (state.goal && String(state.goal) !== String(this.moved.goal)) {
+      await this.goals.ask(() => this.moved.moveTo(state.goal!, this.answer).catch((error) => this.tellError(error)));
+    } else if (!state.goal && this.moved.goal) {
+      this.moved.back();
+    }
+    this.flyFrom([state.x, state.y], state.h);
+  }
+
+  /** The state, and the goal where it was moved, into the page's address. */
+  private link(): void {
+    if (this.start) writeLink({ ...this.start, goal: this.moved.goal });
+  }
+
+  private set(which: "start" | "target", given: Pose): void {
+    const pose = linkable(this.record.grid, given);
+    if (which === "start") {
+      this.start = pose;
+      // The map then shows the heading that is asked for, and the colour under the arrow is the answer's.
+      this.page.turnTo(pose.h);
+      this.page.crossTo([pose.x, pose.y]);
+    } else {
+      this.target = pose;
+    }
+    this.fill(which === "start" ? "" : "to_", [pose.x, pose.y, degrees(pose.h)]);
     this.ask();
-    this.page.redraw();
+    this.page.redrawMarks();
+  }
+
+  private fill(prefix: string, values: number[]): void {
+    values.forEach((value, k) => {
+      this.fields.get(prefix + "xyh"[k])!.value = String(k === 2 ? Math.round(value * 100) / 100 % 360 : value);
+    });
+  }
+
+  private moveGoal(place: [number, number]): void {
+    const { x, y } = linkable(this.record.grid, { x: place[0], y: place[1], h: 0 });
+    this.place = [x, y];
+    this.fill("goal_", [x, y]);
+    void this.goals.ask(async () => {
+      try {
+        await this.moved.moveTo([x, y], this.answer);
+      } catch (error) {
+        this.tellError(error);
+      }
+    });
+    this.page.redrawMarks();
+  }
+
+  private read(names: string[]): number[] | null {
+    const values = names.map((name) => {
+      const text = this.fields.get(name)!.value.trim().replace("−", "-");
+      return text === "" ? NaN : Number(text);
+    });
+    return values.every(Number.isFinite) ? values : null;
   }
 
   private takeForm(): void {
-    const read = (prefix: string): Pose | null => {
-      const [x, y, h] = ["x", "y", "h"].map((name) => {
-        const text = this.fields.get(prefix + name)!.value.trim().replace("−", "-");
-        return text === "" ? NaN : Number(text);
-      });
-      return [x, y, h].every(Number.isFinite) ? { x, y, h: h * Math.PI / 180 } : null;
-    };
-    const start = read("");
-    const goal = this.mode === "steer" ? read("to_") : null;
-    if (!start || (this.mode === "steer" && !goal)) {
-      this.answer.replaceChildren("Three decimal numbers are wanted: metres, metres, degrees.");
+    if (this.mode === "goal") {
+      const place = this.read(["goal_x", "goal_y"]);
+      if (place) this.moveGoal([place[0], place[1]]);
+      else this.answer.replaceChildren("Enter two decimal numbers: x (m), y (m).");
+      return;
+    }
+    const start = this.read(["x", "y", "h"]);
+    const target = this.mode === "steer" ? this.read(["to_x", "to_y", "to_h"]) : null;
+    if (!start || (this.mode === "steer" && !target)) {
+      this.answer.replaceChildren("Enter three decimal numbers: x (m), y (m), heading (°).");
       return;
     }
     if (this.mode === "look") this.setMode("fly");
-    if (goal) this.goal = goal;
-    this.set("start", start);
+    const pose = ([x, y, h]: number[]): Pose => ({ x, y, h: turnOf(h) });
+    if (target) this.target = linkable(this.record.grid, pose(target));
+    this.set("start", pose(start));
+    this.link();
+  }
+
+  private tellError(error: unknown): void {
+    this.track = this.leg = null;
+    this.answer.replaceChildren(error instanceof NotAnswered ? error.message : "No answer: is `fairway view` still running?");
+    this.page.redrawMarks();
   }
 
   private trackOf(pieces: Piece[]): Track {
@@ -172,28 +249,28 @@ class LiveTool implements Live {
   }
 
   private ask(): void {
-    const { start, goal, mode } = this;
-    if (!start || (mode === "steer" && !goal)) return;
+    const { start, target, mode } = this;
+    if (!start || (mode === "steer" && !target)) return;
+    const { x, y, h } = start;
     void this.latest.ask(async () => {
       const begin = performance.now();
       try {
-        if (mode === "steer") this.showSteer(await asked<SteerAnswer>("steer", { x: start.x, y: start.y, h: start.h, to_x: goal!.x, to_y: goal!.y, to_h: goal!.h }), begin);
-        else this.showState(await asked<StateAnswer>("state", { x: start.x, y: start.y, h: start.h }), begin);
+        if (mode === "steer") this.showSteer(await asked<SteerAnswer>("steer", { x, y, h, to_x: target!.x, to_y: target!.y, to_h: target!.h }), begin);
+        else this.showState(await asked<StateAnswer>("state", { x, y, h, ...this.moved.parameters }), begin);
       } catch (error) {
-        this.track = this.leg = null;
-        this.answer.replaceChildren(error instanceof NotAnswered ? error.message : "The engine does not answer: fairway view has ended.");
+        this.tellError(error);
       }
-      this.page.redraw();
+      this.page.redrawMarks();
     });
   }
-
   private showState(answer: StateAnswer, begin: number): void {
     const { flight } = answer;
     this.track = this.trackOf(flight.pieces);
     this.leg = flight.leg && flight.leg.pieces.length > 0 ? this.trackOf(flight.leg.pieces) : null;
     this.outcome = flight.outcome;
-    const verdict = answer.verdict === null ? "no certificate" : answer.verdict === "undecided" ? "undecided" : `proved: ${answer.verdict}`;
+    const verdict = answer.verdict === null ? this.moved.goal ? "not proved" : "no certificate" : answer.verdict === "undecided" ? "undecided" : `proved: ${answer.verdict}`;
     const parts: (Node | string)[] = [el("b", {}, verdict)];
+    if (answer.verdict === null && this.moved.goal) parts.push(": this plan has not been verified");
     if (answer.time_bound_s !== null) parts.push(` within ${answer.time_bound_s.toFixed(1)} s`);
     parts.push(el("br"), `flown: ${flight.outcome}` +
       (flight.time_s === null ? "" : ` after ${flight.time_s.toFixed(1)} s, ${Math.round(flight.length_m!)} m`) + (flight.cut ? " (line cut short)" : ""));
@@ -219,7 +296,10 @@ class LiveTool implements Live {
   private took(begin: number): HTMLElement {
     const ms = performance.now() - begin;
     byId("live").dataset.answeredMs = ms.toFixed(2);
-    return el("small", {}, `answered in ${ms.toFixed(ms < 10 ? 1 : 0)} ms, heading ${headingWords(this.start!.h)}`);
+    const { x, y, h } = this.start!;
+    const earth = earthWords(this.record, [x, y]);
+    return el("small", {}, `heading ${bearingWords(this.record, h)}`, el("br"), ...(earth ? [`at ${earth}`, el("br")] : []),
+      `answered in ${ms.toFixed(ms < 10 ? 1 : 0)} ms`);
   }
 
   draw(context: CanvasRenderingContext2D, view: Viewport): void {
@@ -232,15 +312,27 @@ class LiveTool implements Live {
       context.stroke();
       strokeTrack(context, view, track, lineOf(this.record, this.outcome), 2.6);
     }
-    if (this.goal && this.mode === "steer") drawVehicle(context, view, this.goal, "#00694b", 11);
+    if (this.target && this.mode === "steer") drawVehicle(context, view, this.target, "#00694b", 11);
+    if (this.place && this.held === "goal") drawGoalHeld(context, view, this.place);
     if (this.start && this.mode !== "look") drawVehicle(context, view, this.start, "#16202c", 11);
+  }
+}
+
+function drawGoalHeld(context: CanvasRenderingContext2D, view: Viewport, place: [number, number]): void {
+  const [x, y] = view.toScreen(...place);
+  for (const [color, width] of [["rgb(255 255 255 / 90%)", 5], ["#00694b", 2]] as const) {
+    context.beginPath();
+    context.arc(x, y, 9, 0, 2 * Math.PI);
+    context.strokeStyle = color;
+    context.lineWidth = width;
+    context.stroke();
   }
 }
 
 /** The live tool when this page is served by `fairway view`, else nothing. */
 export async function connect(record: PageRecord, page: Page): Promise<Live | null> {
   if (!/^http:$/.test(location.protocol) || !["127.0.0.1", "localhost"].includes(location.hostname)) return null;
-  let info: { live?: boolean; plan_sha256?: Record<string, string> };
+  let info: Info;
   try {
     info = await asked("info");
   } catch {
@@ -254,5 +346,5 @@ export async function connect(record: PageRecord, page: Page): Promise<Live | nu
     trouble.hidden = false;
     return null;
   }
-  return new LiveTool(record, page);
+  return new LiveTool(record, page, info);
 }

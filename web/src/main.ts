@@ -2,23 +2,15 @@
 // the body of states that reach, and what all of it rests on.
 import { Arrays } from "./arrays";
 import { byId } from "./dom";
+import { fieldOf } from "./field_arrays";
 import { flightsOf, type ShownFlight } from "./flights";
 import { connect } from "./live";
 import { MapPage } from "./map_page";
 import { showFacts, showNumbers, showTitle, showTrust, showVolumes, showWords } from "./numbers";
-import type { FieldArrays, GridLines } from "./overlay";
+import { preparePrinting } from "./print";
 import { recordOfPage, type PageRecord } from "./record";
 import { showSolid } from "./solid";
-
-async function fieldOf(arrays: Arrays): Promise<FieldArrays> {
-  const lines = async (name: string): Promise<GridLines> => {
-    const [x, y, begin] = await Promise.all(["x", "y", "begin"].map((part) => arrays.array(`${name}_${part}`)));
-    return { x, y, begin };
-  };
-  const [region, heading, cost, contour_level_m] = await Promise.all(["region", "heading", "cost", "contour_level_m"].map((name) => arrays.array(name)));
-  const [streamlines, contours] = await Promise.all([lines("streamline"), lines("contour")]);
-  return { region, heading, cost, streamlines, contours, contour_level_m };
-}
+import { stateOfHash } from "./state_link";
 
 async function flightsIn(record: PageRecord, arrays: Arrays): Promise<ShownFlight[]> {
   const [x_m, y_m, heading_rad, length_m, curvature_per_m] = await Promise.all(
@@ -35,6 +27,13 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
   const map = new MapPage(record, arrays, await fieldOf(arrays), await flightsIn(record, arrays));
   await map.show();
   if (map.verdict_tiles) showVolumes(record, map.verdict_tiles);
+  const follow = () => {
+    const asked = stateOfHash(location.hash);
+    if (asked) map.goTo(asked);
+  };
+  follow();
+  window.addEventListener("hashchange", follow);
+  preparePrinting(() => map.relayout());
   document.documentElement.dataset.ready = String(Math.round(performance.now()));
 
   // The rest, while nobody waits for it.
@@ -45,9 +44,11 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
   } else {
     byId("solid-section").hidden = true;
   }
-  const live = await connect(record, {
-    redraw: () => map.redrawMarks(), heading: () => map.heading_rad(), turnTo: (rad) => map.slider.turnToRad(rad) });
-  if (live) map.liveTool = live;
+  const live = await connect(record, map);
+  if (live) {
+    map.liveTool = live;
+    follow();
+  }
 }
 
 function fail(error: unknown): void {

@@ -16,11 +16,14 @@ export interface MapHands {
   pointed(): void;
   /** The map shows another part of the world. */
   moved(): void;
+  /** A press that ended where it began, with no live tool to take it. */
+  picked(): void;
 }
 
 export class MapInput {
   private readonly map = byId("map");
   private readonly pointers = new Map<number, [number, number]>();
+  private pressed: [number, number] | null = null;
 
   constructor(private readonly hands: MapHands) {
     const { map } = this;
@@ -50,6 +53,7 @@ export class MapInput {
     const at = this.place(event);
     this.pointers.set(event.pointerId, at);
     hands.cross = hands.view.toWorld(...at);
+    this.pressed = this.pointers.size === 1 && !hands.live() ? at : null;
     if (this.pointers.size === 1 && hands.live()?.takes(hands.cross, hands.view)) {
       this.map.setPointerCapture(event.pointerId);
     } else if (hands.view.zoomedIn) {
@@ -87,6 +91,10 @@ export class MapInput {
   private release(event: PointerEvent): void {
     this.pointers.delete(event.pointerId);
     this.map.classList.remove("pans");
+    const { pressed } = this;
+    this.pressed = null;
+    const [px, py] = this.place(event);
+    if (event.type === "pointerup" && pressed && Math.hypot(px - pressed[0], py - pressed[1]) < 4) this.hands.picked();
     this.hands.live()?.releases();
   }
 

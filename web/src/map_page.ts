@@ -2,17 +2,21 @@
 import type { Arrays } from "./arrays";
 import { BaseMap } from "./base_map";
 import { checkBox, oneOf, radios } from "./choices";
-import { byId, el, fitted, grouped, pixelRatio } from "./dom";
+import { byId, el, fitted, grouped, headingWords, isPrinting, pixelRatio, turnOf, wind } from "./dom";
 import type { ShownFlight } from "./flights";
+import { bearingWords } from "./earth";
 import { HeadingSlider } from "./heading";
 import { costLayer, costLooks, headingsOfKind, regionLayer, regionLooks, share_kinds, shareLayer, shareLooks, Tiles, VerdictLayers,
   verdictLooks, type CodeLayer } from "./layers";
 import { showCostLegend, showRegionLegend, showShareLegend, showVerdictLegend, updateVerdictLegend } from "./legend";
 import type { Live } from "./live";
 import { MapInput, type MapHands } from "./map_input";
+import { mapSize, placeTable, wide_window } from "./map_size";
 import { Overlay, type FieldArrays, type LayerChoice } from "./overlay";
 import { showReadout } from "./readout";
-import type { PageRecord } from "./record";
+import type { PageRecord, VerdictInfo } from "./record";
+import type { MovedPlan, PlanView } from "./moved_goal";
+import { linkable, writeLink, type LinkedState } from "./state_link";
 import { Replay } from "./replay";
 import { Viewport } from "./viewport";
 
@@ -24,12 +28,15 @@ const view_names: [View, string][] = [
 const layer_names: [keyof LayerChoice, string][] = [
   ["streamlines", "Field as streamlines"], ["arrows", "Field as arrows"], ["contours", "Cost contours"], ["flights", "Flights"], ["mission", "Mission"]];
 
-export class MapPage implements MapHands {
+/** What is put aside while another plan is shown. */
+interface Own { moved: MovedPlan; info: VerdictInfo | null; verdicts: VerdictLayers | null; arrays: Arrays; shown: View; flights: boolean }
+
+export class MapPage implements MapHands, PlanView {
   readonly grid;
   readonly view: Viewport;
   readonly slider: HeadingSlider;
-  readonly verdicts: VerdictLayers | null;
-  readonly verdict_tiles: Tiles | null;
+  verdicts: VerdictLayers | null;
+  verdict_tiles!: Tiles;
   cross: [number, number] | null = null;
   /** Called when the heading changes. */
   turned: (heading: number) => void = () => {};
@@ -41,34 +48,29 @@ export class MapPage implements MapHands {
   private readonly replay: Replay;
   private readonly choice: LayerChoice = { arrows: false, streamlines: true, contours: false, flights: false, mission: true };
   private readonly boxes = new Map<keyof LayerChoice, HTMLInputElement>();
-  private readonly pictures: Record<"cost" | "region", { layer: CodeLayer; tiles: Tiles }>;
-  private readonly share_tiles: Tiles[];
+  private pictures!: Record<"cost" | "region", { layer: CodeLayer; tiles: Tiles }>;
+  private share_tiles: Tiles[] = [];
   private share_layers: CodeLayer[] = [];
   private reaching: Uint16Array | null = null;
   private shown: View;
   private share_kind = 0;
   private tool: Live | null = null;
+  private own: Own | null = null;
   private readonly stale = new Set<Part>();
-  private readonly ratio = pixelRatio();
 
-  constructor(private readonly record: PageRecord, private readonly arrays: Arrays, private readonly field: FieldArrays, private readonly flown: ShownFlight[]) {
-    const { ratio } = this;
+  constructor(private readonly record: PageRecord, private arrays: Arrays, private readonly field: FieldArrays, private readonly flown: ShownFlight[]) {
     this.grid = record.grid;
     this.view = new Viewport(record.grid);
     this.base = new BaseMap(byId<HTMLCanvasElement>("map-base"), record.grid);
     this.overlay = new Overlay(record, field);
     this.verdicts = record.verdicts ? new VerdictLayers(arrays, record) : null;
-    this.verdict_tiles = record.verdicts ? new Tiles(verdictLooks(record), ratio) : null;
-    this.share_tiles = record.verdicts ? share_kinds.map((_, kind) => new Tiles(shareLooks(record, kind), ratio)) : [];
-    this.pictures = {
-      cost: { layer: costLayer(record, field.region, field.cost), tiles: new Tiles(costLooks(record), ratio) },
-      region: { layer: regionLayer(record, field.region, field.cost), tiles: new Tiles(regionLooks(record), ratio) },
-    };
+    this.paintTiles();
     this.shown = record.verdicts ? "verdict" : "cost";
-    this.slider = new HeadingSlider(record, () => this.verdict_tiles!, () => {
+    this.slider = new HeadingSlider(record, () => this.verdict_tiles, () => {
       this.redraw("base", "readout");
-      if (this.shown === "verdict") updateVerdictLegend(record, this.slider.index);
-      this.turned(this.slider.index);
+      if (this.shown === "verdict" && record.verdicts) updateVerdictLegend(record, this.slider.index);
+      this.nameShown();
+      if (!this.own) this.turned(this.slider.index);
     });
     this.replay = new Replay(record, flown, (what) => {
       if (what === "choice" && this.replay.selected >= 0) this.setLayer("flights", true);
@@ -76,12 +78,39 @@ export class MapPage implements MapHands {
     });
     this.input = new MapInput(this);
     this.offerChoices();
+    placeTable();
+    window.matchMedia(wide_window).addEventListener("change", placeTable);
+    window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.relayout());
+  }
+
+  /** Colours and patterns for the screen, or for paper. */
+  private paintTiles(): void {
+    const { record, field } = this;
+    const ratio = pixelRatio();
+    this.verdict_tiles = new Tiles(verdictLooks(record), ratio);
+    this.share_tiles = share_kinds.map((_, kind) => new Tiles(shareLooks(record, kind), ratio));
+    this.pictures = {
+      cost: { layer: costLayer(record, field.region, field.cost), tiles: new Tiles(costLooks(record), ratio) },
+      region: { layer: regionLayer(record, field.region, field.cost), tiles: new Tiles(regionLooks(record), ratio) },
+    };
+  }
+
+  /** Anew in another medium or other colours, at once. */
+  relayout(): void {
+    placeTable();
+    this.paintTiles();
+    this.fit();
+    this.showLegend();
+    this.slider.show();
+    this.replay.redraw();
+    this.paint(new Set(["base", "lines", "marks", "readout"]));
   }
 
   /** The first picture; resolves when it is on the screen's canvas. */
   async show(): Promise<void> {
     if (this.verdicts) await this.verdicts.ask(0);
     byId("heading").hidden = !this.verdicts;
+    this.nameShown();
     new ResizeObserver(() => this.fit()).observe(this.map);
     window.addEventListener("resize", () => this.fit());
     this.fit();
@@ -104,6 +133,88 @@ export class MapPage implements MapHands {
     this.redraw("base", "lines", "marks", "readout");
   }
   redrawMarks(): void { this.redraw("marks"); }
+  turnTo(rad: number): void { this.slider.turnToRad(rad); }
+  crossTo(place: [number, number]): void {
+    this.cross = place;
+    this.redraw("marks", "readout");
+  }
+
+  /** A state that was asked for by a link. */
+  goTo(state: LinkedState): void {
+    this.cross = [state.x, state.y];
+    this.slider.turnToRad(state.h);
+    this.view.show(state.x, state.y);
+    this.moved();
+    if (this.tool) void this.tool.goTo(state);
+  }
+
+  /** A click without a live tool: the state there, to link to. */
+  picked(): void {
+    if (!this.cross) return;
+    const h = turnOf(parseFloat(headingWords(this.slider.rad)));  // as it is shown
+    writeLink({ ...linkable(this.grid, { x: this.cross[0], y: this.cross[1], h }), goal: null });
+  }
+
+  showMoved(plan: MovedPlan): void {
+    const { record, field } = this;
+    this.own ??= { moved: { mission: record.mission, cost_step_m: record.cost_step_m, field: { ...field } }, info: record.verdicts,
+      verdicts: this.verdicts, arrays: this.arrays, shown: this.shown, flights: this.choice.flights };
+    this.replay.stop();
+    this.take(plan, null, null);
+    this.setLayer("flights", false);
+    if (this.shown === "verdict" || this.shown === "share") this.choose("cost");
+  }
+
+  async showProof(info: VerdictInfo, arrays: Arrays): Promise<void> {
+    const { record } = this;
+    const { mission, cost_step_m } = record;
+    this.arrays = arrays;
+    record.verdicts = info;
+    this.take({ mission, cost_step_m, field: this.field }, info, new VerdictLayers(arrays, record));
+    await this.verdicts!.ask(this.slider.index);
+    await this.needCounts();
+    this.choose("verdict");
+  }
+
+  showOwn(): void {
+    const own = this.own;
+    if (!own) return;
+    this.own = null;
+    this.arrays = own.arrays;
+    this.take(own.moved, own.info, own.verdicts);
+    this.setLayer("flights", own.flights);
+    void this.needCounts().then(() => this.choose(own.shown));
+  }
+
+  /** The record and the arrays are shared by all that draws: they become those of the plan. */
+  private take(plan: MovedPlan, info: VerdictInfo | null, verdicts: VerdictLayers | null): void {
+    const rad = this.slider.rad;
+    const { record } = this;
+    record.mission = plan.mission;
+    record.cost_step_m = plan.cost_step_m;
+    record.verdicts = info;
+    Object.assign(this.field, plan.field);
+    this.verdicts = verdicts;
+    this.reaching = null;
+    this.share_layers = [];
+    this.paintTiles();
+    this.slider.reset(rad);
+    for (const name of ["verdict", "share"]) {
+      const input = byId("views").querySelector<HTMLInputElement>(`input[value=${name}]`);
+      if (input) input.disabled = info === null;
+    }
+    const flights = this.boxes.get("flights");
+    if (flights) flights.disabled = this.own !== null;
+    this.showLegend();
+    this.moved();
+  }
+
+  private choose(view: View): void {
+    const input = byId("views").querySelector<HTMLInputElement>(`input[value=${view}]`);
+    if (!input) return;
+    input.checked = true;
+    input.dispatchEvent(new Event("change"));
+  }
 
   /** What the shares of headings are made of; the readout tells them too. */
   async needCounts(): Promise<void> {
@@ -121,11 +232,15 @@ export class MapPage implements MapHands {
     requestAnimationFrame(() => {
       const stale = new Set(this.stale);
       this.stale.clear();
-      if (stale.has("base")) this.drawBase();
-      if (stale.has("lines")) this.overlay.draw(this.cleared("map-lines"), this.view, this.choice, this.flown, this.replay.selected);
-      if (stale.has("marks")) this.drawMarks();
-      if (stale.has("readout")) this.drawReadout();
+      this.paint(stale);
     });
+  }
+
+  private paint(parts: Set<Part>): void {
+    if (parts.has("base")) this.drawBase();
+    if (parts.has("lines")) this.overlay.draw(this.cleared("map-lines"), this.view, this.choice, this.flown, this.replay.selected);
+    if (parts.has("marks")) this.drawMarks();
+    if (parts.has("readout")) this.drawReadout();
   }
 
   private drawBase(): void {
@@ -135,20 +250,26 @@ export class MapPage implements MapHands {
     } else if (shown === "share") {
       const layer = this.share_layers[this.share_kind];
       if (layer) this.base.paint(layer, this.share_tiles[this.share_kind], this.view);
-    } else {
-      const codes = verdicts!.at(slider.index);
-      if (codes) this.base.paint(verdicts!.layer(codes), this.verdict_tiles!, this.view);
-      else void verdicts!.ask(slider.index).then(() => this.redraw("base", "readout"));
+    } else if (verdicts) {
+      const codes = verdicts.at(slider.index);
+      if (codes) this.base.paint(verdicts.layer(codes), this.verdict_tiles, this.view);
+      else void verdicts.ask(slider.index).then(() => this.redraw("base", "readout"));
     }
   }
 
+  /** A layer of its own; on paper, where layers hide each other, the cells' picture. */
   private cleared(id: string): CanvasRenderingContext2D {
+    if (isPrinting()) {
+      const context = byId<HTMLCanvasElement>("map-base").getContext("2d")!;
+      context.setTransform(pixelRatio(), 0, 0, pixelRatio(), 0, 0);
+      return context;
+    }
     const canvas = byId<HTMLCanvasElement>(id);
     const context = canvas.getContext("2d")!;
-    fitted(canvas, this.ratio);
+    fitted(canvas);
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.clearRect(0, 0, canvas.width, canvas.height);
-    context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    context.setTransform(pixelRatio(), 0, 0, pixelRatio(), 0, 0);
     return context;
   }
 
@@ -165,7 +286,7 @@ export class MapPage implements MapHands {
       }
       context.stroke();
     }
-    this.replay.draw(context, this.view);
+    if (!this.own) this.replay.draw(context, this.view);
     this.tool?.draw(context, this.view);
   }
 
@@ -176,8 +297,9 @@ export class MapPage implements MapHands {
 
   private showLegend(): void {
     const { record, shown, share_kind } = this;
-    if (shown === "verdict") showVerdictLegend(record, this.verdict_tiles!, this.slider.index);
-    if (shown === "share") showShareLegend(record, this.share_tiles[share_kind], share_kind);
+    this.nameShown();
+    if (shown === "verdict" && record.verdicts) showVerdictLegend(record, this.verdict_tiles, this.slider.index);
+    if (shown === "share" && record.verdicts) showShareLegend(record, this.share_tiles[share_kind], share_kind);
     if (shown === "cost") showCostLegend(record, this.pictures.cost.tiles);
     if (shown === "region") showRegionLegend(this.pictures.region.tiles);
   }
@@ -196,7 +318,7 @@ export class MapPage implements MapHands {
       shares.hidden = name !== "share";
       void this.needCounts().then(() => {
         this.showLegend();
-        this.redraw("base");
+        this.redraw("base", "readout");
       });
     });
     byId("views").querySelector("input[value=share]")?.parentElement!.after(shares);
@@ -208,17 +330,29 @@ export class MapPage implements MapHands {
   }
 
   private setLayer(name: keyof LayerChoice, on: boolean): void {
+    const box = this.boxes.get(name);
+    if (!box) return;
     this.choice[name] = on;
-    this.boxes.get(name)!.checked = on;
+    box.checked = on;
+    this.nameShown();
     this.redraw("lines");
   }
 
-  /** As wide as its column, as high as the map needs and the window allows. */
+  /** What the picture is, for paper. */
+  private nameShown(): void {
+    const view = view_names.find(([name]) => name === this.shown)![1];
+    const what = this.shown === "verdict" ? `Verdicts at heading ${bearingWords(this.record, this.slider.rad)}, ${wind(this.slider.rad)}`
+      : this.shown === "share" ? `${view}: ${share_kinds[this.share_kind]}` : view;
+    const layers = layer_names.filter(([name]) => this.choice[name]).map(([, words]) => words.toLowerCase());
+    byId("shown-words").textContent = what + (layers.length > 0 ? `; on top: ${layers.join(", ")}` : "") + ".";
+  }
+
   private fit(): void {
-    const width = this.map.clientWidth;
-    const wanted = width * this.grid.ny / this.grid.nx;
-    this.map.style.height = `${Math.round(Math.max(260, Math.min(wanted, window.innerHeight - 170)))}px`;
-    this.view.resize(width, this.map.clientHeight);
+    const { width, height } = mapSize(this.grid.nx / this.grid.ny);
+    byId("stage").style.setProperty("--map-width", `${width}px`);
+    this.map.style.height = `${height}px`;
+    this.map.style.width = isPrinting() ? `${width}px` : "";
+    this.view.resize(this.map.clientWidth, this.map.clientHeight);
     this.moved();
     this.slider.strip();
   }

@@ -1,5 +1,6 @@
 // What plan and certificate say of the place under the cross.
 import { byId, headingWords, short, term } from "./dom";
+import { bearingWords, earthWords } from "./earth";
 import { headingOfCode, type FieldArrays } from "./overlay";
 import { no_value, RegionCode, valueIndex, type PageRecord } from "./record";
 
@@ -27,6 +28,11 @@ function verdictTerms(record: PageRecord, cell: Cell, verdicts: ShownVerdicts): 
   return terms;
 }
 
+function wide(element: HTMLElement): HTMLElement {
+  element.className = "wide";
+  return element;
+}
+
 export function showReadout(record: PageRecord, field: FieldArrays, place: [number, number] | null, verdicts: ShownVerdicts | null): void {
   const cell = place && cellAt(record, place);
   if (!place || !cell) {
@@ -36,10 +42,12 @@ export function showReadout(record: PageRecord, field: FieldArrays, place: [numb
   const { region, heading, cost } = field;
   const i = valueIndex(record, ...cell);
   const per = record.values.cells_per_value;
+  const earth = earthWords(record, place);
   byId("readout").replaceChildren(
-    term("x, y", `${short(place[0])}, ${short(place[1])} m`), term("cell", cell.join(", ")), term("region", region_names[region[i]]),
+    term("x, y", `${short(place[0])}, ${short(place[1])} m`),
+    ...(earth ? [wide(term("latitude, longitude", earth))] : []), term("cell", cell.join(", ")), term("region", region_names[region[i]]),
     term("cost to go", cost[i] === no_value ? "no way" : `${short(cost[i] * record.cost_step_m)} m`),
-    term("commanded heading", heading[i] === no_value || region[i] === RegionCode.obstacle ? "none" : headingWords(headingOfCode(heading[i]))),
+    term("commanded heading", heading[i] === no_value || region[i] === RegionCode.obstacle ? "none" : bearingWords(record, headingOfCode(heading[i]))),
     ...(verdicts ? verdictTerms(record, cell, verdicts) : []),
     ...(per > 1 ? [term("values", `of one cell in ${per} × ${per}`)] : []));
 }

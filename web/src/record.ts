@@ -45,6 +45,8 @@ export interface PageRecord {
   format_version: number;
   title: string;
   grid: GridShape;
+  /** The grid's turn against its map's world, and degrees at across * across places over the grid, [row][column]. */
+  frame: { yaw_rad: number; earth: { across: number; lat_deg: number[]; lon_deg: number[] } | null };
   values: { nx: number; ny: number; cells_per_value: number };  // of which cells the plan's arrays are
   vehicle: { speed_mps: number; turn_radius_m: number };
   mission: Mission;

@@ -50,7 +50,10 @@ export class Replay {
     const row = (k: number, ...cells: (Node | string)[]): HTMLTableRowElement => {
       const tr = el("tr", { tabindex: k < 0 ? 0 : -1, "aria-selected": "false", "data-flight": k },
         ...cells.map((cell, c) => el("td", { class: c >= 2 ? "num" : undefined }, cell)));
-      tr.addEventListener("click", () => this.choose(k));
+      tr.addEventListener("click", () => {
+        this.choose(k);
+        if (k >= 0) byId("stage-map").scrollIntoView({ block: "nearest" });  // where it is highlighted
+      });
       return tr;
     };
     this.rows = [row(-1, "all", `${this.flights.length} flights`, "", "")];
@@ -74,7 +77,7 @@ export class Replay {
     byId("flight-table").replaceChildren(el("table", { "aria-label": "Flights" },
       el("thead", {}, el("tr", {}, el("th", {}, "outcome"), el("th", {}, "start"), el("th", { class: "num" }, "time"), el("th", { class: "num" }, "length"))),
       body));
-    if (left_out > 0) byId("flight-table").after(el("p", { class: "hint" }, `${left_out} more flights of the run are not in this page.`));
+    if (left_out > 0) byId("flight-table").append(el("p", { class: "hint" }, `${left_out} more flights of the run are not in this page.`));
   }
 
   choose(k: number): void {
@@ -120,6 +123,9 @@ export class Replay {
     };
     this.frame = requestAnimationFrame(step);
   }
+
+  /** The charts, in other colours or for another width. */
+  redraw(): void { this.charts.redraw(); }
 
   stop(): void {
     cancelAnimationFrame(this.frame);

@@ -4,12 +4,14 @@ import { BufferAttribute, BufferGeometry, CanvasTexture, Color, DoubleSide, Line
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { oneOf } from "./choices";
 import { byId, cssVariable, el, headingWords, pixelRatio } from "./dom";
-import { verdictsOfKind, type VerdictLayers } from "./layers";
+import { obstacleColor, verdictsOfKind, type VerdictLayers } from "./layers";
 import type { PageRecord } from "./record";
 import { boundary } from "./solid_mesh";
 
 const most_across = 128;
 const height = 0.62;  // of the longer side of the map
+
+const lowest_view = 0.49 * Math.PI;  // from the top: never from below the floor
 
 const body_names = ["reach", "fail", "undecided"] as const;  // as share_kinds has them
 
@@ -28,13 +30,14 @@ class Solid {
   private readonly depth: number;
   private readonly colors: string[];
   private asked = false;
+  private turned = false;  // by hand: then it stays as it is
 
   constructor(private readonly box: HTMLElement, private readonly record: PageRecord, private readonly layers: VerdictLayers, private heading: number) {
     const { nx, ny } = record.verdicts!;
     this.width = nx / Math.max(nx, ny);
     this.depth = ny / Math.max(nx, ny);
     this.colors = record.styles.verdict.map((style) => style.ground);
-    this.colors[record.codes.obstacle] = record.styles.obstacle;
+    this.colors[record.codes.obstacle] = obstacleColor(record);
     this.colors[record.codes.target] = record.styles.goal_pattern;
     this.renderer = new WebGLRenderer({ antialias: true, alpha: true });
     this.renderer.setPixelRatio(pixelRatio());
@@ -46,9 +49,10 @@ class Solid {
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.target.set(0, 0, 0.4 * height);
     this.controls.enableZoom = false;  // the wheel scrolls the page until the view has the focus
-    this.controls.maxPolarAngle = 0.55 * Math.PI;
+    this.controls.maxPolarAngle = lowest_view;
     this.controls.update();
     this.controls.addEventListener("change", () => this.redraw());
+    this.controls.addEventListener("start", () => { this.turned = true; });
     this.slice = this.cellsPlane();
     this.floor = this.cellsPlane();
     this.floor.position.z = -0.001;
@@ -131,16 +135,44 @@ class Solid {
     if (width === 0 || tall === 0) return;
     this.renderer.setSize(width, tall, false);
     this.camera.aspect = width / tall;
-    // Narrow windows look from farther away.
-    this.camera.fov = width < tall * 1.25 ? 32 * Math.min(1.8, 1.25 * tall / width) : 32;
+    if (!this.turned) this.fill();
     this.camera.updateProjectionMatrix();
     this.redraw();
+  }
+
+  /** So near that the box with its labels just fits in the window. */
+  private fill(): void {
+    const direction = this.camera.position.clone().sub(this.controls.target).normalize();
+    const [x, y] = [this.width / 2, this.depth / 2];
+    const corners: Vector3[] = [];
+    for (const cx of [-x - 0.16, x + 0.02]) for (const cy of [-y - 0.1, y]) for (const cz of [0, height + 0.07]) corners.push(new Vector3(cx, cy, cz));
+    const extent = (far: number): number => {
+      this.camera.position.copy(this.controls.target).addScaledVector(direction, far);
+      this.camera.lookAt(this.controls.target);
+      this.camera.updateMatrixWorld();
+      this.camera.updateProjectionMatrix();
+      return Math.max(...corners.map((corner) => {
+        const seen = corner.clone().project(this.camera);
+        return Math.max(Math.abs(seen.x), seen.y > 0 ? seen.y / 0.84 : -seen.y);  // the tools stand above
+      }));
+    };
+    let near = 0.6, far = 12;
+    for (let k = 0; k < 30; ++k) {
+      const middle = (near + far) / 2;
+      if (extent(middle) > 0.95) near = middle; else far = middle;
+    }
+    this.box.dataset.extent = extent(far).toFixed(3);
+    this.controls.update();
   }
 
   redraw(): void {
     if (this.asked) return;
     this.asked = true;
-    requestAnimationFrame(() => { this.asked = false; this.renderer.render(this.scene, this.camera); });
+    requestAnimationFrame(() => {
+      this.asked = false;
+      this.box.dataset.polar = this.controls.getPolarAngle().toFixed(4);
+      this.renderer.render(this.scene, this.camera);
+    });
   }
 
   async show(kind: number): Promise<void> {
@@ -209,7 +241,8 @@ class Solid {
     const from = this.camera.position.clone().sub(this.controls.target);
     const r = from.length() / nearer;
     const a = Math.atan2(from.y, from.x) + azimuth;
-    const p = Math.min(Math.max(Math.acos(from.z / from.length()) + polar, 0.05), 0.55 * Math.PI);
+    const p = Math.min(Math.max(Math.acos(from.z / from.length()) + polar, 0.05), lowest_view);
+    this.turned = true;
     from.set(r * Math.sin(p) * Math.cos(a), r * Math.sin(p) * Math.sin(a), r * Math.cos(p));
     this.camera.position.copy(this.controls.target).add(from);
     this.controls.update();
@@ -230,9 +263,11 @@ export function showSolid(record: PageRecord, layers: VerdictLayers): (heading: 
   let solid: Solid | null = null;
   const begin = () => {
     try {
+      // Asked beforehand: the library would complain in the console.
+      if (!document.createElement("canvas").getContext("webgl2")) throw new Error("no WebGL");
       solid = new Solid(box, record, layers, first_cut);
     } catch {
-      box.replaceChildren(el("p", { class: "hint" }, "This browser gives no 3-D canvas (WebGL): the map above shows the same states, heading by heading."));
+      box.replaceChildren(el("p", { class: "hint" }, "This browser does not support WebGL: the map above shows the same states, heading by heading."));
       return;
     }
     const tools = oneOf(body_names, "Which states", (kind) => void solid!.show(kind));

@@ -1,0 +1,34 @@
+#include "fairway/report/page_verdicts.hpp"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace fairway {
+
+std::string page_verdicts_json(const VerdictMap& map) {
+  using nlohmann::json;
+  // The offset of place_m() from the middle of a cell, which is the same for all.
+  const Vec2 middle = map.grid.center(map.cell_of_sample(0));
+  const Vec2 offset = map.place_m(0) - middle;
+  json counts = json::array();
+  for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
+    std::array<std::size_t, verdict_count> count{};
+    for (std::size_t i = 0; i < map.samples(); ++i) {
+      if (map.kind[i] == CellKind::ordinary)
+        ++count[static_cast<std::size_t>(map.verdict_at(h, i))];
+    }
+    counts.push_back(count);
+  }
+  return json{{"nx", map.nx},
+              {"ny", map.ny},
+              {"cells_per_sample", map.cells_per_sample},
+              {"heading_rad", map.heading_rad},
+              {"offset_m", {offset.x, offset.y}},
+              {"count", std::move(counts)}}
+      .dump();
+}
+
+}  // namespace fairway

@@ -1,0 +1,30 @@
+// Where there is room: how large the map is, and on which side of it the flights' table stands.
+import { byId, isPrinting } from "./dom";
+
+export const wide_window = "(min-width: 62.01rem)";  // as the style has it
+const panel_px = 304;  // the least of the panel beside the map, with the gap
+const least_map_px = 500;
+const paper_px = 500;  // the height of a printed map: what is above and below it fits on the same sheet
+
+function isWide(): boolean { return window.matchMedia(wide_window).matches && !isPrinting(); }
+
+/** As high as the window allows, with heading and replay in sight, and as wide as the map is then. */
+export function mapSize(aspect: number): { width: number; height: number } {
+  const stage = byId("stage").getBoundingClientRect();
+  const map = byId("map").getBoundingClientRect();
+  const wide = isWide();
+  const room = byId("stage").clientWidth - (wide ? panel_px : 0);
+  const replay = byId("replay").offsetHeight;
+  const below = (replay > 0 ? replay + 12 : 0) + 10;
+  const from_top = window.innerHeight - (map.top + window.scrollY) - below;
+  const scrolled_to = window.innerHeight - (map.top - stage.top) - below;
+  const allowed = isPrinting() ? paper_px : wide ? Math.max(from_top, Math.min(scrolled_to, 360)) : scrolled_to;
+  const height = Math.max(Math.min(room / aspect, allowed), Math.min(room / aspect, 220));
+  const width = wide ? Math.min(Math.max(height * aspect, least_map_px), room) : isPrinting() ? height * aspect : room;
+  return { width: Math.round(width), height: Math.round(height) };
+}
+
+/** The flights' table: beside the map, where it is chosen from while the map is looked at, or below. */
+export function placeTable(): void {
+  byId(isWide() ? "table-beside" : "table-below").append(byId("flight-table"));
+}
