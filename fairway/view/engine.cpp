@@ -82,7 +82,7 @@ json LiveEngine::state(const State& start) const {
     answer["verdict"] = name_of(found.verdict);
     answer["time_bound_s"] = finite_or_null(found.time_bound_s);
   }
-  const Flight flight = flights_.record(start, 0, TrackEnd::path);
+  const Flight flight = flights_.record(start, 0, one_lap);
   answer["flight"] = {{"outcome", name_of(flight.result.outcome)},
                       {"time_s", finite_or_null(flight.result.time_s)},
                       {"length_m", finite_or_null(flight.result.length_m)},
