@@ -37,7 +37,7 @@ inline constexpr const char* exact_law = "exact";
 /// For how long flights of path missions are followed beyond their first goal cell: one of the two
 /// is > 0, finite, and holds.
 struct FollowFor {
-  double laps = 0.0;    ///< times the path's length, over the ground
+  double laps = 0.0;  ///< times the path's length, over the ground
   double time_s = 0.0;
 };
 inline constexpr FollowFor one_lap{.laps = 1.0};

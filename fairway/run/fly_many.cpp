@@ -19,7 +19,6 @@ class Measuring {
     if (!flown.followed) return;
     const Plan& plan = engine.plan();
     meter_.emplace(*engine.path(), plan.vehicle.speed_mps, 0.5 * plan.grid.cell_m);
-    flown.path_spreads.emplace();
   }
 
   void add(std::size_t i, const Flight& flight) {
@@ -32,8 +31,9 @@ class Measuring {
     measures.following = meter_->measure(flight, pooled ? &steps : nullptr);
     if (!pooled) return;
     const std::lock_guard lock(mutex_);
-    flown_.path_spreads->distance_m.merge(steps.distance_m);
-    flown_.path_spreads->heading_rad.merge(steps.heading_rad);
+    PathSpreads& spreads = flown_.followed->spreads;
+    spreads.distance_m.merge(steps.distance_m);
+    spreads.heading_rad.merge(steps.heading_rad);
   }
 
  private:
@@ -51,11 +51,15 @@ ManyFlights fly_many(const FlightEngine& engine, std::span<const State> starts,
   ManyFlights flown;
   flown.results.resize(starts.size());
   flown.recorded.resize(std::min(options.tracks, starts.size()));
-  if (engine.path() != nullptr) flown.followed = options.follow;
+  const PathMission* path = engine.path();
+  if (path != nullptr && options.follow) {
+    flown.followed = {*options.follow, path->delta_position_m, path->delta_heading_rad, {}};
+  }
+  const auto follow = flown.followed ? options.follow : std::nullopt;
   Measuring measuring(engine, options, flown);
   const bool count_legs = options.count_legs && engine.legs();
   if (count_legs) flown.final_legs.emplace();
-  const bool all_recorded = count_legs || flown.followed;
+  const bool all_recorded = count_legs || follow;
   for (std::size_t first = 0; first < starts.size(); first += batch) {
     const std::size_t count = std::min(batch, starts.size() - first);
     std::vector<Flight> passing(count_legs ? count : 0);  // until their legs are counted
@@ -69,7 +73,7 @@ ManyFlights fly_many(const FlightEngine& engine, std::span<const State> starts,
         flown.results[i] = engine.fly(starts[i], index);
         return;
       }
-      Flight flight = kept || all_recorded ? engine.record(starts[i], index, flown.followed)
+      Flight flight = kept || all_recorded ? engine.record(starts[i], index, follow)
                                            : engine.measure(starts[i], index);
       flown.results[i] = flight.result;
       measuring.add(i, flight);

@@ -25,8 +25,8 @@ struct FlyOptions {
   std::size_t tracks = 0;  ///< the first so many flights are recorded, with their last legs
   /// Flights of a path mission are followed for so long, all of them, recorded or not.
   std::optional<FollowFor> follow = {};
-  bool measure = false;       ///< turning of all flights, and how those followed keep to the path
-  std::size_t pool_from = 0;  ///< the first start whose steps along the path are pooled
+  bool measure = false;         ///< turning of all flights, and how those followed keep to the path
+  std::size_t pool_from = 0;    ///< the first start whose steps along the path are pooled
   bool count_legs = false;      ///< of all flights, recorded or not, where the engine has legs
   std::size_t first_index = 0;  ///< of the first start
   /// Called after each batch, on the calling thread, with the number flown so far. An exception
@@ -34,11 +34,18 @@ struct FlyOptions {
   std::function<void(std::size_t flown)> progress = {};
 };
 
+/// How flights of a path mission were followed.
+struct Followed {
+  FollowFor how;
+  double delta_position_m = 0.0;  ///< of the mission (paper 1, Eq. 5)
+  double delta_heading_rad = 0.0;
+  PathSpreads spreads;  ///< of the pooled flights, when measured
+};
+
 struct ManyFlights {
   std::vector<FlightResult> results;        ///< one per start
   std::vector<FlightMeasures> measures;     ///< one per start, when measured
-  std::optional<FollowFor> followed;        ///< when the flights were followed along a path
-  std::optional<PathSpreads> path_spreads;  ///< of those followed and pooled, when measured
+  std::optional<Followed> followed;         ///< when the flights were followed along a path
   std::vector<Flight> recorded;             ///< of the first starts
   std::optional<FinalLegTally> final_legs;  ///< of all starts, when counted
 };

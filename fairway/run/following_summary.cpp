@@ -44,14 +44,14 @@ TurningSummary turning_summary(std::span<const FlightResult> results,
           spread_of(std::move(turned_rad)), spread_of(std::move(turned_rad_per_100m))};
 }
 
-std::optional<FollowingSummary> following_summary(const ManyFlights& flown, const PathMission* path,
+std::optional<FollowingSummary> following_summary(const ManyFlights& flown,
                                                   std::span<const FlightResult> results,
                                                   std::span<const FlightMeasures> measures) {
-  if (!flown.followed || !flown.path_spreads || path == nullptr) return {};
+  if (!flown.followed || flown.measures.empty()) return {};
   FollowingSummary found;
-  found.followed = *flown.followed;
-  found.delta_position_m = path->delta_position_m;
-  found.delta_heading_rad = path->delta_heading_rad;
+  found.how = flown.followed->how;
+  found.delta_position_m = flown.followed->delta_position_m;
+  found.delta_heading_rad = flown.followed->delta_heading_rad;
   std::vector<double> join_s;
   double measured_s = 0.0;
   double distance_sum = 0.0;
@@ -71,8 +71,8 @@ std::optional<FollowingSummary> following_summary(const ManyFlights& flown, cons
     heading_sum += one.measured_s * one.heading_mean_rad;
   }
   found.time_to_join_s = spread_of(std::move(join_s));
-  found.distance_m = flown.path_spreads->distance_m.spread();
-  found.heading_difference_rad = flown.path_spreads->heading_rad.spread();
+  found.distance_m = flown.followed->spreads.distance_m.spread();
+  found.heading_difference_rad = flown.followed->spreads.heading_rad.spread();
   if (measured_s > 0.0) {  // in the order of the starts: no mean depends on the threads
     found.on_path_share /= measured_s;
     found.distance_m.mean = distance_sum / measured_s;
@@ -97,10 +97,10 @@ json turning_json(const TurningSummary& turning) {
 json following_json(const std::optional<FollowingSummary>& following) {
   if (!following) return {};
   const FollowingSummary& f = *following;
-  const bool by_time = f.followed.time_s > 0.0;
+  const bool by_time = f.how.time_s > 0.0;
   const std::size_t follow = f.reach - f.collide_after - f.leave_after;
-  return {{"laps", by_time ? json() : json(f.followed.laps)},
-          {"time_s", by_time ? json(f.followed.time_s) : json()},
+  return {{"laps", by_time ? json() : json(f.how.laps)},
+          {"time_s", by_time ? json(f.how.time_s) : json()},
           {"delta_position_m", f.delta_position_m},
           {"delta_heading_rad", f.delta_heading_rad},
           {"reach", f.reach},
@@ -118,7 +118,7 @@ std::string following_words(const std::optional<FollowingSummary>& following) {
   const FollowingSummary& f = *following;
   std::string words = fmt::format(
       "Followed for {} after they reach the path, {} of these {} collide and {} leave the map.",
-      words_of(f.followed), f.collide_after, f.reach, f.leave_after);
+      words_of(f.how), f.collide_after, f.reach, f.leave_after);
   if (f.joined == 0) {
     return words + fmt::format(" None is ever on the path (within {:g} m and {:g} rad).",
                                f.delta_position_m, f.delta_heading_rad);

@@ -25,22 +25,22 @@ struct TurningSummary {
 
 /// Of the flights of a path mission, all but `reach` of them left out.
 struct FollowingSummary {
-  FollowFor followed;             ///< for how long beyond the first goal cell
+  FollowFor how;                  ///< for how long beyond the first goal cell
   double delta_position_m = 0.0;  ///< of the mission (paper 1, Eq. 5)
   double delta_heading_rad = 0.0;
   std::size_t reach = 0;
   std::size_t collide_after = 0;  ///< of those that reach
   std::size_t leave_after = 0;    ///< of those that reach
-  std::size_t joined = 0;         ///< of those that reach: on the path, within both deltas, at a time
-  Spread time_to_join_s;          ///< over the flights that joined, since their starts
-  Spread distance_m;              ///< over the time of those flights after they joined
+  std::size_t joined = 0;  ///< of those that reach: on the path, within both deltas, at a time
+  Spread time_to_join_s;   ///< over the flights that joined, since their starts
+  Spread distance_m;       ///< over the time of those flights after they joined
   Spread heading_difference_rad;
   double on_path_share = 0.0;  ///< of that time
 };
 /// None unless the flights were followed and measured. `results` and `measures` are those of the
 /// pooled flights.
 [[nodiscard]] std::optional<FollowingSummary> following_summary(
-    const ManyFlights& flown, const PathMission* path, std::span<const FlightResult> results,
+    const ManyFlights& flown, std::span<const FlightResult> results,
     std::span<const FlightMeasures> measures);
 
 /// Members mean, p95, worst; null when there is nothing to tell.

@@ -28,8 +28,9 @@ struct ScenarioFlights : ManyFlights {
 
 /// Flies max(simulate.random, simulate.sample) random safe starts and the given ones, and measures
 /// them; the random ones' steps along a path are pooled. Flights of path missions are followed for
-/// one lap beyond their first goal cell; those to a goal with a heading are given their last leg. Throws InputError at simulate.states when one lies outside the
-/// grid. `engine`: exact, of `plan`; `after_s`: what the run will take afterwards.
+/// one lap beyond their first goal cell; those to a goal with a heading are given their last leg.
+/// Throws InputError at simulate.states when one lies outside the grid. `engine`: exact, of `plan`;
+/// `after_s`: what the run will take afterwards.
 [[nodiscard]] ScenarioFlights fly_scenario(const Scenario& scenario, const Plan& plan,
                                            const FlightEngine& engine, const StageClock& clock,
                                            double after_s);

@@ -162,8 +162,8 @@ TEST(Follow, TendsToTheExactFlightAsTheControlPeriodShrinks) {
     off_m.push_back(sum_m / 12.0);
   }
   EXPECT_LT(off_m[1], 0.6 * off_m[0]);
-  EXPECT_LT(off_m[2], 0.6 * off_m[1]);
-  EXPECT_LT(off_m[2], 0.1);
+  EXPECT_LT(off_m[2], off_m[1]);
+  EXPECT_LT(off_m[2], 0.05);
 }
 
 TEST(Follow, FliesTheCellsOfAPathByTheLawItself) {
