@@ -73,11 +73,13 @@ void declare_following(CLI::App& options, SimulateArguments& a) {
                       "path missions: fly on along the path after reaching it, so many times its "
                       "length")
           ->type_name("N")
+          ->check(finite_above(0.0))
           ->check(CLI::Range(1e-3, most_laps));
   options
       .add_option("--follow", a.follow_s,
                   "path missions: fly on along the path for so many seconds after reaching it")
       ->type_name("S")
+      ->check(finite_above(0.0))
       ->check(CLI::Range(1e-3, 1e9))
       ->excludes(laps);
 }

@@ -203,7 +203,9 @@ TEST(FlyMany, FollowsEveryFlightOfAPathAndLeavesItsResult) {
     const Flight one = engine.record(starts[i], i, one_lap);
     ASSERT_EQ(flown.measures[i].onward, one.onward);
     ASSERT_EQ(flown.measures[i].turning, one.turning);
-    if (i < 60) ASSERT_TRUE(same(flown.recorded[i], one));
+    if (i < 60) {
+      ASSERT_TRUE(same(flown.recorded[i], one));
+    }
     if (one.onward.after == After::none) {
       ASSERT_EQ(flown.measures[i].following, PathFollowing{});
       continue;

@@ -12,7 +12,7 @@ namespace {
 /// Calls visit(time_s, state) at times step_s apart, from the start on, while visit answers true.
 template <typename Visit>
 void in_even_steps(const Flight& flight, double speed_mps, double step_s, const Visit& visit) {
-  double next_s = 0.0;
+  std::size_t step = 0;
   for (std::size_t i = 0; i < flight.segments.size(); ++i) {
     const FlightSegment& piece = flight.segments[i];
     // In wind a piece's time is not its length by the plan's speed.
@@ -22,9 +22,10 @@ void in_even_steps(const Flight& flight, double speed_mps, double step_s, const 
                              ? flight.result.time_s
                              : piece.time_s + piece.length_m / speed_mps;
     const double time_s = end_s - piece.time_s;
-    for (; next_s < end_s; next_s += step_s) {
-      const double share = std::clamp((next_s - piece.time_s) / time_s, 0.0, 1.0);
-      if (!visit(next_s, state_at(piece, share * piece.length_m))) return;
+    for (; static_cast<double>(step) * step_s < end_s; ++step) {
+      const double at_s = static_cast<double>(step) * step_s;
+      const double share = std::clamp((at_s - piece.time_s) / time_s, 0.0, 1.0);
+      if (!visit(at_s, state_at(piece, share * piece.length_m))) return;
     }
   }
 }
