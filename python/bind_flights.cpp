@@ -317,7 +317,9 @@ void bind_all_flights(py::module_& m) {
       .def("__repr__", [](const Flights& f) {
         const OutcomeCounts all = count_outcomes(f.results);
         std::size_t later = 0;
-        for (const FlightMeasures& m : f.measures) later += m.onward.after == After::collide;
+        for (const FlightMeasures& one : f.measures) {
+          later += one.onward.after == After::collide ? 1 : 0;
+        }
         return fmt::format(
             "<fairway.Flights: {}, {} reach{}, {} collide, {} leave, {} are trapped>",
             f.starts.size(), all.of(Outcome::reach),
