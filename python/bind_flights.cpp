@@ -141,7 +141,7 @@ void save_mission(const Flights& flights, py::ssize_t i, const std::filesystem::
                 qgc_mission_text(path, flown.front(), plan.vehicle.speed_mps, lon_lat,
                                  {altitude_m, tolerance_m, site.value_or(QgcSite{})}));
     warnings = mission_warnings(flown);
-    if (keeps_site && !site) warnings.push_back(no_fence_warning(plan.record));
+    if (keeps_site && !site) warnings.push_back(no_fence_warning(plan.record, "fence=FILE"));
   }
   for (const std::string& warning : warnings) warn(warning);
 }

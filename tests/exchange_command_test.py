@@ -97,12 +97,14 @@ class Exchange(unittest.TestCase):
         mission, told = export()
         self.assertEqual(mission["geoFence"]["polygons"], [])
         self.assertIn("has no fence", told)
-        self.assertIn("fence.plan, which was not found", told)
+        self.assertIn("fence.plan, was not found", told)
         mission, told = export("--fence", "moved.plan")
         self.assertEqual(mission["geoFence"], source["geoFence"])
         self.assertEqual(told, "")
-        self.expect(65, "simulate", "p.safetensors", "--state", "0,0,0", "--qgc", "g.plan",
-                    "--fence", "p.safetensors")
+        done = self.expect(65, "simulate", "p.safetensors", "--state", "0,0,0", "--qgc", "g.plan",
+                           "--fence", "s.toml")
+        self.assertIn("s.toml: is not a QGroundControl plan", done.stderr)
+        self.assertFalse((self.folder / "g.plan").exists())
         self.expect(64, "simulate", "p.safetensors", "--state", "0,0,0", "--qgc", "g.waypoints",
                     "--fence", "moved.plan")
 

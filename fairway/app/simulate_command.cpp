@@ -87,7 +87,7 @@ QgcSite site_of(const SimulateArguments& arguments, const Plan& plan, const Sess
   if (arguments.qgc.extension() != ".plan") return {};
   if (!arguments.fence.empty()) return qgc_site_of(arguments.fence);
   if (auto site = qgc_site_of(plan.record, arguments.plan.parent_path())) return *site;
-  session.warn(no_fence_warning(plan.record));
+  session.warn(no_fence_warning(plan.record, "--fence FILE.plan"));
   return {};
 }
 

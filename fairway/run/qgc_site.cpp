@@ -45,6 +45,9 @@ bool is_file_of(const fs::path& file, const std::string& sha256) {
 
 QgcSite qgc_site_of(const fs::path& file) {
   const SourceText source = read_source(file);
+  if (!trimmed(source.text).starts_with('{')) {
+    throw InputError(file.string(), "is not a QGroundControl plan, expected JSON");
+  }
   const json plan = parse_json(source);
   (void)read_qgc_plan(source, plan);  // refuses what is no fence
   QgcSite site;
@@ -64,22 +67,21 @@ QgcSite qgc_site_of(const fs::path& file) {
 std::optional<QgcSite> qgc_site_of(const PlanRecord& record, const fs::path& folder) {
   const std::optional<InputFile> input = map_plan_of(record);
   if (!input) return {};
-  const fs::path beside = fs::absolute(folder);
-  for (const fs::path& place :
-       {beside, beside.parent_path(), beside.parent_path().parent_path(), fs::current_path()}) {
+  const fs::path beside = folder.empty() ? "." : folder;
+  for (const fs::path& place : {beside, beside / "..", beside / "../..", fs::path(".")}) {
     const fs::path file = place / input->path;
     if (is_file_of(file, input->sha256)) return qgc_site_of(file);
   }
   return {};
 }
 
-std::string no_fence_warning(const PlanRecord& record) {
+std::string no_fence_warning(const PlanRecord& record, const std::string& option) {
   const std::optional<InputFile> input = map_plan_of(record);
-  const std::string lacks =
-      "the exported plan has no fence and no rally points, and its home altitude is 0: uploading "
-      "it replaces the vehicle's fence and rally points by none; --fence FILE.plan gives those of "
-      "a QGroundControl plan";
-  return input ? lacks + " (the map's was " + input->path + ", which was not found)" : lacks;
+  const std::string source =
+      input ? " (that of the map, " + input->path + ", was not found)" : std::string();
+  return "the exported plan has no fence and no rally points, and its home altitude is 0: "
+         "uploading it replaces the vehicle's by none; " +
+         option + " keeps those of a QGroundControl plan" + source;
 }
 
 }  // namespace fairway

@@ -21,6 +21,7 @@ namespace fairway {
                                                  const std::filesystem::path& folder);
 
 /// What a mission without a site lacks, in a sentence; the map's .plan is named when there is one.
-[[nodiscard]] std::string no_fence_warning(const PlanRecord& record);
+/// `option`: what gives one, as the caller calls it.
+[[nodiscard]] std::string no_fence_warning(const PlanRecord& record, const std::string& option);
 
 }  // namespace fairway

@@ -69,9 +69,13 @@ TEST_F(Site, IsFoundByItsDigestBesideThePlanOrAboveIt) {
   for (const fs::path& folder : {folder_.file(""), folder_.file("out"), folder_.file("out/run")}) {
     EXPECT_TRUE(qgc_site_of(of_site, folder).has_value()) << folder;
   }
+  const fs::path here = fs::current_path();
+  fs::current_path(folder_.file("out"));
+  EXPECT_TRUE(qgc_site_of(of_site, "").has_value());  // a plan file's name without a folder
+  fs::current_path(here);
   file("site.plan", std::string(site_text) + "\n");  // another file by now
   EXPECT_FALSE(qgc_site_of(of_site, folder_.file("")).has_value());
-  EXPECT_NE(no_fence_warning(of_site).find("site.plan"), std::string::npos);
+  EXPECT_NE(no_fence_warning(of_site, "--fence FILE").find("site.plan"), std::string::npos);
 }
 
 TEST_F(Site, IsNotTakenFromThePathOfAMission) {
@@ -82,7 +86,7 @@ TEST_F(Site, IsNotTakenFromThePathOfAMission) {
   with_map.inputs->push_back({"line.plan", sha256_file(line)});
   EXPECT_TRUE(qgc_site_of(with_map, folder_.file("")).has_value());
   EXPECT_FALSE(qgc_site_of(PlanRecord{}, folder_.file("")).has_value());
-  EXPECT_EQ(no_fence_warning(PlanRecord{}).find("which was not found"), std::string::npos);
+  EXPECT_EQ(no_fence_warning(PlanRecord{}, "--fence FILE").find("not found"), std::string::npos);
 }
 
 TEST_F(Site, RefusesWhatIsNotAPlan) {
