@@ -182,7 +182,7 @@ TEST(FlyMany, FollowsEveryFlightOfAPathAndLeavesItsResult) {
   plan.record.mission = path;
   std::size_t goal_cells = 0;
   for (Region& region : plan.region) {  // obstacles among the goal cells
-    if (region == Region::goal && ++goal_cells % 7 == 0) region = Region::obstacle;
+    if (region == Region::goal && ++goal_cells % 25 == 0) region = Region::obstacle;
   }
   const ExactFlights alone(plan);
   const FlightEngine engine(plan);
@@ -219,8 +219,8 @@ TEST(FlyMany, FollowsEveryFlightOfAPathAndLeavesItsResult) {
     if (one.onward.after != After::follow) continue;
     EXPECT_NEAR(one.onward.length_m - one.result.length_m, meter.locator().length_m(), 1e-6);
   }
-  EXPECT_GT(seen[0], 50U);  // follow
-  EXPECT_GT(seen[1], 50U);  // collide
+  EXPECT_GT(seen[0], 5U);  // follow
+  EXPECT_GT(seen[1], 5U);  // collide
   EXPECT_EQ(flown.followed->spreads.distance_m.spread().count, spreads.distance_m.spread().count);
   EXPECT_EQ(flown.followed->spreads.distance_m.spread().p95, spreads.distance_m.spread().p95);
   // To a goal there is nothing to follow.
