@@ -138,7 +138,7 @@ class Follow(unittest.TestCase):
     def test_following_is_refused_where_there_is_no_path(self):
         self.expect(0, "plan", self.scenario(), "-o", "p.safetensors")
         self.expect(64, "simulate", "p.safetensors", "--random", 1, "--laps", 1, "--follow", 3)
-        for wrong in ("0", "-1", "nan", "inf", "x"):
+        for wrong in ("0", "-1", "nan", "inf", "1e10", "x"):
             self.expect(64, "simulate", "p.safetensors", "--random", 1, f"--laps={wrong}")
             self.expect(64, "simulate", "p.safetensors", "--random", 1, f"--follow={wrong}")
         text = (self.folder / "s.toml").read_text()

@@ -66,22 +66,17 @@ void declare_outputs(CLI::App& options, SimulateArguments& a) {
 }
 
 void declare_following(CLI::App& options, SimulateArguments& a) {
-  constexpr double most_laps = 1e6;
-  CLI::Option* laps =
-      options
-          .add_option("--laps", a.laps,
-                      "path missions: fly on along the path after reaching it, so many times its "
-                      "length")
-          ->type_name("N")
-          ->check(finite_above(0.0))
-          ->check(CLI::Range(1e-3, most_laps));
+  options
+      .add_option(
+          "--laps", a.laps,
+          "path missions: fly on along the path after reaching it, so many times its length")
+      ->type_name("N")
+      ->check(finite_above(0.0));
   options
       .add_option("--follow", a.follow_s,
                   "path missions: fly on along the path for so many seconds after reaching it")
       ->type_name("S")
-      ->check(finite_above(0.0))
-      ->check(CLI::Range(1e-3, 1e9))
-      ->excludes(laps);
+      ->check(finite_above(0.0));
 }
 
 std::vector<std::string> law_names() {
@@ -136,6 +131,11 @@ void check(const SimulateArguments& a) {
   }
   if (!a.qgc.empty() && !is_qgc_mission_name(a.qgc)) {
     throw CLI::ValidationError("--qgc", "expected a name that ends in .plan, .waypoints or .txt");
+  }
+  constexpr double most = 1e9;
+  if (a.laps > 0.0 && a.follow_s > 0.0) throw CLI::ExcludesError("--laps", "--follow");
+  if (a.laps > most || a.follow_s > most) {
+    throw CLI::ValidationError("--laps, --follow", "expected at most 1e9");
   }
   if (!a.fence.empty() && a.qgc.extension() != ".plan") {
     throw CLI::ValidationError("--fence",
