@@ -1,32 +1,17 @@
-// simulate: flights, exact and sampled.
-#include <algorithm>
+// simulate: flying, exact and sampled.
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
+#include "bind_flights.hpp"
 #include "binding.hpp"
-#include "fairway/base/atomic_file.hpp"
-#include "fairway/base/error.hpp"
-#include "fairway/exchange/flight_files.hpp"
-#include "fairway/exchange/qgc_mission.hpp"
-#include "fairway/exchange/track.hpp"
-#include "fairway/map/degrees_from_frame.hpp"
-#include "fairway/report/draw_flights.hpp"
-#include "fairway/run/flight_engine.hpp"
-#include "fairway/run/fly_many.hpp"
-#include "fairway/run/plan_map.hpp"
-#include "fairway/run/plan_record.hpp"
-#include "fairway/simulate/flight_statistics.hpp"
 #include "fairway/simulate/sampled_flight.hpp"
 #include "fairway/simulate/start_states.hpp"
 
@@ -35,52 +20,41 @@ namespace {
 
 using namespace pybind11::literals;
 
-constexpr const char* record_name = "the plan's record";
-
-/// Many flights under one plan. They are flown again when their tracks are asked for: a flight
-/// depends on its start and its index alone.
-struct Flights {
-  std::shared_ptr<HeldPlan> plan;
-  std::shared_ptr<const FlightEngine> engine;  ///< of the plan
-  std::vector<State> starts;
-  std::vector<FlightResult> results;
-
-  std::vector<Flight> recorded(std::size_t first, std::size_t count) const {
-    const auto part = std::span(starts).subspan(first);
-    FlyOptions options;
-    options.tracks = std::min(count, part.size());
-    options.first_index = first;
-    return fly_many(*engine, part.first(options.tracks), options).recorded;
-  }
-};
-
-struct Trajectory {
-  FlightResult result;
-  std::vector<FlightPoint> points;
-};
-
-/// One member of every item, as codes of the same size.
-template <typename Code, typename Item, typename Member>
-py::array column(const py::object& self, const std::vector<Item>& items, Member Item::*member) {
-  static_assert(sizeof(Code) == sizeof(Member));
-  static const Item none{};
-  const Item& first = items.empty() ? none : items.front();
-  return view(reinterpret_cast<const Code*>(&(first.*member)),
-              {static_cast<py::ssize_t>(items.size())}, {static_cast<py::ssize_t>(sizeof(Item))},
-              self);
-}
-
 /// Without the interpreter's lock.
 void fly_all(Flights& flights) {
   FlyOptions options;
+  options.follow = flights.follow;
+  options.measure = true;
   options.progress = [](std::size_t) { raise_on_signal(); };
-  flights.results = fly_many(*flights.engine, flights.starts, options).results;
+  ManyFlights flown = fly_many(*flights.engine, flights.starts, options);
+  flights.results = std::move(flown.results);
+  flights.measures = std::move(flown.measures);
+  flights.followed = std::move(flown.followed);
 }
 
-std::shared_ptr<Flights> fly(const std::shared_ptr<HeldPlan>& plan, const py::object& states) {
+std::optional<FollowFor> follow_of(const HeldPlan& plan, std::optional<double> laps,
+                                   std::optional<double> follow_s) {
+  if (!laps && !follow_s) return {};
+  if (laps && follow_s) throw py::value_error("laps, follow_s: expected one of them");
+  const double value = laps ? *laps : *follow_s;
+  const char* name = laps ? "laps" : "follow_s";
+  if (!(value > 0.0) || value > 1e9) {
+    throw py::value_error(fmt::format("{}: is {}, expected above 0 and up to 1e9", name, value));
+  }
+  const auto& mission = plan.plan.record.mission;
+  if (!mission || !std::holds_alternative<PathMission>(*mission)) {
+    throw py::value_error(
+        fmt::format("{}: the plan's mission is not a path, and only paths are followed", name));
+  }
+  return FollowFor{.laps = laps.value_or(0.0), .time_s = follow_s.value_or(0.0)};
+}
+
+std::shared_ptr<Flights> fly(const std::shared_ptr<HeldPlan>& plan, const py::object& states,
+                             std::optional<double> laps, std::optional<double> follow_s) {
   auto flown = std::make_shared<Flights>();
   flown->plan = plan;
   flown->starts = starts_of(states, "states");
+  flown->follow = follow_of(*plan, laps, follow_s);
   const py::gil_scoped_release unlocked;
   flown->engine = {plan, &plan->exact()};
   fly_all(*flown);
@@ -115,10 +89,12 @@ std::shared_ptr<Flights> fly_sampled(const std::shared_ptr<HeldPlan>& plan,
                                      double gain_per_s, double control_period_s,
                                      double position_noise_m, double heading_noise_rad,
                                      const py::object& wind_mps, double gust_mps,
-                                     double gust_time_s, double time_limit_s, std::uint64_t seed) {
+                                     double gust_time_s, double time_limit_s, std::uint64_t seed,
+                                     std::optional<double> laps, std::optional<double> follow_s) {
   auto flown = std::make_shared<Flights>();
   flown->plan = plan;
   flown->starts = starts_of(states, "states");
+  flown->follow = follow_of(*plan, laps, follow_s);
   SampledOptions options;
   options.law = law_of(law, gain_per_s);
   options.control_period_s = control_period_s;
@@ -152,190 +128,6 @@ py::array random_starts(const HeldPlan& plan, std::size_t n, std::uint64_t seed,
   return state_array(std::move(states));
 }
 
-std::size_t place_in(const Flights& flights, py::ssize_t i) {
-  const auto count = static_cast<py::ssize_t>(flights.starts.size());
-  if (i < -count || i >= count) throw py::index_error(fmt::format("there are {} flights", count));
-  return static_cast<std::size_t>(i < 0 ? i + count : i);
-}
-
-std::shared_ptr<Trajectory> trajectory(const Flights& flights, py::ssize_t i,
-                                       std::optional<double> step_m) {
-  const std::size_t place = place_in(flights, i);
-  const Plan& plan = flights.plan->plan;
-  const py::gil_scoped_release unlocked;
-  const Flight flight = flights.recorded(place, 1).front();
-  return std::make_shared<Trajectory>(Trajectory{
-      flight.result, track_of(flight, plan.vehicle.speed_mps, step_m.value_or(plan.grid.cell_m))});
-}
-
-py::dict counts(const Flights& flights) {
-  const OutcomeCounts all = count_outcomes(flights.results);
-  py::dict by_name;
-  for (const Outcome o : outcomes_in_order) {
-    by_name[name_of(o)] = all.of(o);
-  }
-  return by_name;
-}
-
-Picture picture(const Flights& flights, const std::string& title, int most) {
-  const py::gil_scoped_release unlocked;
-  const auto drawn = flights.recorded(0, static_cast<std::size_t>(std::max(most, 0)));
-  FlightPictureOptions options;
-  options.title = title;
-  options.mission = flights.plan->plan.record.mission;
-  return draw_flights(flights.plan->plan, drawn, options);
-}
-
-enum class Text { outcomes, tracks, geojson };
-
-void save(const Flights& flights, const std::filesystem::path& path, Text kind,
-          std::optional<double> step_m, bool force) {
-  const py::gil_scoped_release unlocked;
-  const Existing existing = force ? Existing::replace : Existing::keep;
-  require_writable_place(path, existing);
-  const Plan& plan = flights.plan->plan;
-  const double step = step_m.value_or(plan.grid.cell_m);
-  std::string text;
-  if (kind == Text::outcomes) {
-    text = outcomes_csv(flights.starts, flights.results);
-  } else {
-    const std::vector<Flight> all = flights.recorded(0, flights.starts.size());
-    text = kind == Text::tracks
-               ? trajectories_csv(all, plan.vehicle.speed_mps, step)
-               : flights_geojson(all, step, lon_lat_of(frame_in(plan.record), record_name));
-  }
-  write_whole(path, existing, text);
-}
-
-void save_mission(const Flights& flights, py::ssize_t i, const std::filesystem::path& path,
-                  double altitude_m, double tolerance_m, bool force) {
-  if (!is_qgc_mission_name(path)) {
-    throw py::value_error("path: expected a name that ends in .plan, .waypoints or .txt");
-  }
-  const std::size_t place = place_in(flights, i);
-  const py::gil_scoped_release unlocked;
-  const Plan& plan = flights.plan->plan;
-  const LonLatOf lon_lat = lon_lat_of(frame_in(plan.record), record_name);
-  require(static_cast<bool>(lon_lat),
-          "the plan's map has no place on Earth: there is no latitude and longitude to fly to");
-  write_whole(path, force ? Existing::replace : Existing::keep,
-              qgc_mission_text(path, flights.recorded(place, 1).front(), plan.vehicle.speed_mps,
-                               lon_lat, {altitude_m, tolerance_m}));
-}
-
-void bind_trajectory(py::module_& m) {
-  py::class_<Trajectory, std::shared_ptr<Trajectory>>(
-      m, "Trajectory", "Points along one flight. Arrays are read-only views.")
-      .def_property_readonly(
-          "time_s",
-          [](const py::object& self) {
-            const auto& t = self.cast<const Trajectory&>();
-            return column<double>(self, t.points, &FlightPoint::time_s);
-          },
-          "float64 [n]: seconds since the start.")
-      .def_property_readonly(
-          "state",
-          [](const py::object& self) {
-            const auto& t = self.cast<const Trajectory&>();
-            return state_view(&t.points.data()->state, t.points.size(), sizeof(FlightPoint), self);
-          },
-          "float64 [n, 3]: x_m, y_m, heading_rad.")
-      .def_property_readonly(
-          "curvature_per_m",
-          [](const py::object& self) {
-            const auto& t = self.cast<const Trajectory&>();
-            return column<double>(self, t.points, &FlightPoint::curvature_per_m);
-          },
-          "float64 [n]: 1/m, positive to the left, of the piece that begins at the point.")
-      .def_property_readonly(
-          "outcome", [](const Trajectory& t) { return name_of(t.result.outcome); },
-          "\"reach\", \"collide\", \"leave\" or \"trapped\".")
-      .def_property_readonly(
-          "time_to_end_s", [](const Trajectory& t) { return t.result.time_s; },
-          "Seconds to the end of the flight; +inf when trapped.")
-      .def("__len__", [](const Trajectory& t) { return t.points.size(); })
-      .def("__repr__", [](const Trajectory& t) {
-        return fmt::format("<fairway.Trajectory: {} points, {} after {:g} s>", t.points.size(),
-                           name_of(t.result.outcome), t.result.time_s);
-      });
-}
-
-void bind_flights(py::module_& m) {
-  py::class_<Flights, std::shared_ptr<Flights>>(
-      m, "Flights",
-      "What became of many flights; [i] belongs to start [i]. Arrays are read-only "
-      "views. A simulation is evidence, never a verdict.")
-      .def_property_readonly(
-          "outcome",
-          [](const py::object& self) {
-            const auto& f = self.cast<const Flights&>();
-            return column<std::int8_t>(self, f.results, &FlightResult::outcome);
-          },
-          "int8 [n]: codes of Outcome, the numbers that Verdict has for the same.")
-      .def_property_readonly(
-          "time_s",
-          [](const py::object& self) {
-            const auto& f = self.cast<const Flights&>();
-            return column<double>(self, f.results, &FlightResult::time_s);
-          },
-          "float64 [n]: seconds to the event that ends the flight; +inf when trapped.")
-      .def_property_readonly(
-          "length_m",
-          [](const py::object& self) {
-            const auto& f = self.cast<const Flights&>();
-            return column<double>(self, f.results, &FlightResult::length_m);
-          },
-          "float64 [n]: metres to the event that ends the flight; +inf when trapped.")
-      .def_property_readonly(
-          "start",
-          [](const py::object& self) {
-            const auto& f = self.cast<const Flights&>();
-            return state_view(f.starts.data(), f.starts.size(), sizeof(State), self);
-          },
-          "float64 [n, 3]: x_m, y_m, heading_rad, the heading in (-pi, pi].")
-      .def_property_readonly("counts", &counts, "How many flights ended how, a dict by name.")
-      .def("trajectory", &trajectory, "i"_a, py::kw_only(), "step_m"_a = py::none(),
-           "The track of flight `i`, with points at most `step_m` metres apart (default: a cell); "
-           "where "
-           "the goal has a heading, the last leg to it is in it.")
-      .def("picture", &picture, py::kw_only(), "title"_a = "", "most"_a = 200,
-           "The first `most` flights over the plan, a Picture.")
-      .def(
-          "save_outcomes",
-          [](const Flights& f, const std::filesystem::path& path, bool force) {
-            save(f, path, Text::outcomes, {}, force);
-          },
-          "path"_a, py::kw_only(), "force"_a = true,
-          "CSV, a line per start: x_m,y_m,heading_rad,outcome,time_s,length_m.")
-      .def(
-          "save_csv",
-          [](const Flights& f, const std::filesystem::path& path, std::optional<double> step_m,
-             bool force) { save(f, path, Text::tracks, step_m, force); },
-          "path"_a, py::kw_only(), "step_m"_a = py::none(), "force"_a = true,
-          "The tracks as CSV (docs/formats.md), points at most `step_m` metres apart.")
-      .def(
-          "save_geojson",
-          [](const Flights& f, const std::filesystem::path& path, std::optional<double> step_m,
-             bool force) { save(f, path, Text::geojson, step_m, force); },
-          "path"_a, py::kw_only(), "step_m"_a = py::none(), "force"_a = true,
-          "The tracks as GeoJSON: longitude and latitude when the map had a place on Earth, else "
-          "metres and a note that says so.")
-      .def("save_mission", &save_mission, "i"_a, "path"_a, py::kw_only(),
-           "altitude_m"_a = QgcMissionOptions{}.altitude_m,
-           "tolerance_m"_a = QgcMissionOptions{}.tolerance_m, "force"_a = true,
-           "Flight `i` as a mission: .plan for QGroundControl, .waypoints or .txt for QGC WPL 110; "
-           "`altitude_m` above its start, its line within `tolerance_m` of the flight, metres. "
-           "ValueError when the plan's map has no place on Earth.")
-      .def("_repr_png_", [](const Flights& f) { return py::bytes(picture(f, "", 200).png); })
-      .def("__len__", [](const Flights& f) { return f.starts.size(); })
-      .def("__repr__", [](const Flights& f) {
-        const OutcomeCounts all = count_outcomes(f.results);
-        return fmt::format("<fairway.Flights: {}, {} reach, {} collide, {} leave, {} are trapped>",
-                           f.starts.size(), all.of(Outcome::reach), all.of(Outcome::collide),
-                           all.of(Outcome::leave), all.of(Outcome::trapped));
-      });
-}
-
 }  // namespace
 
 void bind_simulate(py::module_& m) {
@@ -345,15 +137,22 @@ void bind_simulate(py::module_& m) {
   }
   add_enum(m, "Outcome", "What ends a flight, as Flights.outcome has it; numbered as Verdict.",
            codes);
-  bind_trajectory(m);
+  std::vector<std::pair<const char*, int>> after_codes{{"none", static_cast<int>(After::none)}};
+  for (const After after : afters_in_order) {
+    after_codes.emplace_back(name_of(after), static_cast<int>(after));
+  }
+  add_enum(m, "After", "What came after reaching, of flights that were followed along a path.",
+           after_codes);
   bind_flights(m);
 
   const SampledOptions d;
   auto plan = py::class_<HeldPlan, std::shared_ptr<HeldPlan>>(m.attr("Plan"));
-  plan.def("fly", &fly, "states"_a,
+  plan.def("fly", &fly, "states"_a, py::kw_only(), "laps"_a = py::none(), "follow_s"_a = py::none(),
            R"(Exact flights under the bang-bang law, event by event, without time steps.
 
-states  float64 [n, 3]: x_m, y_m, heading_rad (-7 to 7)
+states    float64 [n, 3]: x_m, y_m, heading_rad (-7 to 7)
+laps      path missions: fly on along the path after reaching it, so many times its length
+follow_s  path missions: the same, for so many seconds
 
 Returns Flights. On all cores; other threads of Python run meanwhile, and Ctrl-C ends it.)");
   plan.def("fly_sampled", &fly_sampled, "states"_a, py::kw_only(), "law"_a = "bang-bang",
@@ -361,7 +160,8 @@ Returns Flights. On all cores; other threads of Python run meanwhile, and Ctrl-C
            "control_period_s"_a = d.control_period_s, "position_noise_m"_a = d.position_noise_m,
            "heading_noise_rad"_a = d.heading_noise_rad, "wind_mps"_a = py::make_tuple(0.0, 0.0),
            "gust_mps"_a = d.gust_mps, "gust_time_s"_a = d.gust_time_s,
-           "time_limit_s"_a = d.time_limit_s, "seed"_a = d.seed,
+           "time_limit_s"_a = d.time_limit_s, "seed"_a = d.seed, "laps"_a = py::none(),
+           "follow_s"_a = py::none(),
            R"(Flights as a real autopilot would fly the plan: sampled control, noise, wind, gusts.
 
 states             float64 [n, 3]: x_m, y_m, heading_rad
@@ -376,6 +176,7 @@ gust_mps           standard deviation of gusts, each axis, metres per second
 gust_time_s        their correlation time, seconds
 time_limit_s       0: the time for 20 (nx + ny) cells or 4 times the cost to go
 seed               flight i depends on the plan, the options and i alone
+laps, follow_s     as in fly; neither is part of time_limit_s
 
 Returns Flights; trapped means: not ended within the time limit.)");
   plan.def("random_starts", &random_starts, "n"_a, "seed"_a = 1, py::kw_only(),

@@ -463,7 +463,8 @@ class Simulate(Command):
                     "--outcomes", "o.csv", "--geojson", "t.geojson")
         with open(self.folder / "o.csv") as lines:
             rows = list(csv.DictReader(lines))
-        self.assertEqual(list(rows[0]), ["x_m", "y_m", "heading_rad", "outcome", "time_s", "length_m"])
+        self.assertEqual(list(rows[0]), ["x_m", "y_m", "heading_rad", "outcome", "time_s", "length_m",
+                                         "flown_m", "reversals", "turned_rad"])
         self.assertEqual(len(rows), 10)
         self.assertAlmostEqual(float(rows[0]["heading_rad"]), math.pi)
         self.assertAlmostEqual(float(rows[3]["heading_rad"]), math.pi / 2)
@@ -479,7 +480,8 @@ class Simulate(Command):
 
     def test_outcomes_can_go_to_stdout(self):
         done = self.expect(0, "simulate", self.plan(), "--state", "20,45,0", "--outcomes", "-")
-        self.assertEqual(done.stdout.splitlines()[0], "x_m,y_m,heading_rad,outcome,time_s,length_m")
+        self.assertEqual(done.stdout.splitlines()[0],
+                         "x_m,y_m,heading_rad,outcome,time_s,length_m,flown_m,reversals,turned_rad")
         self.assertEqual(len(done.stdout.splitlines()), 2)
 
     def test_random_starts_do_not_depend_on_threads_or_on_how_many(self):

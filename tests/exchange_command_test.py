@@ -84,6 +84,30 @@ class Exchange(unittest.TestCase):
         self.assertEqual([[float(x) for x in line.split("\t")[8:10]] for line in lines[3:]],
                          [place[:2] for place in places])
 
+    def test_a_mission_keeps_the_fence_of_its_map(self):
+        def export(*more):
+            done = self.expect(0, "simulate", "p.safetensors", "--state", "-400,-300,180deg",
+                               "--qgc", "f.plan", "--force", *more)
+            return json.loads((self.folder / "f.plan").read_text()), done.stderr
+        source = json.loads((self.folder / "fence.plan").read_text())
+        mission, told = export()
+        self.assertEqual(mission["geoFence"], source["geoFence"])
+        self.assertEqual(told, "")
+        (self.folder / "fence.plan").rename(self.folder / "moved.plan")
+        mission, told = export()
+        self.assertEqual(mission["geoFence"]["polygons"], [])
+        self.assertIn("has no fence", told)
+        self.assertIn("fence.plan, was not found", told)
+        mission, told = export("--fence", "moved.plan")
+        self.assertEqual(mission["geoFence"], source["geoFence"])
+        self.assertEqual(told, "")
+        done = self.expect(65, "simulate", "p.safetensors", "--state", "0,0,0", "--qgc", "g.plan",
+                           "--fence", "s.toml")
+        self.assertIn("s.toml: is not a QGroundControl plan", done.stderr)
+        self.assertFalse((self.folder / "g.plan").exists())
+        self.expect(64, "simulate", "p.safetensors", "--state", "0,0,0", "--qgc", "g.waypoints",
+                    "--fence", "moved.plan")
+
     def test_a_mission_is_refused_in_words_where_it_cannot_be(self):
         done = self.expect(65, "simulate", "p.safetensors", "--random", 3, "--qgc", "m.plan")
         self.assertIn("3 starts", done.stderr)

@@ -16,7 +16,7 @@ NOUNS = {
     "map": {"obstacle_map.hpp", "region.hpp", "gdal_session.hpp"},
     "field": {"field.hpp"},
     "plan": {"plan.hpp", "plan_record.hpp", "plan_digests.hpp"},
-    "simulate": {"flight.hpp"},
+    "simulate": {"flight.hpp", "flight_measures.hpp"},
     "verify": {"verdict.hpp", "flow.hpp", "region_of_interest.hpp", "section_view.hpp", "section_verdicts.hpp",
                "verdict_map.hpp"},
     "certificate": {"certificate.hpp"},

@@ -43,6 +43,11 @@ void declare_outputs(CLI::App& options, SimulateArguments& a) {
                   "write the one flight as a mission: .plan for QGroundControl, .waypoints or .txt "
                   "for QGC WPL 110")
       ->type_name("FILE");
+  options
+      .add_option("--fence", a.fence,
+                  "a QGroundControl .plan whose fence, rally points and home altitude the exported "
+                  ".plan keeps (default: the one the map was read from)")
+      ->type_name("PLAN");
   options.add_option("--altitude", a.mission.altitude_m, "of the mission, metres above its start")
       ->type_name("M")
       ->check(finite_from(0.0))
@@ -57,6 +62,20 @@ void declare_outputs(CLI::App& options, SimulateArguments& a) {
       .add_option("--step", a.step_m,
                   "longest step between points of a track, metres (default: a cell)")
       ->type_name("M")
+      ->check(finite_above(0.0));
+}
+
+void declare_following(CLI::App& options, SimulateArguments& a) {
+  options
+      .add_option(
+          "--laps", a.laps,
+          "path missions: fly on along the path after reaching it, so many times its length")
+      ->type_name("N")
+      ->check(finite_above(0.0));
+  options
+      .add_option("--follow", a.follow_s,
+                  "path missions: fly on along the path for so many seconds after reaching it")
+      ->type_name("S")
       ->check(finite_above(0.0));
 }
 
@@ -113,6 +132,15 @@ void check(const SimulateArguments& a) {
   if (!a.qgc.empty() && !is_qgc_mission_name(a.qgc)) {
     throw CLI::ValidationError("--qgc", "expected a name that ends in .plan, .waypoints or .txt");
   }
+  constexpr double most = 1e9;
+  if (a.laps > 0.0 && a.follow_s > 0.0) throw CLI::ExcludesError("--laps", "--follow");
+  if (a.laps > most || a.follow_s > most) {
+    throw CLI::ValidationError("--laps, --follow", "expected at most 1e9");
+  }
+  if (!a.fence.empty() && a.qgc.extension() != ".plan") {
+    throw CLI::ValidationError("--fence",
+                               "goes with --qgc FILE.plan: no other mission has a fence");
+  }
   if (a.sampled_only_given && a.law == exact_law) {
     throw CLI::ValidationError(
         "--law", "noise, wind, gain, period and time limit need --law bang-bang or proportional");
@@ -127,6 +155,11 @@ StartRegion SimulateArguments::start_region() const {
                                        : StartRegion::safe_start;
 }
 
+std::optional<FollowFor> SimulateArguments::follow() const {
+  if (laps == 0.0 && follow_s == 0.0) return {};
+  return FollowFor{.laps = laps, .time_s = follow_s};
+}
+
 std::optional<SampledOptions> SimulateArguments::sampled_options() const {
   SampledOptions options = sampled;
   if (!wind_mps.empty()) options.wind_mps = {wind_mps[0], wind_mps[1]};
@@ -139,11 +172,16 @@ std::optional<SampledOptions> SimulateArguments::sampled_options() const {
 void declare(CLI::App& options, SimulateArguments& a) {
   declare_starts(options, a);
   declare_outputs(options, a);
+  declare_following(options, a);
   declare_laws(options, a);
   options.final_callback([&a] { check(a); });
   options.footer(
       "Without --outcomes - and the like, prints what became of the flights.\n"
       "Where the plan's goal has a heading, exact flights that reach go on by a last leg to it.\n"
+      "Flights of a path mission end where they reach the path, unless --laps or --follow is "
+      "given:\n"
+      "what comes after is then told in columns, properties and sentences of its own.\n"
+      "Uploading an exported .plan replaces the vehicle's mission, fence and rally points.\n"
       "Example: fairway simulate demo.safetensors --state 100,100,90deg --random 1000 --outcomes "
       "out.csv");
 }

@@ -26,8 +26,11 @@ struct SimulateArguments {
   std::filesystem::path outcomes;
   std::filesystem::path geojson;
   std::filesystem::path qgc;
+  std::filesystem::path fence;
   QgcMissionOptions mission;
-  double step_m = 0.0;  ///< 0: a cell
+  double laps = 0.0;      ///< 0: not given
+  double follow_s = 0.0;  ///< 0: not given
+  double step_m = 0.0;    ///< 0: a cell
   std::string law = exact_law;
   double gain_per_s = SaturatedProportional{}.gain_per_s;
   SampledOptions sampled;
@@ -37,6 +40,8 @@ struct SimulateArguments {
 
   bool wants_tracks() const { return !csv.empty() || !geojson.empty() || !qgc.empty(); }
   StartRegion start_region() const;
+  /// None: flights end at the first goal cell.
+  std::optional<FollowFor> follow() const;
   /// None: the exact law.
   std::optional<SampledOptions> sampled_options() const;
 };

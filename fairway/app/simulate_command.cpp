@@ -21,6 +21,7 @@
 #include "fairway/run/flight_summary.hpp"
 #include "fairway/run/fly_many.hpp"
 #include "fairway/run/plan_record.hpp"
+#include "fairway/run/qgc_site.hpp"
 #include "fairway/run/stage_clock.hpp"
 #include "fairway/simulate/start_states.hpp"
 #include "fairway/simulate/state_files.hpp"
@@ -52,11 +53,18 @@ ManyFlights flights_asked_for(const SimulateArguments& arguments, const Plan& pl
   FlyOptions options;
   options.tracks = arguments.wants_tracks() ? starts.size() : 0;
   options.count_legs = true;
+  options.follow = arguments.follow();
+  options.measure = true;
   options.progress = [&](std::size_t flown) {
     clock.tell(clock.seconds() / static_cast<double>(flown) *
                static_cast<double>(starts.size() - flown));
   };
-  return fly_many(FlightEngine(plan, arguments.sampled_options()), starts, options);
+  const FlightEngine engine(plan, arguments.sampled_options());
+  if (options.follow && engine.path() == nullptr) {
+    throw InputError(arguments.plan.string(),
+                     "its mission is not a path, and --laps and --follow are for paths");
+  }
+  return fly_many(engine, starts, options);
 }
 
 /// To a file, or to stdout for "-". True when stdout was used.
@@ -71,12 +79,21 @@ bool put(const fs::path& path, const Session& session, const std::string& text) 
 
 void check_places(const SimulateArguments& arguments, const Session& session) {
   require_places({arguments.csv, arguments.outcomes, arguments.geojson, arguments.qgc},
-                 {arguments.plan, arguments.states_file}, session.existing());
+                 {arguments.plan, arguments.states_file, arguments.fence}, session.existing());
+}
+
+/// What the exported plan keeps beside the mission.
+QgcSite site_of(const SimulateArguments& arguments, const Plan& plan, const Session& session) {
+  if (arguments.qgc.extension() != ".plan") return {};
+  if (!arguments.fence.empty()) return qgc_site_of(arguments.fence);
+  if (auto site = qgc_site_of(plan.record, arguments.plan.parent_path())) return *site;
+  session.warn(no_fence_warning(plan.record, "--fence FILE.plan"));
+  return {};
 }
 
 /// The one flight as a mission, in the format that the file's name asks for.
 std::string mission_text(const SimulateArguments& arguments, const Plan& plan,
-                         const std::vector<Flight>& flights) {
+                         const std::vector<Flight>& flights, const Session& session) {
   const std::string file = arguments.plan.string();
   if (flights.size() != 1) {
     throw InputError(arguments.qgc.string(),
@@ -90,8 +107,9 @@ std::string mission_text(const SimulateArguments& arguments, const Plan& plan,
                      "its map has no place on Earth, so that there is no latitude and longitude to "
                      "fly to; a mission needs a plan on a map in degrees or in a projected system");
   }
-  return qgc_mission_text(arguments.qgc, flights.front(), plan.vehicle.speed_mps, lon_lat,
-                          arguments.mission);
+  QgcMissionOptions mission = arguments.mission;
+  mission.site = site_of(arguments, plan, session);
+  return qgc_mission_text(arguments.qgc, flights.front(), plan.vehicle.speed_mps, lon_lat, mission);
 }
 
 int simulate_command(const SimulateArguments& arguments, const Session& session) {
@@ -118,11 +136,14 @@ int simulate_command(const SimulateArguments& arguments, const Session& session)
     stdout_used |= put(arguments.geojson, session, text);
   }
   if (!arguments.qgc.empty()) {
-    write_whole(arguments.qgc, session.existing(), mission_text(arguments, plan, flown.recorded));
+    write_whole(arguments.qgc, session.existing(),
+                mission_text(arguments, plan, flown.recorded, session));
     for (const std::string& warning : mission_warnings(flown.recorded)) session.warn(warning);
   }
   if (!arguments.outcomes.empty()) {
-    stdout_used |= put(arguments.outcomes, session, outcomes_csv(starts, flown.results));
+    stdout_used |=
+        put(arguments.outcomes, session,
+            outcomes_csv(starts, flown.results, flown.measures, flown.followed.has_value()));
   }
   if (!stdout_used) {
     nlohmann::json report = flight_json(starts, flown);

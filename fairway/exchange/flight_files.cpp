@@ -136,17 +136,49 @@ void append_or_null(std::string& text, double value) {
 
 }  // namespace
 
-std::string outcomes_csv(std::span<const State> starts, std::span<const FlightResult> results) {
-  require(starts.size() == results.size(), "one result per start");
-  std::string text = "x_m,y_m,heading_rad,outcome,time_s,length_m\n";
+namespace {
+
+void append_following(std::string& text, const FlightMeasures& measures) {
+  const PathFollowing& following = measures.following;
+  text += ',';
+  text += name_of(measures.onward.after);
+  text += ',';
+  if (measures.onward.after != After::none) append(text, measures.onward.time_s);
+  for (const double value :
+       {following.joined_s, following.laps, following.on_path_share, following.distance_mean_m,
+        following.distance_worst_m, following.heading_worst_rad}) {
+    text += ',';
+    if (std::isfinite(following.joined_s)) append(text, value);
+  }
+}
+
+}  // namespace
+
+std::string outcomes_csv(std::span<const State> starts, std::span<const FlightResult> results,
+                         std::span<const FlightMeasures> measures, bool followed) {
+  require(starts.size() == results.size() && starts.size() == measures.size(),
+          "one result and one measure per start");
+  std::string text = "x_m,y_m,heading_rad,outcome,time_s,length_m,flown_m,reversals,turned_rad";
+  if (followed) {
+    text +=
+        ",after,after_s,joined_s,laps,on_path_share,distance_mean_m,distance_worst_m"
+        ",heading_difference_worst_rad";
+  }
+  text += '\n';
   for (std::size_t i = 0; i < starts.size(); ++i) {
     append_state(text, starts[i]);
     text += ',';
     text += name_of(results[i].outcome);
+    for (const double value : {results[i].time_s, results[i].length_m}) {
+      text += ',';
+      append(text, value);
+    }
+    const Turning& turning = measures[i].turning;
     text += ',';
-    append(text, results[i].time_s);
-    text += ',';
-    append(text, results[i].length_m);
+    append(text, turning.length_m);
+    text += ',' + std::to_string(turning.reversals) + ',';
+    append(text, turning.turned_rad);
+    if (followed) append_following(text, measures[i]);
     text += '\n';
   }
   return text;
@@ -187,6 +219,14 @@ void append_flight(std::string& text, std::size_t number, const Flight& flight, 
   append_or_null(text, flight.result.time_s);
   text += ",\"length_m\":";
   append_or_null(text, flight.result.length_m);
+  if (flight.onward.after != After::none) {
+    text += ",\"after\":\"";
+    text += name_of(flight.onward.after);
+    text += "\",\"after_s\":";
+    append(text, flight.onward.time_s);
+    text += ",\"after_length_m\":";
+    append(text, flight.onward.length_m);
+  }
   if (flight.final_leg.state != FinalLegState::not_asked) {
     text += ",\"final_leg\":\"";
     text += name_of(flight.final_leg.state);

@@ -10,13 +10,17 @@
 
 #include "fairway/base/frame.hpp"
 #include "fairway/simulate/flight.hpp"
+#include "fairway/simulate/flight_measures.hpp"
 
 namespace fairway {
 
-/// One line per start: `x_m,y_m,heading_rad,outcome,time_s,length_m`. Throws PreconditionViolation
-/// when the lengths differ.
+/// One line per start: `x_m,y_m,heading_rad,outcome,time_s,length_m,flown_m,reversals,turned_rad`
+/// and, when the flights were followed along a path, `after,after_s,joined_s,laps,on_path_share,
+/// distance_mean_m,distance_worst_m,heading_difference_worst_rad`, empty where there is nothing to
+/// tell. Throws PreconditionViolation when the lengths differ.
 [[nodiscard]] std::string outcomes_csv(std::span<const State> starts,
-                                       std::span<const FlightResult> results);
+                                       std::span<const FlightResult> results,
+                                       std::span<const FlightMeasures> measures, bool followed);
 
 /// `flight,time_s,x_m,y_m,heading_rad,curvature_per_m,final_leg`: a line at each end of every piece
 /// and at least every `step_m` between; flight counts from 0; the curvature is that of the piece;
@@ -25,8 +29,9 @@ namespace fairway {
                                            double step_m);
 
 /// A FeatureCollection (RFC 7946): per flight a LineString (a Point when it does not move) with the
-/// properties flight, outcome, time_s, length_m (null when trapped) and, when the goal has a
-/// heading and the flight reaches, final_leg. After all of them, per final leg a LineString with
+/// properties flight, outcome, time_s, length_m (null when trapped); when the flight was followed
+/// beyond its first goal cell, after, after_s and after_length_m; and, when the goal has a heading
+/// and the flight reaches, final_leg. After all of them, per final leg a LineString with
 /// the properties flight, final_leg, word, time_s, length_m. A line across the antimeridian is a
 /// MultiLineString, cut there. Arcs become chords of at most `step_m`. Without `lon_lat_of`
 /// coordinates are metres and a member `note` says so.

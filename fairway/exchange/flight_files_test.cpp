@@ -36,10 +36,41 @@ TEST(FlightFiles, WritesALinePerStartThatReadsBackAsTheSameDoubles) {
     results.push_back({outcomes_in_order[static_cast<std::size_t>(i % 4)],
                        i % 4 == 3 ? infinity : random.unit(), 0.1});
   }
-  const std::string text = outcomes_csv(starts, results);
-  EXPECT_EQ(text.substr(0, text.find('\n')), "x_m,y_m,heading_rad,outcome,time_s,length_m");
+  std::vector<FlightMeasures> measures(starts.size());
+  for (FlightMeasures& m : measures) m.turning = {120.5, 3.25, 7, 1.0};
+  const std::string text = outcomes_csv(starts, results, measures, false);
+  EXPECT_EQ(text.substr(0, text.find('\n')),
+            "x_m,y_m,heading_rad,outcome,time_s,length_m,flown_m,reversals,turned_rad");
   EXPECT_EQ(states_of_csv(text, "outcomes"), starts);
-  EXPECT_NE(text.find(",trapped,inf,0.1\n"), std::string::npos);
+  EXPECT_NE(text.find(",trapped,inf,0.1,120.5,7,3.25\n"), std::string::npos);
+}
+
+TEST(FlightFiles, SaysWhatCameAfterThePathWasReached) {
+  const std::vector<State> starts{{{1.0, 2.0}, {}}, {{3.0, 4.0}, {}}, {{5.0, 6.0}, {}}};
+  const std::vector<FlightResult> results{
+      {Outcome::reach, 4.0, 40.0}, {Outcome::reach, 5.0, 50.0}, {Outcome::collide, 6.0, 60.0}};
+  std::vector<FlightMeasures> measures(3);
+  measures[0].onward = {After::collide, 9.5, 95.0};
+  measures[0].following = {3.5, 6.0, 0.75, 1.5, 2.5, 0.25, 0.5, 0.125};
+  measures[1].onward = {After::follow, 8.0, 80.0};  // and never on the path within both deltas
+  const std::string text = outcomes_csv(starts, results, measures, true);
+  EXPECT_EQ(
+      text,
+      "x_m,y_m,heading_rad,outcome,time_s,length_m,flown_m,reversals,turned_rad,after,after_s,"
+      "joined_s,laps,on_path_share,distance_mean_m,distance_worst_m,"
+      "heading_difference_worst_rad\n"
+      "1,2,0,reach,4,40,0,0,0,collide,9.5,3.5,0.125,0.75,1.5,2.5,0.5\n"
+      "3,4,0,reach,5,50,0,0,0,follow,8,,,,,,\n"
+      "5,6,0,collide,6,60,0,0,0,,,,,,,,\n");
+  EXPECT_EQ(states_of_csv(text, "outcomes"), starts);
+  Flight flight = quarter_and_straight();
+  flight.onward = measures[0].onward;
+  const auto json = nlohmann::json::parse(flights_geojson(std::vector{flight}, 1.0));
+  const auto& properties = json["features"][0]["properties"];
+  EXPECT_EQ(properties["outcome"], "reach");
+  EXPECT_EQ(properties["after"], "collide");
+  EXPECT_EQ(properties["after_s"], 9.5);
+  EXPECT_EQ(properties["after_length_m"], 95.0);
 }
 
 TEST(FlightFiles, SamplesTrajectoriesNoFartherApartThanAsked) {

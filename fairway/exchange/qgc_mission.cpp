@@ -24,6 +24,7 @@ std::vector<LonLat> waypoints_of(const Flight& flight, double speed_mps, const L
   require(static_cast<bool>(lon_lat_of), "a mission has a place on Earth");
   require(std::isfinite(options.altitude_m) && options.altitude_m >= 0.0, "the altitude is >= 0");
   require(std::isfinite(options.tolerance_m), "the tolerance is finite");
+  require(std::isfinite(options.site.home_altitude_m), "the home altitude is finite");
   std::vector<LonLat> waypoints;
   for (const FlightPoint& point : thinned_track(flight, speed_mps, options.tolerance_m)) {
     waypoints.push_back(lon_lat_of(point.state.position_m));
@@ -51,18 +52,28 @@ std::string plan_item(std::size_t number, double altitude_m, const LonLat& place
 
 std::vector<std::string> mission_warnings(std::span<const Flight> flights) {
   std::vector<std::string> warnings;
+  const auto after = [](double time_s) {
+    return std::isfinite(time_s) ? fmt::format(" after {:.2f} s", time_s) : std::string();
+  };
   for (const Flight& flight : flights) {
     const FlightResult& r = flight.result;
-    const std::string after =
-        std::isfinite(r.time_s) ? fmt::format(" after {:.2f} s", r.time_s) : std::string();
+    const std::string onward = after(flight.onward.time_s);
     switch (r.outcome) {
       case Outcome::reach:
+        if (flight.onward.after == After::collide) {
+          warnings.push_back("the flight reaches the path and collides" + onward +
+                             ", and the mission leads there, too.");
+        } else if (flight.onward.after == After::leave) {
+          warnings.push_back("the flight reaches the path and leaves the map" + onward +
+                             ", and the mission leads there, too.");
+        }
         break;
       case Outcome::collide:
-        warnings.push_back("the flight collides" + after + ", and the mission leads there, too.");
+        warnings.push_back("the flight collides" + after(r.time_s) +
+                           ", and the mission leads there, too.");
         break;
       case Outcome::leave:
-        warnings.push_back("the flight leaves the map" + after +
+        warnings.push_back("the flight leaves the map" + after(r.time_s) +
                            ", and the mission leads there, too.");
         break;
       case Outcome::trapped:
@@ -90,7 +101,7 @@ std::string qgc_plan_text(const Flight& flight, double speed_mps, const LonLatOf
   }
   return fmt::format(R"({{
     "fileType": "Plan",
-    "geoFence": {{"circles": [], "polygons": [], "version": 2}},
+    "geoFence": {4},
     "groundStation": "QGroundControl",
     "mission": {{
         "cruiseSpeed": {0},
@@ -100,16 +111,17 @@ std::string qgc_plan_text(const Flight& flight, double speed_mps, const LonLatOf
         "items": [
 {1}
         ],
-        "plannedHomePosition": [{2:.9f}, {3:.9f}, 0],
+        "plannedHomePosition": [{2:.9f}, {3:.9f}, {6}],
         "vehicleType": 1,
         "version": 2
     }},
-    "rallyPoints": {{"points": [], "version": 2}},
+    "rallyPoints": {5},
     "version": 1
 }}
 )",
                      speed_mps, items, waypoints.front().latitude_deg,
-                     waypoints.front().longitude_deg);
+                     waypoints.front().longitude_deg, options.site.fence_json,
+                     options.site.rally_points_json, options.site.home_altitude_m);
 }
 
 std::string qgc_waypoints_text(const Flight& flight, double speed_mps, const LonLatOf& lon_lat_of,

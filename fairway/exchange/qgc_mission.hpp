@@ -7,7 +7,8 @@
 // Properties that always hold:
 //   1. The first waypoint is where the flight starts, the last where it ends, its last leg
 //      included.
-//   2. Heights are above the home position, which is the start, on the ground.
+//   2. Heights are above the home position, which is the start, on the ground. A .plan's fence and
+//      rally points are those of `site`: none, unless they are given.
 //   3. map/ reads both files back to the same points, within 1e-9 degrees (0.1 mm).
 #pragma once
 
@@ -22,12 +23,21 @@
 
 namespace fairway {
 
+/// What a .plan holds beside the mission, as JSON: uploading it replaces all three on the vehicle.
+struct QgcSite {
+  std::string fence_json = R"({"circles": [], "polygons": [], "version": 2})";
+  std::string rally_points_json = R"({"points": [], "version": 2})";
+  double home_altitude_m = 0.0;  ///< above sea level; finite
+};
+
 struct QgcMissionOptions {
   double altitude_m = 50.0;  ///< above home, >= 0
   double tolerance_m = 1.0;  ///< > 0
+  QgcSite site = {};         ///< .plan alone: a waypoint file has neither fence nor rally points
 };
 
-/// A sentence for each flight that does not reach: its mission leads where it ends, too.
+/// A sentence for each flight that does not reach, or ends after that: its mission leads there,
+/// too.
 [[nodiscard]] std::vector<std::string> mission_warnings(std::span<const Flight> flights);
 
 /// QGroundControl's .plan, version 1. Throws PreconditionViolation when an option is out of range

@@ -137,6 +137,31 @@ TEST(FlightSeries, HeadingsOverTimeAreCutAtTheSeamAndStayWithinATurn) {
   EXPECT_EQ(seams_of(heading_over_time(flight, 10.0, "h")), 1);
 }
 
+TEST(FlightSeries, HeadingsAsACompassShowsThemBreakWhereTheyPassTheBack) {
+  const ChartSeries whole = heading_over_time(twice_round(), 10.0, "h");
+  const ChartSeries wrapped = wrapped_degrees(whole);
+  std::size_t breaks = 0;
+  for (std::size_t i = 0; i < wrapped.y.size(); ++i) {
+    if (std::isnan(wrapped.y[i])) {
+      ++breaks;
+      EXPECT_EQ(wrapped.y[i - 1], 180.0);  // turning left, up and out at the top
+      EXPECT_EQ(wrapped.y[i + 1], -180.0);
+      continue;
+    }
+    EXPECT_GE(wrapped.y[i], -180.0);
+    EXPECT_LE(wrapped.y[i], 180.0);
+    if (i == 0 || std::isnan(wrapped.y[i - 1])) continue;
+    EXPECT_NEAR(wrapped.y[i] - wrapped.y[i - 1],  // v / r = 0.5 rad/s once it turns
+                wrapped.x[i - 1] < 1.0 - 1e-9 ? 0.0 : 90.0 / pi * (wrapped.x[i] - wrapped.x[i - 1]),
+                1e-6);
+  }
+  EXPECT_EQ(breaks, 2U);  // 172 degrees and two turns more
+  const ChartSeries turns{"t", {0.0, 4.0, 5.0}, {0.0, -4.0 * pi, pi}, {}};
+  const ChartSeries many = wrapped_degrees(turns);  // two and a half turns within a piece
+  EXPECT_EQ(std::count_if(many.y.begin(), many.y.end(), [](double y) { return std::isnan(y); }), 4);
+  EXPECT_EQ(many.y.back(), 180.0);
+}
+
 TEST(FlightSeries, DistancesFromAPathAreThoseOfTheCircle) {
   // A circle of 20 m about (10, 30), and a path along the x axis: between 10 and 50 m away.
   Flight flight;

@@ -30,15 +30,31 @@ struct Bundle {
   std::vector<const Flight*> flights;
 };
 
+/// Followed along a path, into an obstacle or off the grid: it looks like what it ends with.
+bool ended_after_reaching(const Flight& flight) {
+  return flight.onward.after == After::collide || flight.onward.after == After::leave;
+}
+
 std::vector<Bundle> bundles_by_outcome(std::span<const Flight> flights) {
   std::vector<Bundle> bundles;
-  for (const Outcome outcome : as_drawn) {
-    Bundle bundle{"", fmt::format("flights-{}", name_of(outcome)), style_of(outcome).pen, {}};
+  const auto add = [&](const std::string& label, const std::string& layer, Outcome like,
+                       const auto& belongs) {
+    Bundle bundle{"", "flights-" + layer, style_of(like).pen, {}};
     for (const Flight& flight : flights)
-      if (flight.result.outcome == outcome) bundle.flights.push_back(&flight);
-    if (bundle.flights.empty()) continue;
-    bundle.label = fmt::format("{} ({})", name_of(outcome), bundle.flights.size());
+      if (belongs(flight)) bundle.flights.push_back(&flight);
+    if (bundle.flights.empty()) return;
+    bundle.label = fmt::format("{} ({})", label, bundle.flights.size());
     bundles.push_back(std::move(bundle));
+  };
+  for (const Outcome outcome : as_drawn) {
+    add(name_of(outcome), name_of(outcome), outcome, [&](const Flight& flight) {
+      return flight.result.outcome == outcome && !ended_after_reaching(flight);
+    });
+  }
+  for (const auto& [after, like] :
+       {std::pair{After::leave, Outcome::leave}, std::pair{After::collide, Outcome::collide}}) {
+    add(fmt::format("reach, then {}", name_of(after)), fmt::format("reach-{}", name_of(after)),
+        like, [after = after](const Flight& flight) { return flight.onward.after == after; });
   }
   return bundles;
 }

@@ -126,6 +126,19 @@ TEST(DrawFlights, TheLegendCountsOutcomesAndEachHasALayer) {
   EXPECT_FALSE(has_layer(picture.svg, "flights-leave"));
 }
 
+TEST(DrawFlights, WhatCollidesAfterItReachedIsNotDrawnAsReaching) {
+  const State start{{100.0, 100.0}, Heading()};
+  std::vector<Flight> flights(4, flight_of(start, {{50.0, 0.0}}));
+  flights[0].onward.after = After::follow;
+  flights[1].onward.after = flights[2].onward.after = After::collide;
+  flights[3].onward.after = After::leave;
+  const Picture picture = draw_flights(open_water(), flights, {.title = "after"});
+  EXPECT_TRUE(has_text(picture.svg, "reach (1)"));
+  EXPECT_TRUE(has_text(picture.svg, "reach, then collide (2)"));
+  EXPECT_TRUE(has_text(picture.svg, "reach, then leave (1)"));
+  EXPECT_TRUE(has_layer(picture.svg, "flights-reach-collide"));
+}
+
 TEST(DrawFlights, OutcomesDifferByDashAsWellAsByColour) {
   const State start{{100.0, 100.0}, Heading()};
   std::set<std::string> colors;

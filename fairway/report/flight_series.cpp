@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <span>
 #include <utility>
@@ -54,6 +55,35 @@ ChartSeries heading_over_time(const Flight& flight, double speed_mps, std::strin
       add_turn(series, piece.time_s, piece.time_s + piece.length_m / speed_mps,
                piece.start.heading.rad(), piece.curvature_per_m * piece.length_m);
     }
+  }
+  return series;
+}
+
+ChartSeries wrapped_degrees(const ChartSeries& headings) {
+  constexpr double to_degrees = 180.0 / pi;
+  ChartSeries series{headings.name, {}, {}, headings.style};
+  const auto add = [&](double x, double y) {
+    series.x.push_back(x);
+    series.y.push_back(y);
+  };
+  // Turn k holds the headings in (180 (2 k - 1), 180 (2 k + 1)] degrees.
+  const auto turn_of = [](double degrees) { return std::ceil((degrees - 180.0) / 360.0); };
+  for (std::size_t i = 0; i < headings.x.size(); ++i) {
+    const double y = to_degrees * headings.y[i];
+    const double turn = turn_of(y);
+    if (i > 0) {
+      const double from_x = headings.x[i - 1];
+      const double from_y = to_degrees * headings.y[i - 1];
+      const double up = y > from_y ? 1.0 : -1.0;
+      for (double k = turn_of(from_y); k != turn; k += up) {
+        const double edge = 360.0 * k + 180.0 * up;  // where the line leaves turn k
+        const double x = from_x + (headings.x[i] - from_x) * (edge - from_y) / (y - from_y);
+        add(x, 180.0 * up);
+        add(x, std::numeric_limits<double>::quiet_NaN());
+        add(x, -180.0 * up);
+      }
+    }
+    add(headings.x[i], y - 360.0 * turn);
   }
   return series;
 }

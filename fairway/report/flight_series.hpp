@@ -15,6 +15,10 @@ namespace fairway {
 [[nodiscard]] ChartSeries heading_over_time(const Flight& flight, double speed_mps,
                                             std::string name);
 
+/// The same headings for a chart that is read as a compass is: degrees in (-180, 180], the line
+/// broken where it goes through 180.
+[[nodiscard]] ChartSeries wrapped_degrees(const ChartSeries& headings);
+
 /// Distance from the mission's path against time (Figs. 7b, 8b): seconds, metres, sampled at least
 /// every `step_m` along the flight and at each end of every piece.
 [[nodiscard]] ChartSeries path_distance_over_time(const Flight& flight, double speed_mps,

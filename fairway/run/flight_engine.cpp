@@ -1,8 +1,7 @@
 #include "fairway/run/flight_engine.hpp"
 
-#include <cmath>
-
 #include "fairway/base/error.hpp"
+#include "fairway/vehicle/path_geometry.hpp"
 
 namespace fairway {
 namespace {
@@ -14,23 +13,12 @@ Flights flights_of(const Plan& plan, const std::optional<SampledOptions>& sample
   return Flights(std::in_place_type<ExactFlights>, plan);
 }
 
-const PathMission* path_in(const Plan& plan) {
-  return plan.record.mission ? std::get_if<PathMission>(&*plan.record.mission) : nullptr;
-}
-
-double length_m(const PathMission& path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.vertices_m.size(); ++i) {
-    length += norm(path.vertices_m[i] - path.vertices_m[i - 1]);
-  }
-  if (path.closed) length += norm(path.vertices_m.front() - path.vertices_m.back());
-  return length;
-}
-
-/// To the path by the plan, then once along it.
-double track_length_m(const Plan& plan, const PathMission& path, const State& start) {
-  const float cost_m = plan.cost_m[plan.grid.index(plan.grid.cell_of(start.position_m))];
-  return (std::isfinite(cost_m) ? static_cast<double>(cost_m) : 0.0) + length_m(path);
+FollowLimit limit_of(const FollowFor& follow, const PathMission& path, double speed_mps) {
+  if (follow.time_s > 0.0) return {.time_s = follow.time_s};
+  double path_m = 0.0;
+  for_pieces(path, [&](const PathPiece& piece) { path_m += piece.length_m; });
+  const double length_m = follow.laps * path_m;
+  return {.length_m = length_m, .time_s = 10.0 * length_m / speed_mps};
 }
 
 }  // namespace
@@ -56,8 +44,8 @@ FlightEngine::FlightEngine(const Plan& plan, const std::optional<SampledOptions>
   if (!sampled && goal) legs_.emplace(plan, *goal);
 }
 
-bool FlightEngine::goes_on(TrackEnd end) const {
-  return end == TrackEnd::path && exact() != nullptr && path_in(plan_) != nullptr;
+const PathMission* FlightEngine::path() const {
+  return plan_.record.mission ? std::get_if<PathMission>(&*plan_.record.mission) : nullptr;
 }
 
 FlightResult FlightEngine::fly(const State& start, std::size_t index) const {
@@ -65,15 +53,24 @@ FlightResult FlightEngine::fly(const State& start, std::size_t index) const {
   return std::get<SampledFlights>(flights_).fly(start, index);
 }
 
-Flight FlightEngine::record(const State& start, std::size_t index, TrackEnd end) const {
+Flight FlightEngine::record(const State& start, std::size_t index,
+                            const std::optional<FollowFor>& follow) const {
   const ExactFlights* flights = exact();
-  if (flights == nullptr) return std::get<SampledFlights>(flights_).record(start, index).flight;
-  if (goes_on(end)) {
-    return flights->follow(start, track_length_m(plan_, *path_in(plan_), start));
+  const auto* sampled = std::get_if<SampledFlights>(&flights_);
+  if (follow && path() != nullptr) {
+    const FollowLimit limit = limit_of(*follow, *path(), plan_.vehicle.speed_mps);
+    return flights != nullptr ? flights->follow_on(start, limit)
+                              : sampled->follow_on(start, index, limit).flight;
   }
+  if (flights == nullptr) return sampled->record(start, index).flight;
   Flight flight = flights->record(start);
   if (legs_) flight.final_leg = legs_->leg_of(flight);
   return flight;
+}
+
+Flight FlightEngine::measure(const State& start, std::size_t index) const {
+  if (const ExactFlights* flights = exact()) return flights->measure(start);
+  return std::get<SampledFlights>(flights_).measure(start, index);
 }
 
 }  // namespace fairway

@@ -34,11 +34,13 @@ inline constexpr const char* exact_law = "exact";
 [[nodiscard]] std::optional<SampledOptions> options_of_law(std::string_view name, double gain_per_s,
                                                            SampledOptions options);
 
-/// Where a track ends.
-enum class TrackEnd : std::uint8_t {
-  flight,  ///< where the flight ends
-  path     ///< beyond the first goal cell, along the path; for exact flights of path missions only
+/// For how long flights of path missions are followed beyond their first goal cell: one of the two
+/// is > 0, finite, and holds.
+struct FollowFor {
+  double laps = 0.0;  ///< times the path's length, over the ground
+  double time_s = 0.0;
 };
+inline constexpr FollowFor one_lap{.laps = 1.0};
 
 class FlightEngine {
  public:
@@ -52,13 +54,18 @@ class FlightEngine {
 
   [[nodiscard]] FlightResult fly(const State& start, std::size_t index) const;
 
-  /// With its pieces and its last leg. Where the track goes on along a path, `start` lies on the
-  /// grid, and the result is the track's own: `trapped` when it was too short to end otherwise.
+  /// With its pieces and its last leg; along the path, where the plan's mission is one and `follow`
+  /// says for how long. The result is that of `fly` all the same. Following by laps ends after ten
+  /// times the time they take in calm air, wherever the wind has held the vehicle.
   [[nodiscard]] Flight record(const State& start, std::size_t index,
-                              TrackEnd end = TrackEnd::flight) const;
+                              const std::optional<FollowFor>& follow = {}) const;
 
-  /// Whether tracks with that end go on beyond their flights.
-  [[nodiscard]] bool goes_on(TrackEnd end) const;
+  /// Result and turning alone.
+  [[nodiscard]] Flight measure(const State& start, std::size_t index) const;
+
+  /// The path of the plan's mission; null when it has none.
+  const PathMission* path() const;
+  const Plan& plan() const { return plan_; }
 
   /// Null under a sampled law.
   const ExactFlights* exact() const { return std::get_if<ExactFlights>(&flights_); }

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include <tbb/global_control.h>
+
 #include "fairway/base/error.hpp"
 #include "fairway/base/random.hpp"
+#include "fairway/run/following_summary.hpp"
 #include "fairway/simulate/flight_statistics.hpp"
 
 namespace fairway {
@@ -172,29 +175,77 @@ TEST(FlyMany, SampledFlightsAreDrawnByTheirIndex) {
   }
 }
 
-TEST(FlyMany, TracksOfAPathGoOnBeyondTheirResults) {
+TEST(FlyMany, FollowsEveryFlightOfAPathAndLeavesItsResult) {
   Random random(6);
   Plan plan = random_plan(random, false);
-  plan.record.mission = PathMission{{{20.0, 20.0}, {120.0, 20.0}, {120.0, 90.0}}, true, 1.0, 0.1};
+  const PathMission path{{{20.0, 20.0}, {120.0, 20.0}, {120.0, 90.0}}, true, 9.0, 1.5};
+  plan.record.mission = path;
+  std::size_t goal_cells = 0;
+  for (Region& region : plan.region) {  // obstacles among the goal cells
+    if (region == Region::goal && ++goal_cells % 25 == 0) region = Region::obstacle;
+  }
   const ExactFlights alone(plan);
   const FlightEngine engine(plan);
-  const auto starts = random_starts(random, plan, 200);
+  const auto starts = random_starts(random, plan, 1200);
   FlyOptions options;
   options.tracks = 60;
-  options.track_end = TrackEnd::path;
   options.count_legs = true;
+  options.measure = true;
+  const ManyFlights plain = fly_many(engine, starts, options);
+  EXPECT_FALSE(plain.followed.has_value());
+  options.follow = one_lap;
+  options.pool_from = 100;
   const ManyFlights flown = fly_many(engine, starts, options);
+  ASSERT_TRUE(flown.followed.has_value());
   EXPECT_FALSE(flown.final_legs.has_value());
-  int longer = 0;
+  const PathMeter meter(path, plan.vehicle.speed_mps, 0.5 * plan.grid.cell_m);
+  PathSpreads spreads;
+  std::size_t seen[3] = {0, 0, 0};
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    EXPECT_TRUE(same(flown.results[i], alone.fly(starts[i]))) << i;
-    if (i >= flown.recorded.size() || flown.results[i].outcome != Outcome::reach) continue;
-    double length_m = 0.0;
-    for (const FlightSegment& piece : flown.recorded[i].segments) length_m += piece.length_m;
-    EXPECT_GE(length_m, flown.results[i].length_m - 1e-9);
-    longer += length_m > flown.results[i].length_m + 1.0 ? 1 : 0;
+    ASSERT_TRUE(same(flown.results[i], alone.fly(starts[i]))) << i;
+    ASSERT_EQ(plain.measures[i].turning, alone.measure(starts[i]).turning);
+    const Flight one = engine.record(starts[i], i, one_lap);
+    ASSERT_EQ(flown.measures[i].onward, one.onward);
+    ASSERT_EQ(flown.measures[i].turning, one.turning);
+    if (i < 60) {
+      ASSERT_TRUE(same(flown.recorded[i], one));
+    }
+    if (one.onward.after == After::none) {
+      ASSERT_EQ(flown.measures[i].following, PathFollowing{});
+      continue;
+    }
+    ++seen[static_cast<std::size_t>(one.onward.after) - 1];
+    ASSERT_EQ(flown.measures[i].following, meter.measure(one, i < 100 ? nullptr : &spreads));
+    if (one.onward.after != After::follow) continue;
+    EXPECT_NEAR(one.onward.length_m - one.result.length_m, meter.locator().length_m(), 1e-6);
   }
-  EXPECT_GT(longer, 10);
+  EXPECT_GT(seen[0], 5U);  // follow
+  EXPECT_GT(seen[1], 5U);  // collide
+  EXPECT_EQ(flown.followed->spreads.distance_m.spread().count, spreads.distance_m.spread().count);
+  EXPECT_EQ(flown.followed->spreads.distance_m.spread().p95, spreads.distance_m.spread().p95);
+  // To a goal there is nothing to follow.
+  plan.record.mission = GoalMission{{75.0, 67.0}, {}};
+  EXPECT_FALSE(fly_many(FlightEngine(plan), starts, options).followed.has_value());
+}
+
+TEST(FlyMany, MeasuresTheSameOnAnyNumberOfThreads) {
+  Random random(12);
+  Plan plan = random_plan(random, false);
+  plan.record.mission = PathMission{{{20.0, 20.0}, {120.0, 20.0}, {120.0, 90.0}}, true, 9.0, 1.5};
+  const FlightEngine engine(plan);
+  const auto starts = random_starts(random, plan, 400);
+  FlyOptions options;
+  options.measure = true;
+  options.follow = {.time_s = 25.0};
+  const ManyFlights together = fly_many(engine, starts, options);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const ManyFlights alone = fly_many(engine, starts, options);
+  EXPECT_EQ(together.measures, alone.measures);
+  const auto json = [](const ManyFlights& flown) {
+    return following_json(following_summary(flown, flown.results, flown.measures));
+  };
+  EXPECT_EQ(json(together), json(alone));
+  EXPECT_EQ(json(alone)["time_s"], 25.0);
 }
 
 TEST(FlyMany, TellsHowManyAreFlownAndEndsWithWhatTheCallerThrows) {

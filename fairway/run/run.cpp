@@ -79,7 +79,9 @@ void write_flights(const ScenarioFlights& flown, const Plan& plan, const std::st
               trajectories_csv(flown.recorded, plan.vehicle.speed_mps, step_m));
   write_whole(place / product::flights_geojson, Existing::keep,
               flights_geojson(flown.recorded, step_m, lon_lat_of(frame_in(plan.record), where)));
-  write_whole(place / product::outcomes, Existing::keep, outcomes_csv(flown.starts, flown.results));
+  write_whole(
+      place / product::outcomes, Existing::keep,
+      outcomes_csv(flown.starts, flown.results, flown.measures, flown.followed.has_value()));
 }
 
 /// A proof, and whether another program made it again.

@@ -51,6 +51,18 @@ Plan part_of(const Plan& plan, Vec2 low_m, Vec2 high_m) {
   return part;
 }
 
+/// Up to where a flight counts as on the path.
+ChartSeries delta_line(std::span<const ChartSeries> distances, double delta_m) {
+  double end_s = 0.0;
+  for (const ChartSeries& line : distances) {
+    if (!line.x.empty()) end_s = std::max(end_s, line.x.back());
+  }
+  return {fmt::format("delta_position_m, {:g} m", delta_m),
+          {0.0, end_s},
+          {delta_m, delta_m},
+          LineStyle::dashed};
+}
+
 /// The part of the map that the last legs need.
 void write_final_legs(const Plan& plan, const Mission& mission, std::span<const Flight> flights,
                       const std::string& title, const fs::path& folder) {
@@ -95,15 +107,17 @@ void write_run_pictures(const Plan& plan, const Mission& mission, const Scenario
   for (const Flight& flight : std::span(flown.recorded).first(lines)) {
     const std::string name = name_of_start(flight.start);
     const double speed_mps = plan.vehicle.speed_mps;
-    headings.push_back(heading_over_time(flight, speed_mps, name));
+    headings.push_back(wrapped_degrees(heading_over_time(flight, speed_mps, name)));
     if (path != nullptr) {
       const double step_m = plan.grid.cell_m / 4.0;
       distances.push_back(path_distance_over_time(flight, speed_mps, *path, step_m, name));
     }
   }
-  ChartOptions chart{.title = title, .x_label = "time, s", .y_label = "heading, rad"};
+  ChartOptions chart{
+      .title = title, .x_label = "time, s", .y_label = "heading, degrees from east to the left"};
   write(draw_chart(headings, chart), folder, "headings");
   if (path == nullptr) return;
+  distances.push_back(delta_line(distances, path->delta_position_m));
   chart.y_label = "distance to the path, m";
   chart.y_from_zero = true;
   write(draw_chart(distances, chart), folder, "distance");

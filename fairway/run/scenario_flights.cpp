@@ -36,7 +36,9 @@ ScenarioFlights fly_scenario(const Scenario& scenario, const Plan& plan, const F
 
   FlyOptions options;
   options.tracks = given + asked.random;
-  options.track_end = TrackEnd::path;
+  options.follow = one_lap;
+  options.measure = true;
+  options.pool_from = given;
   options.count_legs = true;
   options.progress = [&](std::size_t flown) {
     const double per_flight_s = clock.seconds() / static_cast<double>(flown);

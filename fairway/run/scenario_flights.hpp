@@ -21,12 +21,16 @@ struct ScenarioFlights : ManyFlights {
 
   std::span<const FlightResult> given_results() const { return std::span(results).first(given); }
   std::span<const FlightResult> random_results() const { return std::span(results).subspan(given); }
+  std::span<const FlightMeasures> random_measures() const {
+    return std::span(measures).subspan(given);
+  }
 };
 
-/// Flies max(simulate.random, simulate.sample) random safe starts and the given ones. Flights of
-/// path missions are recorded beyond their first goal cell, along the path; those to a goal with a
-/// heading are given their last leg. Throws InputError at simulate.states when one lies outside the
-/// grid. `engine`: exact, of `plan`; `after_s`: what the run will take afterwards.
+/// Flies max(simulate.random, simulate.sample) random safe starts and the given ones, and measures
+/// them; the random ones' steps along a path are pooled. Flights of path missions are followed for
+/// one lap beyond their first goal cell; those to a goal with a heading are given their last leg.
+/// Throws InputError at simulate.states when one lies outside the grid. `engine`: exact, of `plan`;
+/// `after_s`: what the run will take afterwards.
 [[nodiscard]] ScenarioFlights fly_scenario(const Scenario& scenario, const Plan& plan,
                                            const FlightEngine& engine, const StageClock& clock,
                                            double after_s);

@@ -9,6 +9,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
+#include "fairway/simulate/exact_flight_record.hpp"
 
 namespace fairway {
 
@@ -28,39 +29,6 @@ FlightLimits with_defaults(FlightLimits limits, const Grid& grid, double turn_ra
 }
 
 }  // namespace
-
-/// Brent's cycle detection: the flight is compared with one kept state, replaced after 2, 4, 8, ...
-/// crossings. A closed curve of curvature at most 1 / r is at least 2 pi r long (Fenchel), which
-/// keeps the tiny hops of a weave along a border from passing for a cycle.
-class ExactFlights::CycleWatch {
- public:
-  CycleWatch(double cell_m, double turn_radius_m)
-      : position_tolerance_m_(1e-9 * cell_m), shortest_m_(6.28 * turn_radius_m) {}
-
-  bool repeats(const Position& now, double flown_m) {
-    const Vec2 moved = now.state.position_m - kept_.state.position_m;
-    if (now.place == kept_.place && flown_m - kept_at_m_ >= shortest_m_ &&
-        std::abs(moved.x) <= position_tolerance_m_ && std::abs(moved.y) <= position_tolerance_m_ &&
-        norm2(now.state.heading.unit - kept_.state.heading.unit) <= 1e-18) {
-      return true;
-    }
-    if (--left_ == 0) {
-      period_ *= 2;
-      left_ = period_;
-      kept_ = now;
-      kept_at_m_ = flown_m;
-    }
-    return false;
-  }
-
- private:
-  double position_tolerance_m_;
-  double shortest_m_;
-  Position kept_;
-  double kept_at_m_ = infinity;
-  std::uint64_t period_ = 1;
-  std::uint64_t left_ = 1;
-};
 
 /// Asks for the record about four cells ahead: a flight up or down the grid meets a new cache line
 /// in every cell, and waiting for it cost more than the geometry.
@@ -131,19 +99,22 @@ ExactFlights::Leap ExactFlights::leap(Position& position, Side border) const {
   return {pairs * pair_m, pairs * 4.0 * r * std::asin(sine)};
 }
 
-template <bool passes_goals, typename Recorder>
-FlightRun ExactFlights::fly_through(const State& start, const FlightLimits& limits,
-                                    Recorder& recorder) const {
+template <bool passes_goals, typename Record>
+FlightRun ExactFlights::fly_through(const State& start, FlightLimits limits, double beyond_m,
+                                    Record& record) const {
   const CellShape shape{grid_.cell_m, vehicle_.turn_radius_m};
   CycleWatch watch(shape.cell_m, shape.turn_radius_m);
   FlightRun run;
-  double reached_m = infinity;
   int hops = 0;
   Position position = locate(start);
   Kind kind = settle(position, true);
   for (;;) {
     if (passes_goals && kind == Kind::goal) {
-      reached_m = std::min(reached_m, run.flown_m);
+      if (run.reached_m == infinity) {
+        run.reached_m = run.flown_m;
+        limits = beyond_goal(limits, run, beyond_m);
+        record.end_at(limits.length_m);
+      }
     } else if (kind != Kind::open) {
       run.ended_by = kind == Kind::goal       ? EndedBy::goal
                      : kind == Kind::obstacle ? EndedBy::obstacle
@@ -158,13 +129,13 @@ FlightRun ExactFlights::fly_through(const State& start, const FlightLimits& limi
       run.ended_by = EndedBy::crossing_limit;
       break;
     }
-    if (!passes_goals && watch.repeats(position, run.flown_m)) {
+    if ((!passes_goals || run.reached_m == infinity) && watch.repeats(position, run.flown_m)) {
       run.ended_by = EndedBy::repeating_state;
       break;
     }
     const Direction command = position.slides ? Direction::none() : command_at(position.place);
     const CellExit exit = cross_cell(position.state, command, shape);
-    recorder.add(position, exit, run.flown_m);
+    record.add(position, exit, run.flown_m);
     run.flown_m += exit.length_m();
     ++run.crossings;
     hops = is_hop(position, exit) ? hops + 1 : 0;
@@ -173,22 +144,36 @@ FlightRun ExactFlights::fly_through(const State& start, const FlightLimits& limi
       const Position before = position;
       const Leap leapt = leap(position, exit.side);
       if (leapt.flown_m > 0.0) {
-        recorder.add_leap(before, leapt.along_m, run.flown_m);
+        record.add_leap(before, leapt.along_m, run.flown_m);
         run.flown_m += leapt.flown_m;
         hops = 0;
         kind = settle(position, false);
       }
     }
   }
-  run.result = result_of(run, reached_m);
+  if (passes_goals && run.flown_m > limits.length_m) {  // what it met lies beyond what was asked
+    run.ended_by = EndedBy::length_limit;
+    run.flown_m = limits.length_m;
+  }
+  run.result = result_of(run);
   return run;
 }
 
-FlightResult ExactFlights::result_of(const FlightRun& run, double reached_m) const {
+/// How far a flight goes on that has just reached: its length is measured from there, and the
+/// crossings are as many again as so long a flight is given.
+FlightLimits ExactFlights::beyond_goal(FlightLimits limits, const FlightRun& run,
+                                       double beyond_m) const {
+  if (!(beyond_m < infinity)) return limits;
+  return {
+      run.reached_m + beyond_m,
+      run.crossings + with_defaults({beyond_m, 0}, grid_, vehicle_.turn_radius_m).crossings + 64};
+}
+
+FlightResult ExactFlights::result_of(const FlightRun& run) const {
   const auto at_length = [&](Outcome outcome, double length_m) {
     return FlightResult{outcome, length_m / vehicle_.speed_mps, length_m};
   };
-  if (reached_m < infinity) return at_length(Outcome::reach, reached_m);
+  if (run.reached_m < infinity) return at_length(Outcome::reach, run.reached_m);
   switch (run.ended_by) {
     case EndedBy::goal:
       return at_length(Outcome::reach, run.flown_m);
@@ -201,46 +186,13 @@ FlightResult ExactFlights::result_of(const FlightRun& run, double reached_m) con
   }
 }
 
-/// Joins what cells cut: pieces of the same curvature, end to end.
-class ExactFlights::PieceRecorder {
- public:
-  PieceRecorder(const ExactFlights& flights, double until_m)
-      : flights_(flights), until_m_(until_m) {}
-
-  void add(const Position& from, const CellExit& exit, double flown_m) {
-    const Vec2 corner = flights_.corner_of(from.place);
-    const double curvature = exit.turn / flights_.vehicle_.turn_radius_m;
-    append(corner + from.state.position_m, from.state.heading, curvature, exit.arc_m, flown_m);
-    append(corner + exit.arc_end_m, exit.state.heading, 0.0, exit.straight_m, flown_m + exit.arc_m);
-  }
-  /// A weave too fine to draw, as a straight line along its border.
-  void add_leap(const Position& from, double length_m, double flown_m) {
-    const Vec2 u = from.state.heading.unit;
-    const double along_rad =
-        std::abs(u.x) > std::abs(u.y) ? (u.x > 0.0 ? 0.0 : pi) : (u.y > 0.0 ? pi / 2 : -pi / 2);
-    const Direction along{{}, along_rad};
-    append(flights_.corner_of(from.place) + from.state.position_m, along, 0.0, length_m, flown_m);
-  }
-  std::vector<FlightSegment> take() { return std::move(segments_); }
-
- private:
-  void append(Vec2 p, const Direction& heading, double curvature, double length_m, double flown_m) {
-    length_m = std::min(length_m, until_m_ - flown_m);
-    if (!(length_m > 0.0)) return;
-    if (!segments_.empty() && segments_.back().curvature_per_m == curvature) {
-      segments_.back().length_m += length_m;
-      return;
-    }
-    segments_.push_back({{p, Heading::from_rad(heading.rad)},
-                         flown_m / flights_.vehicle_.speed_mps,
-                         length_m,
-                         curvature});
-  }
-
-  const ExactFlights& flights_;
-  double until_m_;
-  std::vector<FlightSegment> segments_;
-};
+Onward ExactFlights::onward_of(const FlightRun& run) const {
+  if (run.reached_m == infinity) return {};
+  const After after = run.ended_by == EndedBy::obstacle    ? After::collide
+                      : run.ended_by == EndedBy::grid_edge ? After::leave
+                                                           : After::follow;
+  return {after, run.flown_m / vehicle_.speed_mps, run.flown_m};
+}
 
 Vec2 ExactFlights::corner_of(std::size_t place) const {
   const Cell cell{static_cast<int>(place % stride_) - 1, static_cast<int>(place / stride_) - 1};
@@ -249,29 +201,50 @@ Vec2 ExactFlights::corner_of(std::size_t place) const {
 
 FlightRun ExactFlights::run(const State& start, FlightLimits limits) const {
   struct {
+    void end_at(double) {}
     void add(const Position&, const CellExit&, double) {}
     void add_leap(const Position&, double, double) {}
   } nothing;
-  return fly_through<false>(start, with_defaults(limits, grid_, vehicle_.turn_radius_m), nothing);
+  return fly_through<false>(start, with_defaults(limits, grid_, vehicle_.turn_radius_m), infinity,
+                            nothing);
 }
 
 FlightResult ExactFlights::fly(const State& start, FlightLimits limits) const {
   return run(start, limits).result;
 }
 
+Flight ExactFlights::recorded(const State& start, FlightLimits limits, bool keeps_pieces) const {
+  Recorder recorder(*this, keeps_pieces);
+  const FlightRun run = fly_through<false>(
+      start, with_defaults(limits, grid_, vehicle_.turn_radius_m), infinity, recorder);
+  return {start, run.result, recorder.take_pieces(), {}, recorder.turning(), {}};
+}
+
 Flight ExactFlights::record(const State& start, FlightLimits limits) const {
-  PieceRecorder recorder(*this, infinity);
-  const FlightRun run =
-      fly_through<false>(start, with_defaults(limits, grid_, vehicle_.turn_radius_m), recorder);
-  return {start, run.result, recorder.take()};
+  return recorded(start, limits, true);
+}
+
+Flight ExactFlights::measure(const State& start, FlightLimits limits) const {
+  return recorded(start, limits, false);
+}
+
+Flight ExactFlights::followed(const State& start, FlightLimits limits, double beyond_m) const {
+  Recorder recorder(*this, true);
+  recorder.end_at(limits.length_m > 0.0 ? limits.length_m : infinity);
+  const FlightRun run = fly_through<true>(
+      start, with_defaults(limits, grid_, vehicle_.turn_radius_m), beyond_m, recorder);
+  return {start, run.result, recorder.take_pieces(), {}, recorder.turning(), onward_of(run)};
 }
 
 Flight ExactFlights::follow(const State& start, double length_m) const {
   require(length_m > 0.0 && std::isfinite(length_m), "a flight is followed for a length > 0");
-  PieceRecorder recorder(*this, length_m);
-  const FlightRun run = fly_through<true>(
-      start, with_defaults({length_m, 0}, grid_, vehicle_.turn_radius_m), recorder);
-  return {start, run.result, recorder.take()};
+  return followed(start, {length_m, 0}, infinity);
+}
+
+Flight ExactFlights::follow_on(const State& start, const FollowLimit& beyond) const {
+  const double beyond_m = std::min(beyond.length_m, beyond.time_s * vehicle_.speed_mps);
+  require(beyond_m > 0.0 && std::isfinite(beyond_m), "a flight is followed for a length > 0");
+  return followed(start, {}, beyond_m);
 }
 
 namespace {

@@ -17,6 +17,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,8 @@ struct FlightRun {
   EndedBy ended_by = EndedBy::goal;
   std::uint64_t crossings = 0;  ///< cells flown through one by one (not those of a leap, see .cpp)
   double flown_m = 0.0;         ///< finite, also when trapped
+  /// Where the first of the goal cells was entered that did not end the flight; +inf: none.
+  double reached_m = std::numeric_limits<double>::infinity();
 };
 
 class ExactFlights {
@@ -68,10 +71,18 @@ class ExactFlights {
   /// flight's pieces end where the trap was recognised.
   [[nodiscard]] Flight record(const State& start, FlightLimits limits = {}) const;
 
-  /// For path missions: goal cells do not end the flight. It goes on for `length_m`, or to an
-  /// obstacle or the grid's edge. The result is the outcome as ever (reach: at the first goal
-  /// cell); the pieces go on.
+  /// The same without its pieces: result and turning.
+  [[nodiscard]] Flight measure(const State& start, FlightLimits limits = {}) const;
+
+  /// For path missions: goal cells do not end the flight. It goes on until `length_m` are flown, or
+  /// to an obstacle, the grid's edge or a trap before the first goal cell. The result is the
+  /// outcome as ever (reach: at the first goal cell); the pieces go on.
   [[nodiscard]] Flight follow(const State& start, double length_m) const;
+
+  /// The same until `beyond` the first goal cell. The result is that of `fly`, to the bit, and so
+  /// are the pieces up to there those of `record`. Throws PreconditionViolation unless a limit is
+  /// finite and both are > 0.
+  [[nodiscard]] Flight follow_on(const State& start, const FollowLimit& beyond) const;
 
   /// In parallel; result [i] belongs to start [i].
   [[nodiscard]] std::vector<FlightResult> fly_all(std::span<const State> starts,
@@ -101,7 +112,7 @@ class ExactFlights {
     double flown_m = 0.0;
   };
   class CycleWatch;
-  class PieceRecorder;
+  class Recorder;
 
   const CellRecord& at(std::size_t place) const { return cells_[place]; }
   Direction command_at(std::size_t place) const {
@@ -115,9 +126,14 @@ class ExactFlights {
   Kind enter_next(Position& position, const CellExit& exit) const;
   bool is_hop(const Position& from, const CellExit& exit) const;
   Leap leap(Position& position, Side border) const;
-  FlightResult result_of(const FlightRun& run, double reached_m) const;
-  template <bool passes_goals, typename Recorder>
-  FlightRun fly_through(const State& start, const FlightLimits& limits, Recorder& recorder) const;
+  FlightLimits beyond_goal(FlightLimits limits, const FlightRun& run, double beyond_m) const;
+  FlightResult result_of(const FlightRun& run) const;
+  Onward onward_of(const FlightRun& run) const;
+  Flight recorded(const State& start, FlightLimits limits, bool keeps_pieces) const;
+  Flight followed(const State& start, FlightLimits limits, double beyond_m) const;
+  template <bool passes_goals, typename Record>
+  FlightRun fly_through(const State& start, FlightLimits limits, double beyond_m,
+                        Record& record) const;
 
   Grid grid_;
   Vehicle vehicle_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,68 @@ struct FlightResult {
   Outcome outcome = Outcome::trapped;
   double time_s = 0.0;
   double length_m = 0.0;
+};
+
+/// How a flight went on that was followed beyond its first goal cell, as those of path missions can
+/// be. No part of the flight's result: an outcome is reach once a goal cell is entered.
+enum class After : std::uint8_t {
+  none,     ///< not followed, or the flight does not reach
+  follow,   ///< flew on for as long as it was followed
+  collide,  ///< touched an obstacle cell
+  leave     ///< left the grid
+};
+
+/// Where each of `After` but none, in this order, is counted or written.
+inline constexpr std::array afters_in_order{After::follow, After::collide, After::leave};
+
+/// The name used in files and on screen; empty for none.
+constexpr const char* name_of(After after) {
+  switch (after) {
+    case After::none:
+      return "";
+    case After::follow:
+      return "follow";
+    case After::collide:
+      return "collide";
+    case After::leave:
+      return "leave";
+  }
+  return "";
+}
+
+/// Time and length are from the start to where the flight was followed to, or ended.
+struct Onward {
+  After after = After::none;
+  double time_s = 0.0;
+  double length_m = 0.0;
+  friend bool operator==(const Onward&, const Onward&) = default;
+};
+
+/// For how long a flight is followed beyond its first goal cell: until either limit. One of them is
+/// finite, both are > 0.
+struct FollowLimit {
+  double length_m = std::numeric_limits<double>::infinity();  ///< over the ground
+  double time_s = std::numeric_limits<double>::infinity();
+};
+
+/// How much a flight turns, over all that was flown: to its end or to where it was followed to; a
+/// trapped one to where the trap was recognised or the time was up.
+struct Turning {
+  double length_m = 0.0;        ///< flown, over the ground
+  double turned_rad = 0.0;      ///< left and right turns added up, without sign
+  std::uint64_t reversals = 0;  ///< left turns after right ones or the other way round, whether or
+                                ///< not straight pieces lie between them
+  double last_turn = 0.0;       ///< 1 after a left turn, -1 after a right one, 0 before the first
+
+  /// A piece that turns by `turn_rad`, positive to the left.
+  void add(double turn_rad, double moved_m) {
+    length_m += moved_m;
+    if (turn_rad == 0.0) return;
+    turned_rad += std::abs(turn_rad);
+    if (turn_rad * last_turn < 0.0) ++reversals;
+    last_turn = turn_rad > 0.0 ? 1.0 : -1.0;
+  }
+  friend bool operator==(const Turning&, const Turning&) = default;
 };
 
 /// One piece of constant curvature: from `start`, `length_m` long, curvature positive to the left.
@@ -105,6 +168,8 @@ struct Flight {
   FlightResult result;
   std::vector<FlightSegment> segments;  ///< joined end to end; recorded only when asked for
   FinalLeg final_leg = {};
+  Turning turning = {};  ///< of the flight, without its last leg
+  Onward onward = {};    ///< when it was followed beyond its first goal cell
 };
 
 /// The state in which a recorded flight ended.

@@ -9,12 +9,15 @@
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/base/random.hpp"
+#include "fairway/simulate/chord_event.hpp"
 
 namespace fairway {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+constexpr double least_turn = 1e-6;  // of the tightest: a control law's rounding is no turn
 
 bool not_negative(double value) { return value >= 0.0 && std::isfinite(value); }
 
@@ -25,48 +28,6 @@ Vec2 arc_displacement(Heading heading, double turn_rate_radps, double speed_mps,
   const double half = 0.5 * turn_rate_radps * dt_s;
   const double chord_m = speed_mps * dt_s * (half == 0.0 ? 1.0 : std::sin(half) / half);
   return chord_m * turned(heading, half).unit();
-}
-
-/// What the chord from a to b meets first, as a fraction of it.
-struct Event {
-  double fraction;
-  Outcome outcome;
-};
-
-std::optional<Outcome> outcome_in(const Plan& plan, Cell cell) {
-  if (!plan.grid.contains(cell)) return Outcome::leave;
-  const Region region = plan.region[plan.grid.index(cell)];
-  if (region == Region::obstacle) return Outcome::collide;
-  if (region == Region::goal) return Outcome::reach;
-  return std::nullopt;
-}
-
-/// The chord is shorter than a cell, so it crosses at most one grid line of either direction.
-std::optional<Event> first_event(const Plan& plan, Vec2 a, Vec2 b) {
-  const Grid& grid = plan.grid;
-  const Cell from = grid.cell_of(a);
-  const Cell to = grid.cell_of(b);
-  if (from == to) return std::nullopt;
-  double cut_x = 1.0;
-  double cut_y = 1.0;
-  if (from.ix != to.ix) {
-    const double x = grid.x0_m + std::max(from.ix, to.ix) * grid.cell_m;
-    cut_x = std::clamp((x - a.x) / (b.x - a.x), 0.0, 1.0);
-  }
-  if (from.iy != to.iy) {
-    const double y = grid.y0_m + std::max(from.iy, to.iy) * grid.cell_m;
-    cut_y = std::clamp((y - a.y) / (b.y - a.y), 0.0, 1.0);
-  }
-  const double first = std::min(cut_x, cut_y);
-  const double second = std::max(cut_x, cut_y);
-  if (from.ix != to.ix && from.iy != to.iy) {
-    const Cell between = cut_x < cut_y ? Cell{to.ix, from.iy} : Cell{from.ix, to.iy};
-    if (const auto outcome = outcome_in(plan, between)) return Event{first, *outcome};
-    if (const auto outcome = outcome_in(plan, to)) return Event{second, *outcome};
-  } else if (const auto outcome = outcome_in(plan, to)) {
-    return Event{first, *outcome};
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -95,35 +56,63 @@ SampledFlights::SampledFlights(const Plan& plan, SampledOptions options)
 class SampledFlights::Run {
  public:
   Run(const Plan& plan, const SampledOptions& options, const State& start, std::size_t index,
-      SampledFlight* record)
+      SampledFlight* record, const FollowLimit* beyond = nullptr)
       : plan_(plan),
         options_(options),
         random_(Random::stream(options.seed, index)),
         state_(start),
         record_(record),
+        beyond_(beyond),
         limit_radps_(plan.vehicle.speed_mps / plan.vehicle.turn_radius_m) {
     const double period_s = options_.control_period_s;
     keep_ = std::exp(-period_s / options_.gust_time_s);
     gust_ = {options_.gust_mps * random_.normal(), options_.gust_mps * random_.normal()};
     calm_ = options_.gust_mps == 0.0 && options_.wind_mps == Vec2{};
+    flight_.start = start;
+    const auto& mission = plan.record.mission;
+    if (mission && std::holds_alternative<PathMission>(*mission)) path_cells_ = Region::goal;
   }
 
-  FlightResult fly() {
+  /// Without its pieces: they are in the record.
+  Flight fly() {
     require(std::isfinite(state_.position_m.x) && std::isfinite(state_.position_m.y),
             "a start's position is finite");
-    if (const auto outcome = outcome_at_start()) return {*outcome, 0.0, 0.0};
-    const double limit_s = time_limit_s();
-    while (time_s_ < limit_s) {
+    end_ = outcome_at_start();
+    if (end_ == Outcome::reach) enter_goal(0.0, 0.0);
+    const double limit_s = end_ ? 0.0 : time_limit_s();
+    while (!end_ && (time_s_ < limit_s || reached_)) {
       const Vec2 wind = options_.wind_mps + gust_;
       const double rate = demanded_rate_radps();
       if (record_ != nullptr) record_->samples.push_back({time_s_, state_, rate, wind});
-      if (const auto outcome = fly_period(rate, wind)) return {*outcome, time_s_, length_m_};
+      if (fly_period(rate, wind)) break;
       blow();
     }
-    return {Outcome::trapped, infinity, infinity};
+    set_result();
+    return std::move(flight_);
   }
 
  private:
+  void set_result() {
+    if (!reached_) {
+      flight_.result = end_ ? FlightResult{*end_, time_s_, length_m_}
+                            : FlightResult{Outcome::trapped, infinity, infinity};
+      return;
+    }
+    flight_.result = *reached_;
+    const After after = end_ == Outcome::collide ? After::collide
+                        : end_ == Outcome::leave ? After::leave
+                                                 : After::follow;
+    flight_.onward = {after, time_s_, length_m_};
+  }
+
+  /// The first goal cell, so far from here: the flight's result, which ends it unless it is
+  /// followed.
+  void enter_goal(double time_s, double length_m) {
+    if (beyond_ == nullptr || reached_) return;
+    end_.reset();
+    reached_ = FlightResult{Outcome::reach, time_s_ + time_s, length_m_ + length_m};
+  }
+
   std::optional<Outcome> outcome_at_start() const {
     const Grid& grid = plan_.grid;
     const Vec2 p = state_.position_m;
@@ -157,7 +146,8 @@ class SampledFlights::Run {
     if (std::isnan(command)) return 0.0;
     seen.heading_error_rad =
         seen.state.heading.turn_to(Heading::from_rad(static_cast<double>(command)));
-    const bool any_law = plan_.region[at] == Region::free;
+    const Region region = plan_.region[at];
+    const bool any_law = region == Region::free || region == path_cells_;
     const double rate =
         any_law ? std::visit([&](const auto& law) { return rate_of(law, seen); }, options_.law)
                 : rate_of(BangBang{}, seen);
@@ -175,25 +165,45 @@ class SampledFlights::Run {
     return rate;
   }
 
-  std::optional<Outcome> fly_period(double rate, Vec2 wind) {
-    const double fastest_mps = plan_.vehicle.speed_mps + norm(wind);
+  /// Answers whether the flight is over: with `end_`, or without where it was followed to.
+  bool fly_period(double rate, Vec2 wind) {
+    const double speed_mps = plan_.vehicle.speed_mps;
+    const double fastest_mps = speed_mps + norm(wind);
     const double longest_m = plan_.grid.cell_m / 8.0;
     const double steps = std::ceil(options_.control_period_s * fastest_mps / longest_m);
     const double dt_s = options_.control_period_s / steps;
     for (double i = 0.0; i < steps; i += 1.0) {
       const Vec2 from = state_.position_m;
-      const Vec2 move =
-          arc_displacement(state_.heading, rate, plan_.vehicle.speed_mps, dt_s) + dt_s * wind;
-      const double move_m = calm_ ? plan_.vehicle.speed_mps * dt_s : norm(move);
-      const auto event = first_event(plan_, from, from + move);
-      const double share = event ? event->fraction : 1.0;
+      const Vec2 move = arc_displacement(state_.heading, rate, speed_mps, dt_s) + dt_s * wind;
+      const double move_m = calm_ ? speed_mps * dt_s : norm(move);
+      const double share = share_flown(from, move, dt_s, move_m);
       if (record_ != nullptr) record_piece(rate, move, share * move_m);
+      const bool turns = std::abs(rate) > least_turn * limit_radps_;
+      flight_.turning.add(turns ? rate * share * dt_s : 0.0, share * move_m);
       length_m_ += share * move_m;
       time_s_ += share * dt_s;
       state_ = {from + share * move, turned(state_.heading, share * rate * dt_s)};
-      if (event) return event->outcome;
+      if (end_ || over_) return true;
     }
-    return std::nullopt;
+    return false;
+  }
+
+  /// How much of a step is flown: to what ends the flight, which is then noted, or all of it.
+  double share_flown(Vec2 from, Vec2 move, double dt_s, double move_m) {
+    std::optional<ChordEvent> event = first_event(plan_, from, from + move, false);
+    if (event && event->outcome == Outcome::reach && beyond_ != nullptr) {
+      enter_goal(event->fraction * dt_s, event->fraction * move_m);
+      event = first_event(plan_, from, from + move, true);
+    }
+    const double share = event ? event->fraction : 1.0;
+    if (reached_) {
+      const double most = std::min((reached_->length_m + beyond_->length_m - length_m_) / move_m,
+                                   (reached_->time_s + beyond_->time_s - time_s_) / dt_s);
+      over_ = most < share;
+      if (over_) return std::max(most, 0.0);
+    }
+    if (event) end_ = event->outcome;
+    return share;
   }
 
   void record_piece(double rate, Vec2 move, double length_m) {
@@ -219,23 +229,48 @@ class SampledFlights::Run {
   Random random_;
   State state_;
   SampledFlight* record_;
+  const FollowLimit* beyond_;  // null: the first goal cell ends the flight
+  std::optional<FlightResult> reached_;
+  std::optional<Outcome> end_;  // what ended the flight
+  bool over_ = false;           // followed for as long as was asked
+  Flight flight_;
   double limit_radps_;
   double keep_ = 0.0;  // of a gust after one period
   Vec2 gust_;
   bool calm_ = true;
+  /// The cells of a path are flown through, by the law: Eq. 8 knows but the buffer and the rest.
+  Region path_cells_ = Region::free;
   double time_s_ = 0.0;
   double length_m_ = 0.0;
 };
 
 FlightResult SampledFlights::fly(const State& start, std::size_t index) const {
+  return measure(start, index).result;
+}
+
+Flight SampledFlights::measure(const State& start, std::size_t index) const {
   return Run(plan_, options_, start, index, nullptr).fly();
 }
 
-SampledFlight SampledFlights::record(const State& start, std::size_t index) const {
+SampledFlight SampledFlights::recorded(const State& start, std::size_t index,
+                                       const FollowLimit* beyond) const {
   SampledFlight record;
-  record.flight.start = start;
-  record.flight.result = Run(plan_, options_, start, index, &record).fly();
+  Flight flown = Run(plan_, options_, start, index, &record, beyond).fly();
+  flown.segments = std::move(record.flight.segments);
+  record.flight = std::move(flown);
   return record;
+}
+
+SampledFlight SampledFlights::record(const State& start, std::size_t index) const {
+  return recorded(start, index, nullptr);
+}
+
+SampledFlight SampledFlights::follow_on(const State& start, std::size_t index,
+                                        const FollowLimit& beyond) const {
+  require(beyond.length_m > 0.0 && beyond.time_s > 0.0 &&
+              (std::isfinite(beyond.length_m) || std::isfinite(beyond.time_s)),
+          "a flight is followed for a length or a time > 0");
+  return recorded(start, index, &beyond);
 }
 
 std::vector<FlightResult> SampledFlights::fly_all(std::span<const State> starts) const {

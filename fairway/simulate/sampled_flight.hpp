@@ -1,10 +1,10 @@
 // What a real autopilot does with a plan: flights with a sampled control law, noise and wind.
 //
 // Paper 1, Eq. 8: in the buffer the vehicle turns at its limit towards the field's heading (bang-
-// bang); in the safe-start region any control law z may act. Every control period the vehicle
-// measures its state (with noise), looks up the command of the cell it believes to be in, and
-// holds the demanded turn rate until the next one. No command, or a measured place outside the
-// grid: no turn.
+// bang); outside it, on safe starts and on the cells of a path, any control law z may act. Every
+// control period the vehicle measures its state (with noise), looks up the command of the cell it
+// believes to be in, and holds the demanded turn rate until the next one. No command, or a measured
+// place outside the grid: no turn.
 //
 // Motion in a period is exact: an arc through the air, plus the drift of the wind (a trochoid over
 // the ground). Wind is constant; gusts are two independent first-order Gauss-Markov processes
@@ -89,12 +89,21 @@ class SampledFlights {
   /// `index` picks the random draws. length_m is over the ground.
   [[nodiscard]] FlightResult fly(const State& start, std::size_t index) const;
   [[nodiscard]] SampledFlight record(const State& start, std::size_t index) const;
+  /// The same without pieces and samples: result and turning. Turning is that of the vehicle, not
+  /// of its track: a millionth of the tightest turn counts as straight.
+  [[nodiscard]] Flight measure(const State& start, std::size_t index) const;
+  /// For path missions: recorded until `beyond` the first goal cell, or to an obstacle or the
+  /// grid's edge. The result is that of `fly`, to the bit, and the time limit holds up to there.
+  /// Throws PreconditionViolation unless a limit is finite and both are > 0.
+  [[nodiscard]] SampledFlight follow_on(const State& start, std::size_t index,
+                                        const FollowLimit& beyond) const;
 
   /// In parallel; start [i] flies with index i.
   [[nodiscard]] std::vector<FlightResult> fly_all(std::span<const State> starts) const;
 
  private:
   class Run;
+  SampledFlight recorded(const State& start, std::size_t index, const FollowLimit* beyond) const;
 
   const Plan& plan_;
   SampledOptions options_;

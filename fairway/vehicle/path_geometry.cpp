@@ -45,13 +45,15 @@ PathPoint nearest_on_path(Vec2 point_m, const PathMission& path) {
   return nearest;
 }
 
+bool on_piece(const State& state, const PathPiece& piece, const PathMission& path) {
+  const Heading along = Heading::of(piece.to - piece.from);
+  return edge_in_box(piece.from, piece.to, state.position_m, path.delta_position_m) &&
+         std::abs(state.heading.turn_to(along)) < path.delta_heading_rad;
+}
+
 bool on_path(const State& state, const PathMission& path) {
   bool found = false;
-  for_pieces(path, [&](const PathPiece& piece) {
-    const Heading along = Heading::of(piece.to - piece.from);
-    found = found || (edge_in_box(piece.from, piece.to, state.position_m, path.delta_position_m) &&
-                      std::abs(state.heading.turn_to(along)) < path.delta_heading_rad);
-  });
+  for_pieces(path, [&](const PathPiece& piece) { found = found || on_piece(state, piece, path); });
   return found;
 }
 

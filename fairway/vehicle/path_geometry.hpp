@@ -49,5 +49,7 @@ struct PathPoint {
 /// Membership in the goal set of a path mission (paper 1, Eq. 5): some point of the path has x and
 /// y within delta_position_m and its tangent within delta_heading_rad, all strictly.
 [[nodiscard]] bool on_path(const State& state, const PathMission& path);
+/// The same of one of its pieces.
+[[nodiscard]] bool on_piece(const State& state, const PathPiece& piece, const PathMission& path);
 
 }  // namespace fairway

@@ -62,7 +62,7 @@ TEST(Question, AStateLiesOnTheGrid) {
   EXPECT_NE(of(99.999, -10.0, 0.0), "accepted");
   EXPECT_NE(of(120.0, 0.0, 0.0), "accepted");
   EXPECT_NE(of(1e300, 0.0, 0.0), "accepted");
-  EXPECT_EQ(of(120.0, -10.0, 1e7), "h = 10000000 is no heading, expected radians");
+  EXPECT_EQ(of(120.0, -10.0, 1e7), "h = 10000000 is not a heading, expected radians");
 }
 
 RC_GTEST_PROP(Question, NoTextIsTakenForAStateThatIsNotOne, ()) {

@@ -16,6 +16,7 @@ The work is done by the extension _fairway, without the interpreter's lock; noth
 """
 
 from fairway._fairway import (
+    After,
     Certificate,
     ClfLaw,
     DubinsPath,
@@ -51,6 +52,7 @@ from fairway._fairway import (
 )
 
 __all__ = [
+    "After",
     "Certificate",
     "ClfLaw",
     "DubinsPath",

@@ -1,6 +1,8 @@
 """Out to GIS programs and ground stations; in the same words as the command."""
 import json
 import math
+import pathlib
+import warnings
 
 import numpy as np
 import pytest
@@ -47,7 +49,11 @@ def test_missions_and_rasters_are_those_of_the_command(placed, command, tmp_path
     for name in ("m.plan", "m.waypoints"):
         command("simulate", tmp_path / "p.safetensors", "--state", "-400,-300,180deg", "--qgc",
                 tmp_path / name, "--altitude", 90, "--tolerance", 2)
-        flights.save_mission(0, tmp_path / ("python-" + name), altitude_m=90, tolerance_m=2)
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            flights.save_mission(0, tmp_path / ("python-" + name), altitude_m=90, tolerance_m=2)
+        # The fence is looked for in the working folder, and is not there.
+        assert ["fence=FILE" in str(w.message) for w in told] == [True] * name.endswith(".plan")
         assert (tmp_path / name).read_text() == (tmp_path / ("python-" + name)).read_text()
     command("export", tmp_path / "p.safetensors", "-o", tmp_path / "p.tif")
     placed.save_geotiff(tmp_path / "python.tif")
@@ -59,6 +65,18 @@ def test_missions_and_rasters_are_those_of_the_command(placed, command, tmp_path
     flights.save_csv(tmp_path / "python.csv")
     assert (tmp_path / "t.geojson").read_text() == (tmp_path / "python.geojson").read_text()
     assert (tmp_path / "t.csv").read_text() == (tmp_path / "python.csv").read_text()
+
+
+def test_a_mission_keeps_a_fence(placed, scenario, tmp_path):
+    fence = pathlib.Path(scenario.path).parent / "fence.plan"
+    flights = placed.fly([[-400.0, -300.0, math.pi]])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        flights.save_mission(0, tmp_path / "m.plan", fence=fence)
+    written = json.loads((tmp_path / "m.plan").read_text())
+    assert written["geoFence"] == json.loads(fence.read_text())["geoFence"]
+    with pytest.raises(ValueError, match="no other mission has a fence"):
+        flights.save_mission(0, tmp_path / "m.waypoints", fence=fence)
 
 
 def test_a_track_goes_on_to_the_heading_of_the_goal(placed):

@@ -1,0 +1,110 @@
+#include "fairway/vehicle/path_locator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace fairway {
+namespace {
+
+/// By how far a point lies outside a range; 0 within.
+double outside(double x, double low, double high) { return std::max({low - x, x - high, 0.0}); }
+
+}  // namespace
+
+struct PathLocator::Found {
+  PathPoint nearest;
+  std::size_t piece = 0;
+};
+
+PathLocator::PathLocator(PathMission path) : path_(std::move(path)) {
+  for_pieces(path_, [&](const PathPiece& piece) {
+    pieces_.push_back(piece);
+    before_m_.push_back(length_m_);
+    length_m_ += piece.length_m;
+  });
+  if (!pieces_.empty()) box_over(0, 0, pieces_.size());
+}
+
+PathLocator::Box PathLocator::box_over(std::size_t node, std::size_t first, std::size_t last) {
+  if (boxes_.size() <= node) boxes_.resize(node + 1);
+  Box box;
+  if (last - first == 1) {
+    const auto [from, to, length] = pieces_[first];
+    box = {{std::min(from.x, to.x), std::min(from.y, to.y)},
+           {std::max(from.x, to.x), std::max(from.y, to.y)}};
+  } else {
+    const std::size_t middle = first + (last - first) / 2;
+    const Box a = box_over(2 * node + 1, first, middle);
+    const Box b = box_over(2 * node + 2, middle, last);
+    box = {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+           {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+  }
+  return boxes_[node] = box;
+}
+
+/// Of the pieces [first, last). Of equally near ones the first, as nearest_on_path has it; boxes
+/// are given a rounding's slack, so that none of them is passed over.
+void PathLocator::search(Vec2 point, std::size_t node, std::size_t first, std::size_t last,
+                         Found& found) const {
+  if (last - first == 1) {
+    const PathPiece& piece = pieces_[first];
+    const double t_m = std::clamp(dot(point - piece.from, piece.tangent()), 0.0, piece.length_m);
+    const Vec2 q = piece.at(t_m);
+    const double distance_m = norm(point - q);
+    const PathPoint& best = found.nearest;
+    if (distance_m < best.distance_m || (distance_m == best.distance_m && first < found.piece)) {
+      found = {{q, Heading::of(piece.to - piece.from), distance_m, before_m_[first] + t_m}, first};
+    }
+    return;
+  }
+  const auto away_m = [&](std::size_t child) {
+    const Box& box = boxes_[child];
+    const double dx = outside(point.x, box.low.x, box.high.x);
+    const double dy = outside(point.y, box.low.y, box.high.y);
+    return (1.0 - 1e-9) * std::sqrt(dx * dx + dy * dy);
+  };
+  const std::size_t middle = first + (last - first) / 2;
+  const std::size_t left = 2 * node + 1;
+  const std::size_t right = left + 1;
+  const double to_left_m = away_m(left);
+  const double to_right_m = away_m(right);
+  const bool right_first = to_right_m < to_left_m;
+  for (const bool on_right : {right_first, !right_first}) {
+    const double slack_m = 1e-9 * found.nearest.distance_m;
+    if ((on_right ? to_right_m : to_left_m) > found.nearest.distance_m + slack_m) continue;
+    if (on_right) {
+      search(point, right, middle, last, found);
+    } else {
+      search(point, left, first, middle, found);
+    }
+  }
+}
+
+PathPoint PathLocator::nearest(Vec2 point_m) const {
+  Found found;
+  found.nearest.distance_m = std::numeric_limits<double>::infinity();
+  if (!pieces_.empty()) search(point_m, 0, 0, pieces_.size(), found);
+  return found.nearest;
+}
+
+bool PathLocator::any_on(const State& state, std::size_t node, std::size_t first,
+                         std::size_t last) const {
+  const Box& box = boxes_[node];
+  const Vec2 p = state.position_m;
+  const double limit_m = path_.delta_position_m;
+  if (outside(p.x, box.low.x, box.high.x) > limit_m ||
+      outside(p.y, box.low.y, box.high.y) > limit_m) {
+    return false;
+  }
+  if (last - first == 1) return on_piece(state, pieces_[first], path_);
+  const std::size_t middle = first + (last - first) / 2;
+  return any_on(state, 2 * node + 1, first, middle) || any_on(state, 2 * node + 2, middle, last);
+}
+
+bool PathLocator::on_path(const State& state) const {
+  return !pieces_.empty() && any_on(state, 0, 0, pieces_.size());
+}
+
+}  // namespace fairway

@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+"""Paths followed beyond the first touch, as a user of the command meets it: what comes after reach,
+how near flights keep to the path, in every product alike.
+
+Usage: follow_command_test.py FAIRWAY [unittest arguments]
+"""
+import csv
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+FAIRWAY = None
+
+# A rectangle 14 m beside the world's edge, which is an obstacle: a flight that comes at it squarely
+# overshoots by up to a turning radius.
+SCENARIO = """[map]
+file = "map.pgm"
+resolution_m = 2.0
+cell_m = 4.0
+[vehicle]
+speed_mps = 10.0
+turn_radius_m = 20.0
+[mission]
+kind = "path"
+path_file = "path.csv"
+closed = true
+delta_position_m = {delta_m}
+delta_heading_rad = {delta_rad}
+[plan]
+alpha = {alpha}
+[simulate]
+states = [[200.0, 150.0, 0.0]]
+random = 20
+sample = 300
+[verify]
+undecided_max = 1.0
+"""
+LAP_M = 2 * (372 + 272)
+
+
+class Follow(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="fairway-follow-"))
+        (self.folder / "map.pgm").write_bytes(b"P5\n200 150\n255\n" + b"\xff" * 30000)
+        (self.folder / "path.csv").write_text("x_m,y_m\n14,14\n386,14\n386,286\n14,286\n")
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def expect(self, code, *arguments):
+        done = subprocess.run([FAIRWAY, *map(str, arguments)], cwd=self.folder, text=True,
+                              stdin=subprocess.DEVNULL, capture_output=True)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def scenario(self, name="s.toml", alpha=0.4, delta_m=10.0, delta_rad=0.5):
+        (self.folder / name).write_text(
+            SCENARIO.format(alpha=alpha, delta_m=delta_m, delta_rad=delta_rad))
+        return name
+
+    def run_it(self, out, **options):
+        done = self.expect(0, "run", self.scenario(**options), "-o", out)
+        summary = json.loads((self.folder / out / "summary.json").read_text())
+        with open(self.folder / out / "outcomes.csv") as lines:
+            rows = list(csv.DictReader(lines))
+        return summary, rows, done.stdout
+
+    def test_what_collides_after_it_reached_is_told_everywhere(self):
+        summary, rows, words = self.run_it("out")
+        following = summary["random_flights"]["following"]
+        reach = [row for row in rows[1:] if row["outcome"] == "reach"]
+        collide = [row for row in reach if row["after"] == "collide"]
+        self.assertGreater(len(collide), 10)
+        self.assertEqual(following["reach"], len(reach))
+        self.assertEqual(following["after"]["collide"], len(collide))
+        self.assertAlmostEqual(following["collide_share_of_reach"], len(collide) / len(reach))
+        self.assertIn(f"{len(collide)} of these {len(reach)} collide", " ".join(words.split()))
+        for row in rows:
+            self.assertEqual(row["after"] != "", row["outcome"] == "reach")
+            if row["after"] == "collide":
+                self.assertLess(float(row["flown_m"]), float(row["length_m"]) + LAP_M)
+            elif row["after"] == "follow":
+                self.assertAlmostEqual(float(row["flown_m"]), float(row["length_m"]) + LAP_M, delta=1e-3)
+                self.assertAlmostEqual(float(row["laps"]), 1.0, delta=0.35)
+        features = json.loads((self.folder / "out/flights.geojson").read_text())["features"]
+        self.assertEqual([f["properties"].get("after", "") for f in features],
+                         [row["after"] for row in rows[:21]])
+        drawn = sum(row["after"] == "collide" for row in rows[:21])
+        self.assertTrue(f"reach, then collide ({drawn})" in (self.folder / "out/flights.svg").read_text())
+        # With the paper's room beside the path nothing of the kind happens.
+        (self.folder / "path.csv").write_text("x_m,y_m\n60,60\n340,60\n340,240\n60,240\n")
+        wide, _, _ = self.run_it("wide", alpha=2.0)
+        self.assertEqual(wide["random_flights"]["following"]["after"]["collide"], 0)
+
+    def test_the_deltas_change_the_products(self):
+        wide, _, _ = self.run_it("wide", delta_m=12.0, delta_rad=0.6)
+        narrow, rows, _ = self.run_it("narrow", delta_m=2.0, delta_rad=0.1)
+        wide, narrow = (s["random_flights"]["following"] for s in (wide, narrow))
+        self.assertEqual(wide["after"], narrow["after"])  # how it flies does not depend on them
+        self.assertGreater(wide["on_path_share"], narrow["on_path_share"])
+        self.assertLess(wide["time_to_join_s"]["mean"], narrow["time_to_join_s"]["mean"])
+        self.assertEqual((narrow["delta_position_m"], narrow["delta_heading_rad"]), (2.0, 0.1))
+        joined = [float(row["joined_s"]) for row in rows[1:] if row["joined_s"]]
+        self.assertEqual(len(joined), narrow["joined"])
+        self.assertAlmostEqual(max(joined), narrow["time_to_join_s"]["worst"])
+        self.assertAlmostEqual(max(float(row["distance_worst_m"]) for row in rows[1:] if row["joined_s"]),
+                               narrow["distance_m"]["worst"])
+        self.assertTrue("delta_position_m, 2 m" in (self.folder / "narrow/distance.svg").read_text())
+
+    def test_simulate_follows_as_the_run_does_and_under_other_laws(self):
+        _, rows, _ = self.run_it("out")
+        plan = "out/plan.safetensors"
+        same = self.expect(0, "simulate", plan, "--random", 300, "--laps", 1, "--outcomes", "-").stdout
+        self.assertEqual([row for row in csv.DictReader(same.splitlines())], rows[1:])
+        touch = list(csv.DictReader(
+            self.expect(0, "simulate", plan, "--random", 300, "--outcomes", "-").stdout.splitlines()))
+        for short, row in zip(touch, rows[1:]):
+            self.assertNotIn("after", short)
+            self.assertEqual((short["outcome"], short["length_m"]), (row["outcome"], row["length_m"]))
+        timed = json.loads(self.expect(0, "--json", "simulate", plan, "--random", 40, "--follow", 20, "--law",
+                                       "proportional", "--gain", 2, "--wind", "1,-2", "--csv",
+                                       "t.csv").stdout)
+        self.assertEqual(timed["following"]["time_s"], 20)
+        self.assertIsNone(timed["following"]["laps"])
+        for flight in timed["flights"]:
+            if flight["after"] == "follow":
+                self.assertAlmostEqual(flight["after_s"], flight["time_s"] + 20, delta=1e-6)
+        with open(self.folder / "t.csv") as lines:
+            last_s = {row["flight"]: float(row["time_s"]) for row in csv.DictReader(lines)}
+        self.assertGreater(last_s["0"], timed["flights"][0]["time_s"])
+        again = self.expect(0, "simulate", plan, "--states", "out/outcomes.csv", "--laps", 1, "--outcomes", "-")
+        self.assertEqual(list(csv.DictReader(again.stdout.splitlines())), rows)
+
+    def test_following_is_refused_where_there_is_no_path(self):
+        self.expect(0, "plan", self.scenario(), "-o", "p.safetensors")
+        self.expect(64, "simulate", "p.safetensors", "--random", 1, "--laps", 1, "--follow", 3)
+        for wrong in ("0", "-1", "nan", "inf", "1e10", "x"):
+            self.expect(64, "simulate", "p.safetensors", "--random", 1, f"--laps={wrong}")
+            self.expect(64, "simulate", "p.safetensors", "--random", 1, f"--follow={wrong}")
+        text = (self.folder / "s.toml").read_text()
+        begin, end = text.index("[mission]"), text.index("[plan]")
+        (self.folder / "goal.toml").write_text(
+            text[:begin] + '[mission]\nkind = "goal"\ngoal_m = [200, 150]\n' + text[end:])
+        self.expect(0, "plan", "goal.toml", "-o", "goal.safetensors")
+        done = self.expect(65, "simulate", "goal.safetensors", "--random", 1, "--laps", 1)
+        self.assertIn("its mission is not a path", done.stderr)
+
+
+if __name__ == "__main__":
+    FAIRWAY = pathlib.Path(sys.argv.pop(1)).resolve()
+    unittest.main()
