@@ -24,15 +24,7 @@ SteeringFlight flight_of(Law law, const RobustnessRow& row, std::size_t start) {
   Random random = Random::stream(seed, start);
   const State from = random_pose(random);
   const State goal = random_pose(random);
-  SteeringWorld world;
-  world.goal = [&](double driven_m) { return driven(goal, row.goal_speed * driven_m, 0.0); };
-  world.disturbed = [&](const State& s) {
-    if (row.noise == 0.0) return s;
-    const double x = random.normal();
-    const double y = random.normal();
-    return State{s.position_m + row.noise * Vec2{x, y},
-                 Heading::from_rad(s.heading.rad() + row.noise * random.normal())};
-  };
+  const SteeringWorld world = world_of({row.goal_speed, row.noise, random}, goal, 1.0);
   const SteeringOptions options{0.01, {row.tolerance, row.tolerance}, 120.0};
   return fly(law, from, goal, 1.0, options, Track::none, world);
 }

@@ -95,20 +95,10 @@ template <typename Law>
 SteeredLeg flown_leg(const Law& fresh, const State& from, const State& goal, double turn_radius_m,
                      const SteeringRequest& request, std::size_t number, LegTrack track) {
   const SteeringOptions options = request.options(from, goal, turn_radius_m);
-  const GoalAt goal_at = [&](double driven_m) {
-    return request.goal_speed == 0.0 ? goal : driven(goal, request.goal_speed * driven_m, 0.0);
-  };
-  Random random = Random::stream(request.seed, number);
-  SteeringWorld world;
-  world.goal = goal_at;
-  if (request.noise_m > 0.0) {
-    world.disturbed = [&](const State& s) {
-      const double x_m = request.noise_m * random.normal();
-      const double y_m = request.noise_m * random.normal();
-      const double turn_rad = request.noise_m / turn_radius_m * random.normal();
-      return State{s.position_m + Vec2{x_m, y_m}, Heading::from_rad(s.heading.rad() + turn_rad)};
-    };
-  }
+  const SteeringWorld world =
+      world_of({request.goal_speed, request.noise_m, Random::stream(request.seed, number)}, goal,
+               turn_radius_m);
+  const GoalAt goal_at = [&](double driven_m) { return world.goal ? world.goal(driven_m) : goal; };
   Law law = fresh;
   SteeringFlight flight = fly(law, from, goal, turn_radius_m, options,
                               track == LegTrack::all ? Track::all : Track::none, world);
