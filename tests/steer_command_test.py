@@ -160,7 +160,7 @@ class Steer(unittest.TestCase):
                                  ((1, "--tolerance", 0.001), "expected more than 0.00505"),
                                  ((1, "--step", 0.2), "expected 0.0001 to 0.1 metres"),
                                  ((1, "--goal-speed", 1), "--goal-speed"),
-                                 ((1, "--n", 4), "requires --law")):
+                                 ((1, "--n", 4), "--law clf")):
             self.assertIn(words, self.steer(*poses, *arguments, code=64).stderr)
 
     def test_threads_change_nothing(self):

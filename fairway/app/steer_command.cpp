@@ -177,16 +177,13 @@ void check_arguments(const SteerArguments& a) {
 }
 
 void declare_flight(CLI::App& options, SteerArguments& a) {
-  CLI::Option* law = options.get_option("--law");
   options
       .add_option("--n", a.request.clf.n, "law clf: n of its vote (Eq. 8); shapes V, not the path")
-      ->needs(law)
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   options
       .add_option("--repulsion", a.repulsion,
                   "law clf: which circles repel each other (Eqs. 5 to 7)")
-      ->needs(law)
       ->check(CLI::IsMember({"none", "overlap", "overlap-behind"}))
       ->capture_default_str();
   options
@@ -259,7 +256,11 @@ Action declare_steer(CLI::App& options) {
       .add_option("--track", a.track,
                   "write the path: leg,driven_m,x_m,y_m,heading_rad,curvature_per_m,value")
       ->type_name("CSV");
-  options.final_callback([&a] {
+  options.final_callback([&a, &options] {
+    const bool papers = options.count("--n") + options.count("--repulsion") > 0;
+    if (papers && a.law != "clf") {
+      throw CLI::ValidationError("--n, --repulsion", "are the law clf's, expected --law clf");
+    }
     complete_request(a);
     check_arguments(a);
   });
