@@ -1,5 +1,6 @@
 // steer: obstacle-free steering to a pose.
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -105,13 +106,21 @@ void bind_path(py::module_& m) {
 /// `fly` for a law: the same arguments for both.
 template <typename Law>
 SteeringFlight flown(Law law, const py::object& start, const py::object& goal, double turn_radius_m,
-                     std::optional<double> step_m) {
+                     std::optional<double> step_m, std::optional<double> tolerance_m,
+                     double goal_speed, double noise_m, std::uint64_t seed) {
+  if (!(goal_speed >= 0.0 && goal_speed < 1.0)) {
+    throw py::value_error("goal_speed: expected a number from 0 to less than 1");
+  }
+  if (!(noise_m >= 0.0)) throw py::value_error("noise_m: expected a number of at least 0");
   const State from = state_of(start, "start");
   const State to = state_of(goal, "goal");
   const py::gil_scoped_release unlocked;
   SteeringOptions options = steering_options(from, to, turn_radius_m);
   if (step_m) options.step_m = *step_m;
-  return fly(law, from, to, turn_radius_m, options, Track::all);
+  if (tolerance_m) options.tolerance = {*tolerance_m, *tolerance_m / turn_radius_m};
+  options.length_limit_m /= 1.0 - goal_speed;
+  const SteeringWorld world = world_of({goal_speed, noise_m, Random(seed)}, to, turn_radius_m);
+  return fly(law, from, to, turn_radius_m, options, Track::all, world);
 }
 
 template <typename Law>
@@ -127,9 +136,14 @@ void define_law(py::class_<Law>& law) {
          "The curvature (1/m, positive to the left, at most 1/turn_radius_m) to hold for the next "
          "`step_m` metres. state, goal: x_m, y_m, heading_rad.")
       .def("fly", &flown<Law>, "start"_a, "goal"_a, "turn_radius_m"_a, py::kw_only(),
-           "step_m"_a = py::none(),
+           "step_m"_a = py::none(), "tolerance_m"_a = py::none(), "goal_speed"_a = 0.0,
+           "noise_m"_a = 0.0, "seed"_a = 1,
            "Drives from `start` to `goal` under (a copy of) this law, in steps of `step_m` metres "
-           "(default: a hundredth of the radius). Returns a SteeringFlight.");
+           "(default: a hundredth of the radius), until it is within `tolerance_m` and "
+           "`tolerance_m` / radius radians (default: a fiftieth of the radius). The goal moves "
+           "along its heading at `goal_speed` times the vehicle's speed; after each step x and y "
+           "are off by `noise_m` (standard deviation) and the heading by `noise_m` / radius. "
+           "Returns a SteeringFlight.");
 }
 
 void bind_laws(py::module_& m) {

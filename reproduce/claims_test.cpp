@@ -1,10 +1,13 @@
 // What the text of paper 1 claims about Figs. 6 to 8, held against our own map. Orders and ratios,
 // not digits: the paper's maps are not published.
+#include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
+#include "reproduce/buffer_measures.hpp"
 #include "reproduce/figures.hpp"
+#include "reproduce/world.hpp"
 
 namespace fairway::reproduce {
 namespace {
@@ -80,6 +83,35 @@ TEST_P(PaperClaims, EveryFlightOfTheFiguresReachesTheGoalAndNearlyAllRandomOnesD
       EXPECT_TRUE(std::isfinite(row.drawn_time_s)) << row.name;
       EXPECT_GE(row.reached_share, 0.99) << row.name;
     }
+}
+
+// docs/field.md: Eq. 3 measures from point to point, the program from centre to centre.
+TEST(BufferClaims, TheBufferKeepsItsWidthButForACellsDiagonalAndThatOfThePaperAllOfIt) {
+  const auto demo = std::filesystem::path(FAIRWAY_SOURCE_DIR) / "demo" / "demo.toml";
+  struct Documented {
+    double cell_m, least_m, percent;
+  };
+  for (const auto& [cell_m, least_m, percent] :
+       {Documented{2.0, 37.58, 2.4}, Documented{4.0, 35.78, 4.3}, Documented{8.0, 32.0, 6.1}}) {
+    const World world = world_of(demo, cell_m);
+    const double r = world.vehicle.turn_radius_m;
+    const auto kept = [&](const FieldOptions& options) {
+      const Plan plan = plan_in(world, options);
+      return buffer_measures(plan.grid, plan.region, 2.0 * r);
+    };
+    FieldOptions options;
+    const BufferMeasures by_default = kept(options);
+    EXPECT_GE(by_default.least_m, 2.0 * r - std::sqrt(2.0) * cell_m);
+    EXPECT_LT(by_default.least_m, 2.0 * r);
+    EXPECT_NEAR(by_default.least_m, least_m, 0.01);
+    EXPECT_NEAR(100.0 * by_default.share, percent, 0.1);
+    options.alpha = 2.0 + std::sqrt(2.0) * cell_m / r;
+    EXPECT_GE(kept(options).least_m, 2.0 * r);
+    options = {};
+    options.metric = Metric::paper;
+    EXPECT_GE(kept(options).least_m, 2.0 * r);
+    EXPECT_EQ(kept(options).share, 0.0);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(ToTheLetterAndByDefault, PaperClaims,

@@ -11,6 +11,7 @@
 #include "fairway/report/flight_series.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/simulate/start_states.hpp"
+#include "fairway/vehicle/path_geometry.hpp"
 #include "reproduce/world.hpp"
 
 namespace fairway::reproduce {

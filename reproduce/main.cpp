@@ -17,6 +17,7 @@
 #include "reproduce/expansion_figures.hpp"
 #include "reproduce/figures.hpp"
 #include "reproduce/steering_figures.hpp"
+#include "reproduce/steering_robustness.hpp"
 #include "reproduce/tables.hpp"
 
 namespace {
@@ -62,7 +63,9 @@ int reproduce(const std::filesystem::path& demo, const std::filesystem::path& ou
   numbers["verification"] = reproduce::numbers_of(cells, expansion);
   const auto steering = reproduce::draw_steering();
   write_pictures(out / "steering", steering.pictures);
-  const std::string steering_tables = reproduce::tables_of(steering);
+  const std::string steering_tables = reproduce::tables_of(steering) +
+                                      "\nMoving goals and noise:\n\n" +
+                                      reproduce::table_of(reproduce::steering_robustness(400));
   fmt::print("## Paper 3\n\n{}\n", steering_tables);
   text += fmt::format("## Paper 3\n\n{}\n", steering_tables);
   write_whole(out / "measures.md", Existing::replace, text);

@@ -90,10 +90,4 @@ PathMeasures path_measures(const Flight& flight, double speed_mps, const PathMis
   return measures;
 }
 
-double length_of(const PathMission& path) {
-  double length_m = 0.0;
-  for_pieces(path, [&](const PathPiece& piece) { length_m += piece.length_m; });
-  return length_m;
-}
-
 }  // namespace fairway::reproduce

@@ -35,7 +35,4 @@ struct PathMeasures {
                                          const PathMission& path, double corner_reach_m,
                                          double step_m);
 
-/// Length of the path, its closing edge included.
-[[nodiscard]] double length_of(const PathMission& path);
-
 }  // namespace fairway::reproduce

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fairway/base/heading.hpp"
+#include "fairway/vehicle/path_geometry.hpp"
 
 namespace fairway::reproduce {
 namespace {

@@ -194,7 +194,7 @@ Picture draw_map(Repulsion repulsion) {
 std::vector<SteeringExample> steering_examples() {
   const std::array<std::pair<const char*, State>, 6> starts{
       {{"Fig. 5", {{-4.0, -4.0}, Heading::from_rad(0.0)}},
-       {"Fig. 6", {{0.0, -2.0}, Heading::from_rad(-0.75 * pi)}},
+       {"Fig. 6", {{-0.65, -0.25}, Heading::from_rad(-92.5 * pi / 180.0)}},
        {"Fig. 7.1", {{1.0, -4.0}, Heading::from_rad(pi)}},
        {"Fig. 7.2", {{-3.0, -4.0}, Heading::from_rad(-0.5)}},
        {"Fig. 7.3", {{3.0, -1.0}, Heading::from_rad(0.0)}},

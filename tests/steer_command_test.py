@@ -123,6 +123,46 @@ class Steer(unittest.TestCase):
             self.assertLess(math.hypot(float(row["end_x_m"]), float(row["end_y_m"])), 0.4)
             self.assertLessEqual(set(row["word"]), set("LSR"))
 
+    def test_goals_that_move_and_noise_are_borne_by_both_laws(self):
+        poses = ("--from", "0,0,0", "--to", "100,50,90deg", "--turn-radius", 20)
+        for law in ("shortest", "clf"):
+            unrest = (*poses, "--law", law, "--goal-speed", 0.25, "--noise", 0.02)
+            done = self.steer(*unrest)
+            row = self.rows(done)[0]
+            self.assertEqual(row["converged"], "true")
+            driven = float(row["length_m"])
+            self.assertAlmostEqual(float(row["end_x_m"]), 100.0, delta=0.4)
+            self.assertAlmostEqual(float(row["end_y_m"]), 50.0 + 0.25 * driven, delta=0.4)
+            self.assertEqual(self.steer(*unrest).stdout, done.stdout)
+            self.assertNotEqual(self.steer(*unrest, "--seed", 2).stdout, done.stdout)
+        with tempfile.TemporaryDirectory() as folder:
+            track = Path(folder) / "t.csv"
+            self.steer(*poses, "--goal-speed", 0.25, "--step", 0.5, "--track", track)
+            with open(track) as file:
+                lines = list(csv.DictReader(file))
+            steps = {round(float(b["driven_m"]) - float(a["driven_m"]), 9)
+                     for a, b in zip(lines, lines[1:])}
+            self.assertEqual(steps, {0.5})
+
+    def test_the_papers_law_has_the_papers_parameters(self):
+        start = ("--from=-0.65,-0.25,-92.5deg", "--to", "0,0,90deg", "--turn-radius", 1,
+                 "--law", "clf")
+        figure_6 = self.rows(self.steer(*start))[0]
+        self.assertEqual(figure_6["word"], "RLSR")
+        self.assertNotEqual(self.rows(self.steer(*start, "--repulsion", "none"))[0]["word"], "RLSR")
+        self.assertEqual(self.rows(self.steer(*start, "--n", 3))[0], figure_6)  # shapes V alone
+        wide = self.rows(self.steer(*start, "--tolerance", 0.2))[0]
+        self.assertLess(float(wide["length_m"]), float(figure_6["length_m"]))
+
+    def test_flights_that_cannot_be_are_refused(self):
+        poses = ("--from", "0,0,0", "--to", "1,0,0", "--turn-radius")
+        for arguments, words in ((("1e14",), "at most 1e+09 metres"),
+                                 ((1, "--tolerance", 0.001), "expected more than 0.00505"),
+                                 ((1, "--step", 0.2), "expected 0.0001 to 0.1 metres"),
+                                 ((1, "--goal-speed", 1), "--goal-speed"),
+                                 ((1, "--n", 4), "--law clf")):
+            self.assertIn(words, self.steer(*poses, *arguments, code=64).stderr)
+
     def test_threads_change_nothing(self):
         draw = np.random.default_rng(6)
         text = "\n".join(",".join(map(repr, row)) for row in draw.uniform(-3, 3, (600, 6)).tolist())

@@ -26,6 +26,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+/// Beyond it the doubles of a path are not right to the millimetre (dubins_words.hpp, property 2).
+constexpr double largest_radius_m = 1e9;
+
 struct SteerArguments {
   std::string from;
   std::string to;
@@ -33,14 +36,13 @@ struct SteerArguments {
   std::string waypoints_file;
   std::string law = "shortest";
   double turn_radius_m = 0.0;
+  SteeringRequest request;
+  std::string repulsion = "overlap-behind";
   fs::path picture;
   fs::path track;
 
-  SteeringLaw steering_law() const {
-    return law == "clf" ? SteeringLaw::clf : SteeringLaw::shortest;
-  }
   /// A flight takes a hundred steps for each.
-  double most_radii() const { return law == "clf" ? farthest_flown_radii : farthest_radii; }
+  double most_radii() const { return request.is_flown() ? farthest_flown_radii : farthest_radii; }
   LegTrack legs_track() const {
     return picture.empty() && track.empty() ? LegTrack::none : LegTrack::all;
   }
@@ -48,17 +50,16 @@ struct SteerArguments {
 
 std::vector<SteeredLeg> steered(const SteerArguments& a) {
   const double r = a.turn_radius_m;
-  const SteeringLaw law = a.steering_law();
   if (!a.waypoints_file.empty()) {
     std::optional<State> start;
     if (!a.from.empty()) start = state_of_argument(a.from);
     const PosePairs legs = read_waypoints(a.waypoints_file, start, r, a.most_radii());
-    return steer_waypoints(legs, r, law, a.legs_track());
+    return steer_waypoints(legs, r, a.request, a.legs_track());
   }
   const PosePairs pairs = a.pairs_file.empty()
                               ? PosePairs{{state_of_argument(a.from)}, {state_of_argument(a.to)}}
                               : read_pose_pairs(a.pairs_file, r, a.most_radii());
-  return steer_pairs(pairs, r, law, a.legs_track());
+  return steer_pairs(pairs, r, a.request, a.legs_track());
 }
 
 json report(const SteerArguments& a, const std::vector<SteeredLeg>& legs) {
@@ -94,7 +95,7 @@ int steer_command(const SteerArguments& a, const Session& session) {
   const std::vector<SteeredLeg> legs = steered(a);
   if (!a.track.empty()) write_whole(a.track, session.existing(), track_csv(legs));
   if (!a.picture.empty()) {
-    const Picture picture = steering_picture(legs, a.turn_radius_m, a.steering_law());
+    const Picture picture = steering_picture(legs, a.turn_radius_m, a.request);
     write_picture(picture, a.picture, session.existing());
   }
   if (session.json) {
@@ -103,6 +104,32 @@ int steer_command(const SteerArguments& a, const Session& session) {
     print_csv(legs);
   }
   return exit_done;
+}
+
+/// What was given, as one request.
+void complete_request(SteerArguments& a) {
+  a.request.law = a.law == "clf" ? SteeringLaw::clf : SteeringLaw::shortest;
+  a.request.clf.repulsion = a.repulsion == "none"      ? Repulsion::none
+                            : a.repulsion == "overlap" ? Repulsion::overlap
+                                                       : Repulsion::overlap_behind;
+}
+
+void check_flight(const SteerArguments& a) {
+  const double r = a.turn_radius_m;
+  const SteeringRequest& request = a.request;
+  if (request.step_m && (*request.step_m > 0.1 * r || *request.step_m < 1e-4 * r)) {
+    throw CLI::ValidationError(
+        "--step", fmt::format("expected {:g} to {:g} metres for this radius", 1e-4 * r, 0.1 * r));
+  }
+  const double step_m = request.step_m.value_or(0.01 * r);
+  const double place_m = request.tolerance_m.value_or(0.02 * r);
+  if (!PoseTolerance{place_m, place_m / r}.covers(step_m, r)) {
+    throw CLI::ValidationError(
+        "--tolerance",
+        fmt::format("{:g} metres may be missed between two steps of {:g} metres: expected more "
+                    "than {:g}",
+                    place_m, step_m, step_m * (0.5 + 0.5 * step_m / r)));
+  }
 }
 
 void check_arguments(const SteerArguments& a) {
@@ -123,6 +150,18 @@ void check_arguments(const SteerArguments& a) {
   if (!can_steer({}, {}, a.turn_radius_m)) {
     throw CLI::ValidationError("--turn-radius", "is too small to divide by");
   }
+  if (a.turn_radius_m > largest_radius_m) {
+    throw CLI::ValidationError("--turn-radius",
+                               fmt::format("expected at most {:g} metres", largest_radius_m));
+  }
+  if (!a.waypoints_file.empty() && a.request.is_flown() && a.law != "clf") {
+    throw CLI::ExcludesError("--step, --tolerance, --goal-speed, --noise",
+                             "--waypoints with the law shortest");
+  }
+  if (!a.waypoints_file.empty() && (a.request.noise_m > 0.0 || a.request.goal_speed > 0.0)) {
+    throw CLI::ExcludesError("--goal-speed and --noise", "--waypoints");
+  }
+  check_flight(a);
   if (one && !is_within_radii(state_of_argument(a.from), state_of_argument(a.to), a.turn_radius_m,
                               a.most_radii())) {
     throw CLI::ValidationError(
@@ -132,6 +171,44 @@ void check_arguments(const SteerArguments& a) {
   if (!a.picture.empty() && a.picture == a.track) {
     throw CLI::ValidationError("--picture, --track", "expected two files");
   }
+}
+
+void declare_flight(CLI::App& options, SteerArguments& a) {
+  options
+      .add_option("--n", a.request.clf.n, "law clf: n of its vote (Eq. 8); shapes V, not the path")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  options
+      .add_option("--repulsion", a.repulsion,
+                  "law clf: which circles repel each other (Eqs. 5 to 7)")
+      ->check(CLI::IsMember({"none", "overlap", "overlap-behind"}))
+      ->capture_default_str();
+  options
+      .add_option("--step", a.request.step_m,
+                  "metres that a flight drives between two controls (default: R / 100)")
+      ->type_name("M")
+      ->check(finite_above(0.0));
+  options
+      .add_option("--tolerance", a.request.tolerance_m,
+                  "a flight has converged within M metres and M / R radians (default: R / 50)")
+      ->type_name("M")
+      ->check(finite_above(0.0));
+  options
+      .add_option("--goal-speed", a.request.goal_speed,
+                  "the goal moves along its heading at S times the vehicle's speed, 0 to 0.99")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 0.99))
+      ->capture_default_str();
+  options
+      .add_option("--noise", a.request.noise_m,
+                  "after each step x and y are off by M metres (standard deviation), the heading "
+                  "by M / R radians")
+      ->type_name("M")
+      ->check(finite_from(0.0))
+      ->capture_default_str();
+  options.add_option("--seed", a.request.seed, "of the noise")
+      ->type_name("S")
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -157,6 +234,7 @@ Action declare_steer(CLI::App& options) {
                   "shortest: a shortest path; clf: the control law of Yong and Barth, simulated")
       ->check(CLI::IsMember({"shortest", "clf"}))
       ->capture_default_str();
+  declare_flight(options, a);
   options
       .add_option("--pairs", a.pairs_file,
                   "many at once, from a CSV file x0_m,y0_m,h0_rad,x1_m,y1_m,h1_rad; - for "
@@ -176,11 +254,19 @@ Action declare_steer(CLI::App& options) {
       .add_option("--track", a.track,
                   "write the path: leg,driven_m,x_m,y_m,heading_rad,curvature_per_m,value")
       ->type_name("CSV");
-  options.final_callback([&a] { check_arguments(a); });
+  options.final_callback([&a, &options] {
+    const bool papers = options.count("--n") + options.count("--repulsion") > 0;
+    if (papers && a.law != "clf") {
+      throw CLI::ValidationError("--n, --repulsion", "are the law clf's, expected --law clf");
+    }
+    complete_request(a);
+    check_arguments(a);
+  });
   options.footer(
       "Prints CSV length_m,word,converged,end_x_m,end_y_m,end_heading_rad, a line for each\n"
-      "pair or waypoint. Obstacles are not considered. With the law clf a step is R / 100,\n"
-      "and a vehicle has converged within R / 50 and 0.02 rad; its word is what it drove.\n"
+      "pair or waypoint. Obstacles are not considered. The law clf is flown in steps; so is the\n"
+      "law shortest when --step, --tolerance, --goal-speed or --noise is given. The word of\n"
+      "a flight is what it drove.\n"
       "Example: fairway steer --from 0,0,0 --to 100,50,90deg --turn-radius 20 --picture path.svg");
   return [arguments](const Session& session) { return steer_command(*arguments, session); };
 }

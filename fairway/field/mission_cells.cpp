@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fairway/vehicle/path_geometry.hpp"
 
 namespace fairway {
 namespace {
 
-double distance_to(const PathPiece& piece, Vec2 p) {
-  const double t_m = std::clamp(dot(p - piece.from, piece.tangent()), 0.0, piece.length_m);
-  return norm(p - (piece.from + t_m * piece.tangent()));
+// Along a piece to its point nearest to p.
+double along_to(const PathPiece& piece, Vec2 p) {
+  return std::clamp(dot(p - piece.from, piece.tangent()), 0.0, piece.length_m);
 }
 
 int clamped_floor(double value, int low, int high) {
@@ -50,17 +51,21 @@ void visit_cells(const Grid& g, const PathPiece& s, const Visit& visit) {
 // Cells up to `beside` cells away from those that a piece crosses, each with the nearest piece.
 std::vector<PathCell> nearest_pieces(const Grid& grid, const PathMission& path, int beside) {
   std::vector<PathCell> cells;
+  double to_end_m = path.closed ? std::numeric_limits<double>::infinity() : length_of(path);
   for_pieces(path, [&](const PathPiece& piece) {
     visit_cells(grid, piece, [&](Cell crossed) {
       for (int dy = -beside; dy <= beside; ++dy) {
         for (int dx = -beside; dx <= beside; ++dx) {
           const Cell c{crossed.ix + dx, crossed.iy + dy};
           if (!grid.contains(c)) continue;
+          const double t_m = along_to(piece, grid.center(c));
+          const Vec2 nearest = piece.from + t_m * piece.tangent();
           cells.push_back({static_cast<std::uint32_t>(grid.index(c)), piece.tangent(),
-                           distance_to(piece, grid.center(c))});
+                           norm(grid.center(c) - nearest), std::max(0.0, to_end_m - t_m)});
         }
       }
     });
+    to_end_m -= piece.length_m;
   });
   // Of the pieces that come to a cell the nearest to its centre gives the tangent; of equally near
   // ones the first along the path (the sort is stable).

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "fairway/base/grid.hpp"
@@ -18,6 +19,9 @@ struct PathCell {
   std::uint32_t index = 0;
   Vec2 tangent;             ///< unit vector along that piece
   double distance_m = 0.0;  ///< from the cell's centre to that piece
+  double to_end_m = std::numeric_limits<double>::infinity();  ///< from the piece's point nearest
+                                                              ///< to the centre, along the path to
+                                                              ///< its open end; closed: none
 };
 
 /// All cells of the grid that the polyline touches, ascending by index, each once. Cells met only

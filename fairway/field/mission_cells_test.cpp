@@ -362,5 +362,33 @@ TEST(NearestOnPath, AClosedPathRunsHomeByItsLastPiece) {
   EXPECT_EQ(near.tangent.rad(), -pi / 2);
 }
 
+TEST(CellsOnPath, KnowHowFarTheEndOfAnOpenPathIs) {
+  Random random(66);
+  for (int draw = 0; draw < 60; ++draw) {
+    const Grid grid{40, 40, -3.0, 5.0, 1.5};
+    PathMission path;
+    for (int k = 0; k < 4; ++k) path.vertices_m.push_back(somewhere(random, grid));
+    for (const PathCell& cell : cells_on_path(grid, path)) {
+      // Along the path from the point of the cell's piece that is nearest to its centre: no other
+      // point of the path at that distance from the end is nearer to the centre than this one.
+      const double along_m = length_of(path) - cell.to_end_m;
+      double before_m = 0.0;
+      double nearest_m = std::numeric_limits<double>::infinity();
+      for_pieces(path, [&](const PathPiece& piece) {
+        const double t_m = along_m - before_m;
+        before_m += piece.length_m;
+        if (t_m < -1e-9 || t_m > piece.length_m + 1e-9) return;
+        nearest_m =
+            std::min(nearest_m, norm(piece.at(t_m) - grid.center(grid.cell_at(cell.index))));
+      });
+      ASSERT_NEAR(nearest_m, cell.distance_m, 1e-6) << "draw " << draw;
+    }
+    path.closed = true;
+    for (const PathCell& cell : cells_on_path(grid, path)) {
+      EXPECT_EQ(cell.to_end_m, std::numeric_limits<double>::infinity());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fairway

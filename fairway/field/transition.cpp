@@ -14,7 +14,8 @@ namespace {
 struct Edge {
   const std::vector<std::uint32_t>* nearest;
   float mu;
-  float width_cells;  ///< sigma_* r
+  float width_cells;                              ///< sigma_* r
+  const std::vector<PathCell>* fading = nullptr;  ///< an open path's cells: there it fades out
 };
 
 struct NearestEdge {
@@ -50,6 +51,12 @@ void turn_towards(float& cx, float& cy, float ex, float ey, float share, float a
   cx = x;
 }
 
+// Of a path's cells, ascending, the one at `index`.
+const PathCell& path_cell_at(const std::vector<PathCell>& cells, std::uint32_t index) {
+  return *std::lower_bound(cells.begin(), cells.end(), index,
+                           [](const PathCell& c, std::uint32_t i) { return c.index < i; });
+}
+
 std::vector<std::uint32_t> nearest_path_cell(const Grid& grid, const CompleteMap& complete) {
   std::vector<std::uint8_t> on_path(grid.size(), 0);
   for (const PathCell& cell : complete.path_cells) on_path[cell.index] = 1;
@@ -66,6 +73,13 @@ float transition_share(float ratio, float angle_rad, float mu, Blend blend) {
   return (1.0F - a) * (1.0F - std::pow(ratio, 1.0F / mu));
 }
 
+float share_near_open_end(double to_end_m, double cell_m, double turn_radius_m) {
+  constexpr double length_radii = 0.5;
+  // A path cell that holds the end is less than a cell from it.
+  const double ratio = (to_end_m - cell_m) / (length_radii * turn_radius_m);
+  return static_cast<float>(std::clamp(ratio, 0.0, 1.0));
+}
+
 VectorField transition_field(const Grid& grid, const CompleteMap& complete,
                              const BufferBorder& border, const VectorField& raw,
                              const Vehicle& vehicle, const FieldOptions& options) {
@@ -76,12 +90,14 @@ VectorField transition_field(const Grid& grid, const CompleteMap& complete,
   std::vector<Edge> edges;
   if (!complete.path_cells.empty() && options.sigma_path > 0.0) {
     nearest_path = nearest_path_cell(grid, complete);
-    edges.push_back(
-        {&nearest_path, static_cast<float>(options.mu_path), width_cells(options.sigma_path)});
+    const bool fades =
+        options.blend == Blend::continuous && std::isfinite(complete.path_cells.front().to_end_m);
+    edges.push_back({&nearest_path, static_cast<float>(options.mu_path),
+                     width_cells(options.sigma_path), fades ? &complete.path_cells : nullptr});
   }
   if (options.sigma_border > 0.0) {
     edges.push_back({&border.nearest, static_cast<float>(options.mu_border),
-                     width_cells(options.sigma_border)});
+                     width_cells(options.sigma_border), nullptr});
   }
   VectorField out = raw;
   if (edges.empty()) return out;
@@ -97,7 +113,11 @@ VectorField transition_field(const Grid& grid, const CompleteMap& complete,
       const float ey = raw.y[near.cell];
       const float angle = std::acos(std::clamp(cx * ex + cy * ey, -1.0F, 1.0F));  // Eq. 17
       const float ratio = near.distance_cells / near.edge->width_cells;
-      const float share = transition_share(ratio, angle, near.edge->mu, options.blend);
+      float share = transition_share(ratio, angle, near.edge->mu, options.blend);
+      if (near.edge->fading != nullptr) {
+        const PathCell& cell = path_cell_at(*near.edge->fading, near.cell);
+        share *= share_near_open_end(cell.to_end_m, grid.cell_m, vehicle.turn_radius_m);
+      }
       turn_towards(out.x[i], out.y[i], ex, ey, share, angle);
     }
   });

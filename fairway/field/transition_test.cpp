@@ -285,6 +285,38 @@ TEST(TransitionField, ContinuousFallsToNothingAtTheRimWhereThePaperJumps) {
   EXPECT_LT(jump(Blend::continuous), 0.08);
 }
 
+TEST(TransitionField, FadesOutAtTheEndOfAnOpenPathUnlessThePapersBlendIsAsked) {
+  const ObstacleMap map = samples::map_of(Mask(60, 50), 1.5);
+  const PathMission open{{{20.0, 40.0}, {60.0, 40.0}}, false};
+  const Scene s = scene_of(map, open);
+  for (const Blend blend : {Blend::paper, Blend::continuous}) {
+    FieldOptions options;
+    options.sigma_path = 2.0;
+    options.blend = blend;
+    const VectorField found =
+        transition_field(s.grid, s.complete, s.border, s.raw, vehicle, options);
+    const auto turned = [&](Vec2 at) {
+      const std::size_t i = s.grid.index(s.grid.cell_of(at));
+      return gap(std::atan2(found.y[i], found.x[i]), std::atan2(s.raw.y[i], s.raw.x[i])) > 1e-3;
+    };
+    const bool paper = blend == Blend::paper;
+    for (const double aside_m : {-6.0, -3.0, 3.0, 6.0}) {
+      EXPECT_TRUE(turned({40.0, 40.0 + aside_m}));
+      EXPECT_TRUE(turned({18.0, 40.0 + aside_m}));  // before its first vertex
+      EXPECT_EQ(turned({61.5, 40.0 + aside_m}), paper);
+      EXPECT_EQ(turned({66.0, 40.0 + aside_m}), paper);
+    }
+  }
+}
+
+TEST(ShareNearOpenEnd, RisesFromNothingACellFromTheEndToOneHalfARadiusFarther) {
+  EXPECT_EQ(share_near_open_end(0.0, 2.0, 20.0), 0.0F);
+  EXPECT_EQ(share_near_open_end(2.0, 2.0, 20.0), 0.0F);
+  EXPECT_FLOAT_EQ(share_near_open_end(7.0, 2.0, 20.0), 0.5F);
+  EXPECT_EQ(share_near_open_end(12.0, 2.0, 20.0), 1.0F);
+  EXPECT_EQ(share_near_open_end(std::numeric_limits<double>::infinity(), 2.0, 20.0), 1.0F);
+}
+
 TEST(TransitionField, WithoutWidthsNothingChangesAndOneWidthLeavesTheOtherAlone) {
   Random random(112);
   const Scene s = scene_of(blob_map(random), path);

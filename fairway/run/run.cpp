@@ -17,6 +17,7 @@
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/plan/plan_of_field.hpp"
 #include "fairway/run/checker.hpp"
+#include "fairway/run/design_warnings.hpp"
 #include "fairway/run/failing_flights.hpp"
 #include "fairway/run/flight_engine.hpp"
 #include "fairway/run/flight_summary.hpp"
@@ -58,6 +59,9 @@ std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& scenario, St
   clock.begin("reading the map", unknown_time);
   ObstacleMap map = read_map(map_request(scenario));
   Mission mission = mission_on_map(scenario, map);
+  for (std::string& warning : design_warnings(scenario, mission)) {
+    map.warnings.push_back(std::move(warning));
+  }
 
   clock.begin("computing the field", estimate(scenario, map.grid).from_field());
   FieldOrRefusal answer = compute_field(map, scenario.vehicle, mission, scenario.plan);

@@ -202,13 +202,18 @@ std::vector<ScenarioKey> plan_keys() {
       number("plan.sigma_cells", width, FAIRWAY_MEMBER(plan.sigma_cells),
              "standard deviation of the Gaussian filter, cells (Eqs. 19-21); 0: no filter"),
       number("plan.mu_path", share, FAIRWAY_MEMBER(plan.mu_path),
-             "how fast the field turns onto a path (Eqs. 11-14)"),
+             "how slowly the field turns parallel to a path near it: the smaller, the sooner "
+             "(Eq. 16)"),
       number("plan.sigma_path", width, FAIRWAY_MEMBER(plan.sigma_path),
-             "width of that transition / turning radius; 0: none"),
-      number("plan.mu_border", share, FAIRWAY_MEMBER(plan.mu_border),
-             "how fast the field turns away from a buffer (Eqs. 15-18)"),
-      number("plan.sigma_border", width, FAIRWAY_MEMBER(plan.sigma_border),
-             "width of that transition / turning radius; 0: none"),
+             "width of the transition at a path / turning radius; 0: none (the paper: 1 to 2)"),
+      number(
+          "plan.mu_border", share, FAIRWAY_MEMBER(plan.mu_border),
+          "the same at a buffer's border, on both of its sides: the field there turns towards the "
+          "border's own, mostly along it (Eq. 16)"),
+      number(
+          "plan.sigma_border", width, FAIRWAY_MEMBER(plan.sigma_border),
+          "width of the transition at a buffer's border / turning radius; 0: none (the paper: 1 to "
+          "2)"),
       choice<Filter>("plan.filter", {{"free_space", Filter::free_space}, {"paper", Filter::paper}},
                      FAIRWAY_MEMBER(plan.filter),
                      "what the filter averages: never through obstacles, or every cell as printed"),

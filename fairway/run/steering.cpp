@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "fairway/base/error.hpp"
 #include "fairway/base/number_text.hpp"
 #include "fairway/base/parallel.hpp"
+#include "fairway/base/random.hpp"
 #include "fairway/report/draw_steering.hpp"
 #include "fairway/run/path_segments.hpp"
 #include "fairway/steer/dubins_words.hpp"
@@ -19,7 +22,8 @@
 namespace fairway {
 namespace {
 
-constexpr double step_radii = 0.01;
+constexpr double step_radii = 0.01;  // of a track along a shortest path
+constexpr double tie_radii = 0.02;
 constexpr double most_points = 10'000.0;  // of a leg along a shortest path, beside its joins
 
 void add_shortest_track(SteeredLeg& leg, const DubinsPath& path) {
@@ -50,34 +54,77 @@ SteeredLeg shortest_leg(const State& from, const State& goal, double turn_radius
   return leg;
 }
 
+using GoalAt = std::function<State(double driven_m)>;
+
+/// What a law makes of a state: V, and paper 3's parts of it.
+TrackPoint seen_by(const ClfLaw& law, const State& s, const State& goal, double turn_radius_m) {
+  const ClfValue value = law.value(s, goal, turn_radius_m);
+  const bool repels = value.repels_left || value.repels_right;
+  return {0.0,
+          s,
+          0.0,
+          value.v,
+          value.v_attract,
+          repels ? value.v_repel : std::numeric_limits<double>::quiet_NaN()};
+}
+TrackPoint seen_by(const ShortestLaw& /*law*/, const State& s, const State& goal,
+                   double turn_radius_m) {
+  return {0.0, s, 0.0, shortest_length_m(s, goal, turn_radius_m) / turn_radius_m, 0.0, 0.0};
+}
+
 /// The states of a flight, with what the law saw at each: it is asked again, and answers the same.
-void add_clf_track(SteeredLeg& leg, std::span<const State> states, double turn_radius_m) {
-  ClfLaw law;
-  const double step_m = step_radii * turn_radius_m;
+template <typename Law>
+void add_flown_track(SteeredLeg& leg, Law law, std::span<const State> states, const GoalAt& goal_at,
+                     double turn_radius_m, double step_m) {
   for (std::size_t i = 0; i < states.size(); ++i) {
     const State& s = states[i];
-    const ClfValue value = law.value(s, leg.goal, turn_radius_m);
-    const bool repels = value.repels_left || value.repels_right;
     const double driven_m = static_cast<double>(i) * step_m;
+    const State goal = goal_at(driven_m);
+    TrackPoint point = seen_by(law, s, goal, turn_radius_m);
+    point.driven_m = driven_m;
     const bool last = i + 1 == states.size();
-    const double per_m = !last ? law.curvature_per_m(s, leg.goal, turn_radius_m, step_m)
-                         : leg.track.empty() ? 0.0
-                                             : leg.track.back().curvature_per_m;
-    leg.track.push_back({driven_m, s, per_m, value.v, value.v_attract,
-                         repels ? value.v_repel : std::numeric_limits<double>::quiet_NaN()});
-    if (!last) leg.segments.push_back({s, driven_m, step_m, per_m});
+    point.curvature_per_m = !last ? law.curvature_per_m(s, goal, turn_radius_m, step_m)
+                            : leg.track.empty() ? 0.0
+                                                : leg.track.back().curvature_per_m;
+    leg.track.push_back(point);
+    if (!last) leg.segments.push_back({s, driven_m, step_m, point.curvature_per_m});
   }
 }
 
-SteeredLeg clf_leg(const State& from, const State& goal, double turn_radius_m, LegTrack track) {
-  ClfLaw law;
-  SteeringFlight flight =
-      fly(law, from, goal, turn_radius_m, steering_options(from, goal, turn_radius_m),
-          track == LegTrack::all ? Track::all : Track::none);
-  SteeredLeg leg{from, goal, flight.length_m, std::move(flight.word), flight.converged, flight.end,
-                 {},   {}};
-  add_clf_track(leg, flight.track, turn_radius_m);
+template <typename Law>
+SteeredLeg flown_leg(const Law& fresh, const State& from, const State& goal, double turn_radius_m,
+                     const SteeringRequest& request, std::size_t number, LegTrack track) {
+  const SteeringOptions options = request.options(from, goal, turn_radius_m);
+  const SteeringWorld world =
+      world_of({request.goal_speed, request.noise_m, Random::stream(request.seed, number)}, goal,
+               turn_radius_m);
+  const GoalAt goal_at = [&](double driven_m) { return world.goal ? world.goal(driven_m) : goal; };
+  Law law = fresh;
+  SteeringFlight flight = fly(law, from, goal, turn_radius_m, options,
+                              track == LegTrack::all ? Track::all : Track::none, world);
+  SteeredLeg leg{from,
+                 goal_at(flight.length_m),
+                 flight.length_m,
+                 std::move(flight.word),
+                 flight.converged,
+                 flight.end,
+                 {},
+                 {}};
+  add_flown_track(leg, fresh, flight.track, goal_at, turn_radius_m, options.step_m);
   return leg;
+}
+
+SteeredLeg leg_of(const PosePairs& pairs, std::size_t i, double turn_radius_m,
+                  const SteeringRequest& request, LegTrack track) {
+  const State& from = pairs.from[i];
+  const State& goal = pairs.to[i];
+  if (!request.is_flown()) return shortest_leg(from, goal, turn_radius_m, track);
+  if (request.law == SteeringLaw::clf) {
+    return flown_leg(ClfLaw(request.clf), from, goal, turn_radius_m, request, i, track);
+  }
+  const SteeringOptions options = request.options(from, goal, turn_radius_m);
+  return flown_leg(ShortestLaw({options.tolerance, tie_radii * turn_radius_m}), from, goal,
+                   turn_radius_m, request, i, track);
 }
 
 SteeredPath joined(std::span<const SteeredLeg> legs, std::string name) {
@@ -132,27 +179,38 @@ std::vector<ChartSeries> value_series(std::span<const SteeredLeg> legs, Steering
 
 }  // namespace
 
-std::vector<SteeredLeg> steer_pairs(const PosePairs& pairs, double turn_radius_m, SteeringLaw law,
-                                    LegTrack track) {
+SteeringOptions SteeringRequest::options(const State& from, const State& goal,
+                                         double turn_radius_m) const {
+  SteeringOptions options = steering_options(from, goal, turn_radius_m);
+  options.step_m = step_m.value_or(options.step_m);
+  if (tolerance_m) options.tolerance = {*tolerance_m, *tolerance_m / turn_radius_m};
+  require(options.tolerance.covers(options.step_m, turn_radius_m), "the tolerance covers the step");
+  require(goal_speed >= 0.0 && goal_speed < 1.0, "the goal is slower than the vehicle");
+  options.length_limit_m /= 1.0 - goal_speed;
+  return options;
+}
+
+std::vector<SteeredLeg> steer_pairs(const PosePairs& pairs, double turn_radius_m,
+                                    const SteeringRequest& request, LegTrack track) {
   std::vector<SteeredLeg> legs(pairs.from.size());
-  const bool shortest = law == SteeringLaw::shortest;
-  for_ranges(legs.size(), shortest ? 1024 : 4, [&](std::size_t begin, std::size_t end) {
+  for_ranges(legs.size(), request.is_flown() ? 4 : 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      legs[i] =
-          (shortest ? shortest_leg : clf_leg)(pairs.from[i], pairs.to[i], turn_radius_m, track);
+      legs[i] = leg_of(pairs, i, turn_radius_m, request, track);
     }
   });
   return legs;
 }
 
 std::vector<SteeredLeg> steer_waypoints(const PosePairs& asked, double turn_radius_m,
-                                        SteeringLaw law, LegTrack track) {
-  if (law == SteeringLaw::shortest) return steer_pairs(asked, turn_radius_m, law, track);
+                                        const SteeringRequest& request, LegTrack track) {
+  if (request.law == SteeringLaw::shortest) {
+    return steer_pairs(asked, turn_radius_m, SteeringRequest{}, track);
+  }
   const State& start = asked.from.front();
-  const SteeringOptions options = steering_options(start, asked.to.front(), turn_radius_m);
-  WaypointFlight flight = follow_waypoints(WaypointLaw<ClfLaw>(ClfLaw(), {options.tolerance}),
-                                           start, asked.to, turn_radius_m, options.step_m,
-                                           track == LegTrack::all ? Track::all : Track::none);
+  const SteeringOptions options = request.options(start, asked.to.front(), turn_radius_m);
+  WaypointFlight flight = follow_waypoints(
+      WaypointLaw<ClfLaw>(ClfLaw(request.clf), {options.tolerance}), start, asked.to, turn_radius_m,
+      options.step_m, track == LegTrack::all ? Track::all : Track::none);
   std::vector<SteeredLeg> legs;
   for (std::size_t i = 0; i < flight.legs.size(); ++i) {
     WaypointLeg& leg = flight.legs[i];
@@ -164,7 +222,9 @@ std::vector<SteeredLeg> steer_waypoints(const PosePairs& asked, double turn_radi
                     leg.end,
                     {},
                     {}});
-    add_clf_track(legs.back(), leg.track, turn_radius_m);
+    const GoalAt goal_at = [&](double /*driven_m*/) { return asked.to[i]; };
+    add_flown_track(legs.back(), ClfLaw(request.clf), leg.track, goal_at, turn_radius_m,
+                    options.step_m);
   }
   return legs;
 }
@@ -184,15 +244,17 @@ std::string track_csv(std::span<const SteeredLeg> legs) {
   return fmt::to_string(text);
 }
 
-Picture steering_picture(std::span<const SteeredLeg> legs, double turn_radius_m, SteeringLaw law) {
+Picture steering_picture(std::span<const SteeredLeg> legs, double turn_radius_m,
+                         const SteeringRequest& request) {
   SteeringPicture picture;
   picture.turn_radius_m = turn_radius_m;
   picture.start = legs.front().from;
   for (const SteeredLeg& leg : legs) picture.goals.push_back(leg.goal);
-  if (law == SteeringLaw::shortest) {
+  if (!request.is_flown()) {
     picture.path = joined(legs, "shortest: " + words_of(legs));
   } else {
-    picture.path = joined(legs, "law clf: " + words_of(legs));
+    const char* law = request.law == SteeringLaw::clf ? "clf" : "shortest";
+    picture.path = joined(legs, fmt::format("law {}: {}", law, words_of(legs)));
     std::vector<SteeredLeg> shortest;
     State from = picture.start;
     for (const SteeredLeg& leg : legs) {
@@ -201,7 +263,7 @@ Picture steering_picture(std::span<const SteeredLeg> legs, double turn_radius_m,
     }
     picture.compared = joined(shortest, "shortest: " + words_of(shortest));
   }
-  picture.values = value_series(legs, law);
+  picture.values = value_series(legs, request.law);
   picture.value_label = "V (turning radii)";
   return draw_steering(picture);
 }

@@ -8,10 +8,12 @@
 //   Eq. 11       reversed: alpha_L is the direction from L to L'.
 //   Eqs. 14, 16  for pi/2 < |alpha - theta| <= pi.
 //   Eqs. 8, 9    have the exponent -1/n, as Eq. 18 has.
-//   Eqs. 5 to 7  the condition of the repulsion is read as Eq. 7 prints it, and in the mirror: L
-//                repels R' when the two circles overlap and 0 <= y_R' - y_L < 2 r: L is behind R'.
+//   Eqs. 5 to 7  L repels R' when the two circles overlap, as the text has it, and 0 <= y_R' - y_L <
+//                2 r, which is all that Eq. 7 prints: L is behind R'. R and L' in the mirror.
 //                What repels is the wrong pair, so what is turned round is the law of that circle
 //                of the vehicle: k_L goes with L and R', k_R with R and L'.
+//   Eq. 20       the control repels as long as a repulsion exists ("V_R is selected if only it
+//                exists"); the printed vote, which value() charts, attracts once V_A < V_R.
 //   Section B3   the repulsion lasts, from the start, until it vanishes for the first time, and
 //                then never comes back: one bit of memory.
 // What the law reaches and how often it is shortest is measured in docs/steering.md.

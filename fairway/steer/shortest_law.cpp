@@ -41,6 +41,41 @@ double growth_for(const State& end, const State& goal, double turn_radius_m) {
                    turn_radius_m * std::abs(end.heading.turn_to(goal.heading)));
 }
 
+/// Along the goal's heading from it, and to its left.
+Vec2 in_frame_of(const State& goal, Vec2 position_m) {
+  const Vec2 ahead = goal.heading.unit();
+  const Vec2 d = position_m - goal.position_m;
+  return {dot(ahead, d), cross(ahead, d)};
+}
+
+/// A turn to the goal's heading, then straight on to where the goal is abeam: when it is passed
+/// there within the tolerance.
+std::optional<DubinsPath> abreast(const State& state, const State& goal,
+                                  const PoseTolerance& tolerance, double turn_radius_m) {
+  constexpr double share = 0.9;  // of the tolerance beside the goal: the rest is for disturbances
+  const double turn_rad = state.heading.turn_to(goal.heading);
+  DubinsPath path{state, turn_radius_m, turn_rad >= 0.0 ? DubinsWord::LSL : DubinsWord::RSR, {}};
+  path.part_m[0] = std::abs(turn_rad) * turn_radius_m;
+  const Vec2 at = in_frame_of(goal, end_of(path).position_m);
+  if (std::abs(at.y) > share * tolerance.place_m || at.x > tolerance.place_m) return std::nullopt;
+  path.part_m[1] = std::max(0.0, -at.x);
+  return path;
+}
+
+/// The shortest path to a pose straight ahead of the goal, the nearest to which there is one that
+/// is a radius or more shorter than `loop_m`; while the goal is ahead.
+std::optional<DubinsPath> beyond(const State& state, const State& goal,
+                                 const PoseTolerance& tolerance, double turn_radius_m,
+                                 double loop_m) {
+  if (in_frame_of(goal, state.position_m).x >= 0.0) return std::nullopt;
+  for (double ahead_m = tolerance.place_m; ahead_m <= turn_radius_m; ahead_m *= 1.5) {
+    const State pose{goal.position_m + ahead_m * goal.heading.unit(), goal.heading};
+    const DubinsPath path = shortest_path(state, pose, turn_radius_m);
+    if (path.length_m() + turn_radius_m < loop_m) return path;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 bool PoseTolerance::holds(const State& state, const State& goal) const {
@@ -74,9 +109,16 @@ void ShortestLaw::choose(const State& state, const State& goal, double turn_radi
   path_ = chosen;
   if (growth_m <= 1e-9 * turn_radius_m) return;
   const State end = end_of(rest);
-  if (options_.tolerance.holds(end, goal) && growth_m > growth_for(end, goal, turn_radius_m)) {
+  if (growth_m <= growth_for(end, goal, turn_radius_m)) return;
+  if (options_.tolerance.holds(end, goal)) {
     path_ = rest;
+    return;
   }
+  // A disturbance, or the goal's motion, has spoilt that one: pass the goal as near as can be. It
+  // may come within the tolerance on the way, and the jump may go as it came.
+  std::optional<DubinsPath> near = abreast(state, goal, options_.tolerance, turn_radius_m);
+  if (!near) near = beyond(state, goal, options_.tolerance, turn_radius_m, chosen.length_m());
+  if (near) path_ = near;
 }
 
 double ShortestLaw::curvature_per_m(const State& state, const State& goal, double turn_radius_m,

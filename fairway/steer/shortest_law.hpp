@@ -10,7 +10,11 @@
 //     radius: every state on a last arc is such a place, and the smallest error puts the vehicle on
 //     the wrong side. A path that is longer than what is left of the one followed, by more than
 //     that one ends beside the goal can explain, is not taken while that one ends within the
-//     tolerance.
+//     tolerance. When it no longer does (noise, a goal that moves), the vehicle still does not turn
+//     away for a loop while the goal is ahead: it turns to the goal's heading where that passes the
+//     goal within the tolerance, and else drives for a pose straight ahead of the goal, up to a
+//     radius, that can be reached without a loop. As soon as there is a path to the goal itself
+//     without the jump, that is taken again.
 //   Sampling. A control holds for a step. Where a part ends within the step the mean curvature is
 //     held, so that the heading after the step is the path's; the place errs by step^2 / (4 r) at
 //     most for each join, and the goal is passed at half a step at most: the tolerance must be more
@@ -19,7 +23,8 @@
 //   1. While that path ends within the tolerance of the goal, W falls by the step in every step,
 //      but for at most four times what it ends beside the goal (place, and heading times r).
 //      Undisturbed that is 2 step^2 / r at most, as a path has two joins.
-//   2. The path followed ends within `tolerance` of the goal, or is a path to the goal itself.
+//   2. The path followed ends within `tolerance` of the goal, or is a path to the goal itself; or,
+//      after a disturbance that made the length jump, passes the goal, which is ahead.
 // docs/steering.md argues the descent, with noise and with a moving goal.
 #pragma once
 

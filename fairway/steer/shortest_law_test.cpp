@@ -103,7 +103,7 @@ TEST(ShortestLaw, DoesNotHesitateAtATie) {
       }
       return State{s.position_m + 1e-4 * r * Vec2{random.normal(), random.normal()}, s.heading};
     };
-    const SteeringFlight flight = fly(law, from, goal, r, options, Track::none, watch);
+    const SteeringFlight flight = fly(law, from, goal, r, options, Track::none, {.disturbed = watch});
     ASSERT_TRUE(flight.converged) << i;
     ASSERT_LE(changes, 12) << i << ' ' << flight.word;
     ASSERT_LE(flight.length_m, shortest_length_m(from, goal, r) + 8.0 * r);
@@ -126,7 +126,7 @@ TEST(ShortestLaw, ReachesTheGoalInNoise) {
       return State{s.position_m + 5e-4 * r * Vec2{random.normal(), random.normal()},
                    Heading::from_rad(s.heading.rad() + 5e-4 * random.normal())};
     };
-    const SteeringFlight flight = fly(law, from, goal, r, options, Track::none, gust);
+    const SteeringFlight flight = fly(law, from, goal, r, options, Track::none, {.disturbed = gust});
     ASSERT_TRUE(flight.converged) << i;
     direct += flight.length_m <= shortest_length_m(from, goal, r) + 0.3 * r ? 1 : 0;
   }
@@ -138,18 +138,12 @@ TEST(ShortestLaw, CatchesAGoalThatMovesMoreSlowly) {
   for (int i = 0; i < 500; ++i) {
     const double r = 20.0;
     const State from = oracle::random_pose(random, 10.0 * r);
-    State goal = oracle::random_pose(random, 10.0 * r);
+    const State goal = oracle::random_pose(random, 10.0 * r);
     const double speed = random.uniform(0.0, 0.5);  // of the vehicle's, along the goal's heading
-    const PoseTolerance tolerance{0.05 * r, 0.05};
-    ShortestLaw law({tolerance, 0.02 * r});
-    State s = from;
-    const double step_m = 0.01 * r;
-    bool caught = false;
-    for (int k = 0; k < 20'000 && !caught; ++k) {
-      s = driven(s, step_m, law.curvature_per_m(s, goal, r, step_m));
-      goal = driven(goal, speed * step_m, 0.0);
-      caught = tolerance.holds(s, goal);
-    }
+    const SteeringOptions options{0.01 * r, {0.05 * r, 0.05}, 200.0 * r};
+    ShortestLaw law({options.tolerance, 0.02 * r});
+    const auto moving = [&](double driven_m) { return driven(goal, speed * driven_m, 0.0); };
+    const bool caught = fly(law, from, goal, r, options, Track::none, {.goal = moving}).converged;
     ASSERT_TRUE(caught) << i << " speed " << speed;
   }
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fairway/base/random.hpp"
 #include "fairway/steer/clf_law.hpp"
 #include "fairway/steer/shortest_law.hpp"
 
@@ -37,14 +38,31 @@ struct SteeringFlight {
 
 enum class Track { none, all };
 
+/// What the world does while a vehicle steers. Either may be empty.
+struct SteeringWorld {
+  /// The state that the vehicle is really in after a step.
+  std::function<State(const State&)> disturbed = {};
+  /// The goal once the vehicle has driven this far, metres; else the one of the flight.
+  std::function<State(double driven_m)> goal = {};
+};
+
+/// A goal that moves along its heading, and gusts.
+struct SteeringUnrest {
+  double goal_speed = 0.0;  ///< of the vehicle's
+  double noise_m = 0.0;  ///< standard deviation of x and y after each step, over r of the heading
+  Random random{1};      ///< of the gusts
+};
+[[nodiscard]] SteeringWorld world_of(const SteeringUnrest& unrest, const State& goal,
+                                     double turn_radius_m);
+
+/// Drives under a law until the vehicle is within the tolerance of the goal where that is then, or
+/// has driven the length limit. Throws PreconditionViolation unless can_steer(), the step is
+/// positive and the limit finite.
 [[nodiscard]] SteeringFlight fly(ClfLaw& law, const State& from, const State& goal,
                                  double turn_radius_m, const SteeringOptions& options,
-                                 Track track = Track::none);
-
-/// `disturbed`, when there is one, gives the state that the vehicle is really in after a step.
+                                 Track track = Track::none, const SteeringWorld& world = {});
 [[nodiscard]] SteeringFlight fly(ShortestLaw& law, const State& from, const State& goal,
                                  double turn_radius_m, const SteeringOptions& options,
-                                 Track track = Track::none,
-                                 const std::function<State(const State&)>& disturbed = {});
+                                 Track track = Track::none, const SteeringWorld& world = {});
 
 }  // namespace fairway

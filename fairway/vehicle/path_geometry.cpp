@@ -29,6 +29,12 @@ bool edge_in_box(Vec2 a, Vec2 b, Vec2 p, double limit) {
 
 }  // namespace
 
+double length_of(const PathMission& path) {
+  double sum_m = 0.0;
+  for_pieces(path, [&](const PathPiece& piece) { sum_m += piece.length_m; });
+  return sum_m;
+}
+
 PathPoint nearest_on_path(Vec2 point_m, const PathMission& path) {
   PathPoint nearest;
   nearest.distance_m = std::numeric_limits<double>::infinity();

@@ -37,6 +37,9 @@ void for_pieces(const PathMission& path, const Visit& visit) {
   }
 }
 
+/// From the first vertex to the end, the closing piece of a closed path included.
+[[nodiscard]] double length_of(const PathMission& path);
+
 /// The point of a path nearest to another point; of several the first along the path.
 struct PathPoint {
   Vec2 position_m;

@@ -272,6 +272,10 @@ class ShortestLaw:
         turn_radius_m: float,
         *,
         step_m: Optional[float] = ...,
+        tolerance_m: Optional[float] = ...,
+        goal_speed: float = ...,
+        noise_m: float = ...,
+        seed: int = ...,
     ) -> SteeringFlight: ...
 
 class ClfLaw:
@@ -288,6 +292,10 @@ class ClfLaw:
         turn_radius_m: float,
         *,
         step_m: Optional[float] = ...,
+        tolerance_m: Optional[float] = ...,
+        goal_speed: float = ...,
+        noise_m: float = ...,
+        seed: int = ...,
     ) -> SteeringFlight: ...
 
 class WaypointLeg:

@@ -41,6 +41,23 @@ def test_a_path_driven_piece_by_piece_arrives():
     np.testing.assert_array_equal(path.pose_at(1e9), path.end)
 
 
+def test_laws_fly_in_noise_and_to_goals_that_move():
+    start, goal, radius_m = [0, 0, 0], [100, 50, math.pi / 2], 20.0
+    for law in (fairway.ClfLaw(), fairway.ShortestLaw(0.4, 0.02, tie_m=0.4)):
+        still = law.fly(start, goal, radius_m)
+        moved = law.fly(start, goal, radius_m, goal_speed=0.25, noise_m=0.02, seed=3)
+        again = law.fly(start, goal, radius_m, goal_speed=0.25, noise_m=0.02, seed=3)
+        assert still.converged and moved.converged
+        assert moved.track[-1][1] > still.track[-1][1] + 20.0  # it fled north
+        np.testing.assert_array_equal(moved.track, again.track)
+        other = law.fly(start, goal, radius_m, goal_speed=0.25, noise_m=0.02, seed=4)
+        assert not np.array_equal(moved.track[:50], other.track[:50])
+        wide = law.fly(start, goal, radius_m, tolerance_m=2.0)
+        assert wide.converged and wide.length_m < still.length_m
+        with pytest.raises(ValueError, match="goal_speed"):
+            law.fly(start, goal, radius_m, goal_speed=1.0)
+
+
 def test_one_goal_serves_many_starts():
     rng = np.random.default_rng(21)
     start = random_poses(rng, 9)
