@@ -80,7 +80,7 @@ void fly_all(Flights& flights) {
 std::shared_ptr<Flights> fly(const std::shared_ptr<HeldPlan>& plan, const py::object& states) {
   auto flown = std::make_shared<Flights>();
   flown->plan = plan;
-  flown->starts = starts_of(states, "states");
+  flown->starts = states_of(states, "states");
   const py::gil_scoped_release unlocked;
   flown->engine = {plan, &plan->exact()};
   fly_all(*flown);
@@ -118,7 +118,7 @@ std::shared_ptr<Flights> fly_sampled(const std::shared_ptr<HeldPlan>& plan,
                                      double gust_time_s, double time_limit_s, std::uint64_t seed) {
   auto flown = std::make_shared<Flights>();
   flown->plan = plan;
-  flown->starts = starts_of(states, "states");
+  flown->starts = states_of(states, "states");
   SampledOptions options;
   options.law = law_of(law, gain_per_s);
   options.control_period_s = control_period_s;
