@@ -63,11 +63,12 @@ class Maps(unittest.TestCase):
 class Info(Maps):
     def test_tells_size_free_share_and_room_in_words_json_and_a_picture(self):
         words = self.expect(0, "info", "room.pgm", "--resolution", 1, "--cell", 1, "-o", "room.png").stdout
-        self.assertRegex(words, r"size +72 m x 62 m: 72 x 62 cells of 1 m")
+        self.assertRegex(words, r"size +70 m x 60 m: 70 x 60 cells of 1 m")
         self.assertIn("not georeferenced", words)
         self.assertEqual((self.folder / "room.png").read_bytes()[:4], b"\x89PNG")
         found = json.loads(self.expect(0, "info", "room.pgm", "--resolution", 1, "--cell", 1, "--json").stdout)
-        self.assertEqual(found["cells"], [72, 62])
+        self.assertEqual(found["cells"], [70, 60])
+        self.assertEqual(found["origin_m"], [0.0, 0.0])
         self.assertEqual(found["free_cells"], 70 * 60 - 2 * 48)
         self.assertEqual(found["part_cells"], [70 * 60 - 2 * 48])
         self.assertFalse(found["georeferenced"])

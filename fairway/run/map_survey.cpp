@@ -30,6 +30,10 @@ double round_up(double length_m) {
   return std::stod(fmt::format("{:g}", 10.0 * power));
 }
 
+Grid without_ring(const Grid& g) {
+  return {g.nx - 2, g.ny - 2, g.x0_m + g.cell_m, g.y0_m + g.cell_m, g.cell_m};
+}
+
 double share_of(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -85,6 +89,7 @@ MapSurvey survey_map(const MapRequest& request, std::optional<double> turn_radiu
   s.map = read_map(request);
   s.turn_radius_m = turn_radius_m;
   const Grid& grid = s.map.grid;
+  s.inside = request.outside_is_obstacle ? without_ring(grid) : grid;
   const FieldOptions options;
   const Clearances room = clearances(s.map, options.metric);
   const double limit =
@@ -109,7 +114,7 @@ MapSurvey survey_map(const MapRequest& request, std::optional<double> turn_radiu
 }
 
 std::string survey_words(const MapSurvey& s, const std::string& name) {
-  const Grid& g = s.map.grid;
+  const Grid& g = s.inside;
   std::string text = fmt::format("{}\n", name);
   const auto line = [&](const char* key, const std::string& words) {
     text += fmt::format("  {:<20}{}\n", key, words);
@@ -144,7 +149,7 @@ std::string survey_words(const MapSurvey& s, const std::string& name) {
 }
 
 json survey_json(const MapSurvey& s) {
-  const Grid& g = s.map.grid;
+  const Grid& g = s.inside;
   constexpr std::size_t most_parts = 100;
   const std::size_t told = std::min(s.part_cells.size(), most_parts);
   json all = {{"cells", {g.nx, g.ny}},

@@ -12,6 +12,7 @@
 #include "fairway/map/degrees_from_frame.hpp"
 #include "fairway/map/earth_frame.hpp"
 #include "fairway/run/map_survey.hpp"
+#include "fairway/run/mission_on_map.hpp"
 #include "fairway/run/run.hpp"
 
 namespace fairway {
@@ -178,6 +179,17 @@ std::string text_of(const NewScenarioRequest& request, const Candidate& chosen) 
                                radius_m, cell_m, words(advice, metres_text)));
 }
 
+/// A world without a fence is a little larger with its goal than without: what fitted is tried.
+bool can_be_planned(const Scenario& scenario) {
+  const Progress silent;
+  StageClock clock(silent);
+  try {
+    return std::holds_alternative<Planned>(plan_scenario(scenario, clock));
+  } catch (const WarnedInputError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 NewScenario new_scenario(const NewScenarioRequest& request) {
@@ -188,9 +200,7 @@ NewScenario new_scenario(const NewScenarioRequest& request) {
       made.text = text_of(request, chosen);
       made.scenario = scenario_of_text(made.text, request.output);
       made.serves = chosen.goal.serves;
-      const Progress silent;
-      StageClock clock(silent);
-      if (std::holds_alternative<Planned>(plan_scenario(made.scenario, clock))) return made;
+      if (can_be_planned(made.scenario)) return made;
     }
     constexpr int most_halvings = 3;
     if (request.cell_m || halvings == most_halvings) refuse(request, cell_m);

@@ -51,11 +51,11 @@ std::vector<MapRequest> maps_in(const ScratchFolder& folder) {
       "image: image.pgm\nresolution: 0.05\norigin: [-1.0, -2.0, 0.0]\nnegate: 0\n"
       "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
   add("fence.fence",
-      "47.3970 8.5440\n47.3970 8.5440\n47.4010 8.5440\n47.4010 8.5500\n"
+      "47.3990 8.5470\n47.3970 8.5440\n47.4010 8.5440\n47.4010 8.5500\n"
       "47.3970 8.5500\n47.3970 8.5440\n");
   add("fence.geojson",
       R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":
-      {"fence":"keep_in"},"geometry":{"type":"Polygon","coordinates":[[[8.54,47.39],[8.55,47.39],
+      {"inclusion":true},"geometry":{"type":"Polygon","coordinates":[[[8.54,47.39],[8.55,47.39],
       [8.55,47.4],[8.54,47.4],[8.54,47.39]]]}}]})");
   add("out.plan", R"({"fileType":"Plan","geoFence":{"version":2,"polygons":[],
     "circles":[{"inclusion":false,"circle":{"center":[47.3977,8.5456],"radius":40}}]}})");
