@@ -87,11 +87,12 @@ class Info(Maps):
 class Init(Maps):
     def test_what_it_writes_runs_as_it_is_from_any_folder(self):
         (self.folder / "deeper").mkdir()
-        told = self.expect(0, "init", "room.pgm", "--resolution", 1, "--turn-radius", 3, "-o", "deeper/s.toml").stdout
+        told = self.expect(0, "init", "room.pgm", "--resolution", 1, "--cell", 1, "--turn-radius", 2.5, "-o",
+                           "deeper/s.toml").stdout
         self.assertIn("Next: fairway run deeper/s.toml", told)
         scenario = tomllib.loads((self.folder / "deeper/s.toml").read_text())
         self.assertEqual(scenario["map"]["file"], "../room.pgm")
-        self.assertEqual(scenario["vehicle"]["turn_radius_m"], 3.0)
+        self.assertEqual(scenario["vehicle"]["turn_radius_m"], 2.5)
         self.expect(0, "run", "deeper/s.toml", "-o", "out")
         summary = json.loads((self.folder / "out/summary.json").read_text())
         self.assertLess(summary["unreachable_share_of_free"], 0.1)
