@@ -31,7 +31,7 @@ namespace {
 using namespace pybind11::literals;
 
 py::tuple query(const HeldCertificate& held, const py::object& rows) {
-  const std::vector<State> states = starts_of(rows, "states");
+  const std::vector<State> states = states_of(rows, "states");
   std::vector<std::int8_t> verdict(states.size());
   std::vector<double> time_s(states.size());
   {
@@ -47,6 +47,7 @@ py::tuple query(const HeldCertificate& held, const py::object& rows) {
 
 py::array verdict_map(const HeldCertificate& held, double heading_rad) {
   if (!std::isfinite(heading_rad)) throw py::value_error("heading_rad: is not finite");
+  require_heading(heading_rad, "heading_rad");
   std::vector<Verdict> verdicts;
   {
     const py::gil_scoped_release unlocked;
@@ -90,6 +91,7 @@ void save_geotiff(const HeldCertificate& held, const std::filesystem::path& path
     headings.clear();
     for (const double rad : *headings_rad) {
       if (!std::isfinite(rad)) throw py::value_error("headings_rad: not all are finite");
+      require_heading(rad, "headings_rad: one");
       headings.push_back(Heading::from_rad(rad));
     }
   }
@@ -163,6 +165,18 @@ which a state that reaches does, else +inf.)")
                 bang_bang(c.grid, c.vehicle, c.heading_rad.data(), x_m, y_m, heading_rad));
           },
           "x_m"_a, "y_m"_a, "heading_rad"_a, command_words)
+      .def(
+          "states_from_deg",
+          [](const HeldCertificate& held, const py::object& rows) {
+            return states_from_degrees(held.certificate.frame.value_or(Frame{}), rows);
+          },
+          "states_deg"_a, "As Plan.states_from_deg.")
+      .def(
+          "states_to_deg",
+          [](const HeldCertificate& held, const py::object& rows) {
+            return degrees_from_states(held.certificate.frame.value_or(Frame{}), rows);
+          },
+          "states"_a, "As Plan.states_to_deg.")
       .def("verdict_map", &verdict_map, "heading_rad"_a,
            R"(The verdict of the vehicle near every cell's middle for one heading.
 

@@ -91,6 +91,26 @@ void bind_plan(py::module_& m) {
           "path"_a, py::kw_only(), "force"_a = true,
           "Heading, cost and region as the bands of a GeoTIFF, laid on Earth where the map was "
           "(docs/exchange.md).")
+      .def(
+          "states_from_deg",
+          [](const HeldPlan& p, const py::object& rows) {
+            return states_from_degrees(frame_in(p.plan.record), rows);
+          },
+          "states_deg"_a,
+          R"(States in degrees as the states that fly and query take.
+
+states_deg  [n, 3]: latitude, longitude, and the course over ground, clockwise from true north
+
+Returns float64 [n, 3]: x_m, y_m, heading_rad. Raises InputError when the map is not
+georeferenced.)")
+      .def(
+          "states_to_deg",
+          [](const HeldPlan& p, const py::object& rows) {
+            return degrees_from_states(frame_in(p.plan.record), rows);
+          },
+          "states"_a,
+          "The way back: float64 [n, 3], latitude, longitude and course in [0, 360), of states "
+          "x_m, y_m, heading_rad.")
       .def("__repr__", [](const HeldPlan& p) {
         return fmt::format("<fairway.Plan: {}, {:g} m/s, turning radius {:g} m>",
                            words_of(p.plan.grid), p.plan.vehicle.speed_mps,

@@ -53,7 +53,7 @@ std::shared_ptr<Flights> fly(const std::shared_ptr<HeldPlan>& plan, const py::ob
                              std::optional<double> laps, std::optional<double> follow_s) {
   auto flown = std::make_shared<Flights>();
   flown->plan = plan;
-  flown->starts = starts_of(states, "states");
+  flown->starts = states_of(states, "states");
   flown->follow = follow_of(*plan, laps, follow_s);
   const py::gil_scoped_release unlocked;
   flown->engine = {plan, &plan->exact()};
@@ -93,7 +93,7 @@ std::shared_ptr<Flights> fly_sampled(const std::shared_ptr<HeldPlan>& plan,
                                      std::optional<double> laps, std::optional<double> follow_s) {
   auto flown = std::make_shared<Flights>();
   flown->plan = plan;
-  flown->starts = starts_of(states, "states");
+  flown->starts = states_of(states, "states");
   flown->follow = follow_of(*plan, laps, follow_s);
   SampledOptions options;
   options.law = law_of(law, gain_per_s);

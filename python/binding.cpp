@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fairway/base/number_csv.hpp"
+#include "fairway/map/earth_frame.hpp"
 
 namespace fairway::python {
 namespace {
@@ -103,31 +104,58 @@ Progress progress_of(const py::object& callback) {
   };
 }
 
+void require_heading(double heading_rad, const std::string& name) {
+  if (std::abs(heading_rad) <= most_heading_rad) return;
+  throw py::value_error(fmt::format(
+      "{} is {}, expected radians from -7 to 7{}", name, heading_rad,
+      std::abs(heading_rad) <= 360.0 ? fmt::format("; did you mean math.radians({})?", heading_rad)
+                                     : std::string()));
+}
+
 std::vector<State> states_of(const py::object& rows, const char* name) {
   const Doubles array = rows_of(rows, name, 3, "x_m, y_m, heading_rad");
   std::vector<State> states(static_cast<std::size_t>(array.shape(0)));
   const double* x = array.data();
   for (std::size_t i = 0; i < states.size(); ++i) {
+    require_heading(x[3 * i + 2], std::string(name) + ": heading_rad");
     states[i] = {{x[3 * i], x[3 * i + 1]}, Heading::from_rad(x[3 * i + 2])};
   }
   return states;
 }
 
-std::vector<State> starts_of(const py::object& rows, const char* name) {
-  const Doubles array = rows_of(rows, name, 3, "x_m, y_m, heading_rad");
-  for (py::ssize_t i = 0; i < array.shape(0); ++i) {
-    const double heading_rad = array.data()[3 * i + 2];
-    if (std::abs(heading_rad) <= most_heading_rad) continue;
-    throw py::value_error(fmt::format(
-        "{}: heading_rad is {}, expected radians from -7 to 7 (math.radians of degrees)", name,
-        heading_rad));
-  }
-  return states_of(array, name);
-}
-
 State state_of(const py::object& row, const char* name) {
   const Doubles x = row_of(row, name, 3, "x_m, y_m, heading_rad");
+  require_heading(x.at(2), std::string(name) + ": heading_rad");
   return {{x.at(0), x.at(1)}, Heading::from_rad(x.at(2))};
+}
+
+py::array states_from_degrees(const Frame& frame, const py::object& rows) {
+  const Doubles array = rows_of(rows, "states_deg", 3, "lat_deg, lon_deg, course_deg");
+  const EarthFrame earth(frame, "states_deg");
+  std::vector<State> states(static_cast<std::size_t>(array.shape(0)));
+  const double* x = array.data();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (std::abs(x[3 * i + 2]) > 360.0) {
+      throw py::value_error(fmt::format(
+          "states_deg[{}]: course_deg is {}, expected degrees from -360 to 360", i, x[3 * i + 2]));
+    }
+    states[i] =
+        earth.state_of({x[3 * i], x[3 * i + 1], x[3 * i + 2]}, fmt::format("states_deg[{}]", i));
+  }
+  return state_array(std::move(states));
+}
+
+py::array degrees_from_states(const Frame& frame, const py::object& rows) {
+  const std::vector<State> states = states_of(rows, "states");
+  const EarthFrame earth(frame, "states_to_deg");
+  std::vector<double> degrees;
+  for (const State& s : states) {
+    const EarthState d = earth.degrees_of(s);
+    degrees.insert(degrees.end(), {d.latitude_deg, d.longitude_deg, d.course_deg});
+  }
+  return owning(std::move(degrees))
+      .attr("reshape")(static_cast<py::ssize_t>(states.size()), 3)
+      .cast<py::array>();
 }
 
 std::vector<Vec2> points_of(const py::object& rows, const char* name) {

@@ -14,6 +14,7 @@
 #include <pybind11/pybind11.h>
 #include <nlohmann/json_fwd.hpp>
 
+#include "fairway/base/frame.hpp"
 #include "fairway/field/field.hpp"
 #include "fairway/map/obstacle_map.hpp"
 #include "fairway/plan/plan.hpp"
@@ -66,10 +67,15 @@ struct Refused {
 /// Raises what a signal handler of Python raises. With the lock held or not.
 void raise_on_signal();
 
-/// Rows x_m, y_m, heading_rad. TypeError or ValueError say what is expected instead.
+/// Throws ValueError for more than 7 radians, as files of states refuse them. `name`: of what.
+void require_heading(double heading_rad, const std::string& name);
+/// Rows x_m, y_m, heading_rad, the headings from -7 to 7. TypeError or ValueError say what is
+/// expected instead.
 [[nodiscard]] std::vector<State> states_of(const py::object& rows, const char* name);
-/// The same of states to fly or to ask about: their headings are from -7 to 7, as in files of them.
-[[nodiscard]] std::vector<State> starts_of(const py::object& rows, const char* name);
+/// Rows lat_deg, lon_deg, course_deg as states [n, 3], and states as such rows. InputError where
+/// the frame has no place on Earth.
+[[nodiscard]] py::array states_from_degrees(const Frame& frame, const py::object& rows);
+[[nodiscard]] py::array degrees_from_states(const Frame& frame, const py::object& rows);
 /// One row.
 [[nodiscard]] State state_of(const py::object& row, const char* name);
 /// A command for Python: (heading_rad, turn_rate_radps).

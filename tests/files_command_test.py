@@ -92,7 +92,7 @@ class Inputs(Files):
         os.link(self.folder / "p", self.folder / "p.tif")
         os.link(self.folder / "c", self.folder / "c.tif")
         os.link(self.folder / "p", self.folder / "p.svg")
-        os.symlink("map.pgm", self.folder / "map.png")
+        os.link(self.folder / "map.pgm", self.folder / "map.png")
         (self.folder / "pictures").mkdir()
         os.link(self.folder / "p", self.folder / "pictures/proved.png")
         before = self.content()
@@ -108,6 +108,8 @@ class Inputs(Files):
                       ("simulate", "p", "--state", "20,20,0", "--outcomes", "p"),
                       ("simulate", "p", "--state", "20,20,0", "--csv", "hard"),
                       ("simulate", "p", "--states", "states.csv", "--outcomes", "states.csv"),
+                      ("info", "map.pgm", "--resolution", 1, "-o", "map.png"),
+                      ("init", "map.pgm", "--resolution", 1, "-o", "map.pgm"),
                       ("steer", "--waypoints", "states.csv", "--turn-radius", "4", "--track", "states.csv")):
             for force in ((), ("--force",)):
                 with self.subTest(words=words, force=force):

@@ -78,6 +78,7 @@ class Output(unittest.TestCase):
                       ["simulate", "p", "--random", "10", "--geojson", "-"],
                       ["query", "c", *state], ["query", "c", *state, "--json"],
                       steer, [*steer, "--json"],
+                      ["info", "map.pgm", "--resolution", "1"], ["init", "map.pgm", "--resolution", "1", "-o", "i", "--force"],
                       ["--help"], ["verify", "--help"], ["--version"], ["--scenario-keys"]):
             self.lost(words)
 

@@ -64,6 +64,14 @@ CLI::Validator state_argument() {
   return {[](const std::string& text) { return complaint_of(text, state_of_argument); }, ""};
 }
 
+EarthState earth_state_of_argument(const std::string& text) {
+  return earth_state_of_text(text, "");
+}
+
+CLI::Validator earth_state_argument() {
+  return {[](const std::string& text) { return complaint_of(text, earth_state_of_argument); }, ""};
+}
+
 double angle_of_argument_rad(const std::string& text) {
   const bool degrees = text.ends_with("deg");
   const auto value = number_of(degrees ? text.substr(0, text.size() - 3) : text);

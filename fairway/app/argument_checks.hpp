@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "fairway/base/frame.hpp"
 #include "fairway/vehicle/vehicle.hpp"
 
 namespace fairway {
@@ -18,6 +19,10 @@ namespace fairway {
 /// `X,Y,H`; and the state that a text so checked stands for.
 [[nodiscard]] CLI::Validator state_argument();
 [[nodiscard]] State state_of_argument(const std::string& text);
+
+/// `LAT,LON,COURSE` in degrees; and the state that a text so checked stands for.
+[[nodiscard]] CLI::Validator earth_state_argument();
+[[nodiscard]] EarthState earth_state_of_argument(const std::string& text);
 
 /// An angle from 0 to half a turn, in radians or with the suffix deg; and its radians.
 [[nodiscard]] CLI::Validator angle_argument();

@@ -47,6 +47,9 @@ constexpr Command commands[] = {
     {"steer", "to a pose by a shortest path, or under a control law; nothing is in the way",
      declare_steer, true},
     {"view", "the interactive page of a run, live on this machine", declare_view, false},
+    {"info", "what a map holds: its size, what is free and connected, and where there is room",
+     declare_info, true},
+    {"init", "a first scenario for a map, which runs as it is", declare_init, true},
 };
 
 /// Ctrl-C and friends must leave nothing half-written: they are taken by a thread of their own,

@@ -1,20 +1,23 @@
 // fairway query: what a certificate says of a state.
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
+#include "fairway/app/states_asked.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/base/file_kind.hpp"
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/map/earth_frame.hpp"
+#include "fairway/run/flight_summary.hpp"
+#include "fairway/run/start_warnings.hpp"
 #include "fairway/runtime.hpp"
-#include "fairway/simulate/state_files.hpp"
 
 namespace fairway {
 namespace {
@@ -24,30 +27,24 @@ using nlohmann::json;
 
 struct QueryArguments {
   fs::path certificate;
-  std::vector<std::string> states;
-  std::string states_file;
+  StatesAsked asked;
   bool trust_file = false;
 };
 
-std::vector<State> states_of(const QueryArguments& a) {
-  std::vector<State> states;
-  for (const std::string& text : a.states) states.push_back(state_of_argument(text));
-  if (!a.states_file.empty()) {
-    for (const State& s : read_states(a.states_file)) states.push_back(s);
-  }
-  return states;
-}
-
 int query_command(const QueryArguments& a, const Session& session) {
   // Reading it whole checks digests and order; the answers then come from the mapped file.
-  if (!a.trust_file) static_cast<void>(read_certificate(a.certificate));
+  Frame frame;
+  if (!a.trust_file || a.asked.may_be_in_degrees())
+    frame = read_certificate(a.certificate).frame.value_or(Frame{});
   const MappedFile file(a.certificate);
   runtime::Certificate certificate;
   if (certificate.open(file.bytes().data(), file.bytes().size()) != runtime::Status::ok) {
     refuse_other_kind(file.bytes(), FileKind::certificate, a.certificate.string());
     throw InputError(a.certificate.string(), "is not a certificate");
   }
-  const std::vector<State> states = states_of(a);
+  const std::vector<State> states = states_of(a.asked, frame, a.certificate);
+  for (const std::string& warning : degree_warnings(states, certificate.flow().grid, frame))
+    session.warn(warning);
   std::vector<runtime::Answer> answers(states.size());
   for_ranges(states.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -57,6 +54,8 @@ int query_command(const QueryArguments& a, const Session& session) {
   });
   if (session.json) {
     json all = json::array();
+    std::optional<EarthFrame> earth;
+    if (frame.is_on_earth()) earth.emplace(frame, a.certificate.string());
     for (std::size_t i = 0; i < states.size(); ++i) {
       const bool reaches = answers[i].verdict == Verdict::reach;
       all.push_back({{"x_m", states[i].position_m.x},
@@ -64,6 +63,7 @@ int query_command(const QueryArguments& a, const Session& session) {
                      {"heading_rad", states[i].heading.rad()},
                      {"verdict", name_of(answers[i].verdict)},
                      {"time_bound_s", reaches ? json(answers[i].time_bound_s) : json()}});
+      if (earth) add_degrees(all.back(), states[i], *earth);
     }
     session.tell({{"certificate", a.certificate.string()}, {"states", std::move(all)}}, "");
     return exit_done;
@@ -90,21 +90,11 @@ Action declare_query(CLI::App& options) {
   options.add_option("certificate", a.certificate, "the certificate")
       ->required()
       ->type_name("CERT");
-  options
-      .add_option("--state", a.states,
-                  "a state: metres, and radians or degrees with the suffix deg; may be repeated")
-      ->type_name("X,Y,H")
-      ->check(state_argument())
-      ->allow_extra_args(false)
-      ->delimiter('\0');
-  options
-      .add_option("--states", a.states_file,
-                  "states from a CSV file, x_m,y_m,heading_rad; - for standard input")
-      ->type_name("CSV");
+  declare_states(options, a.asked, "state");
   options.add_flag("--trust-file", a.trust_file,
                    "do not check digests first: faster for a few states of a large certificate");
   options.final_callback([&a] {
-    if (a.states.empty() && a.states_file.empty()) throw CLI::RequiredError("--state or --states");
+    if (a.asked.empty()) throw CLI::RequiredError("--state, --state-deg or --states");
   });
   options.footer(
       "Prints CSV x_m,y_m,heading_rad,verdict,time_bound_s (the bound for reach, else empty).\n"

@@ -7,15 +7,7 @@ namespace {
 
 void declare_starts(CLI::App& options, SimulateArguments& a) {
   options.add_option("plan", a.plan, "the plan file")->required()->type_name("PLAN");
-  options
-      .add_option("--state", a.states,
-                  "a start: metres, and radians or degrees with the suffix deg; may be repeated")
-      ->type_name("X,Y,H")
-      ->check(state_argument())
-      ->allow_extra_args(false)
-      ->delimiter('\0');
-  options.add_option("--states", a.states_file, "starts from a CSV file: x_m,y_m,heading_rad")
-      ->type_name("CSV");
+  declare_states(options, a.asked, "start");
   options.add_option("--random", a.random, "this many random starts")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{100'000'000}));
@@ -122,8 +114,8 @@ void declare_laws(CLI::App& options, SimulateArguments& a) {
 }
 
 void check(const SimulateArguments& a) {
-  if (a.states.empty() && a.states_file.empty() && a.random == 0) {
-    throw CLI::RequiredError("--state, --states or --random");
+  if (a.asked.empty() && a.random == 0) {
+    throw CLI::RequiredError("--state, --state-deg, --states or --random");
   }
   const auto to_stdout = [](const std::filesystem::path& path) { return path == "-" ? 1 : 0; };
   if (to_stdout(a.csv) + to_stdout(a.outcomes) + to_stdout(a.geojson) > 1) {

@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "fairway/app/states_asked.hpp"
 #include "fairway/exchange/qgc_mission.hpp"
 #include "fairway/run/flight_engine.hpp"
 #include "fairway/simulate/sampled_flight.hpp"
@@ -18,8 +19,7 @@ namespace fairway {
 
 struct SimulateArguments {
   std::filesystem::path plan;
-  std::vector<std::string> states;
-  std::filesystem::path states_file;
+  StatesAsked asked;
   std::uint64_t random = 0;
   std::string random_in = "safe_start";
   std::filesystem::path csv;

@@ -2,20 +2,22 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
 #include "fairway/app/places.hpp"
 #include "fairway/app/simulate_arguments.hpp"
+#include "fairway/app/states_asked.hpp"
 #include "fairway/app/terminal_progress.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/exchange/flight_files.hpp"
 #include "fairway/exchange/qgc_mission.hpp"
 #include "fairway/map/degrees_from_frame.hpp"
+#include "fairway/map/earth_frame.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/run/flight_engine.hpp"
 #include "fairway/run/flight_summary.hpp"
@@ -23,8 +25,8 @@
 #include "fairway/run/plan_record.hpp"
 #include "fairway/run/qgc_site.hpp"
 #include "fairway/run/stage_clock.hpp"
+#include "fairway/run/start_warnings.hpp"
 #include "fairway/simulate/start_states.hpp"
-#include "fairway/simulate/state_files.hpp"
 
 namespace fairway {
 namespace {
@@ -32,13 +34,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<State> starts_of(const SimulateArguments& arguments, const Plan& plan) {
-  std::vector<State> starts;
-  for (const std::string& text : arguments.states) {
-    starts.push_back(state_of_argument(text));
-  }
-  if (!arguments.states_file.empty()) {
-    for (const State& s : read_states(arguments.states_file)) starts.push_back(s);
-  }
+  std::vector<State> starts = states_of(arguments.asked, frame_in(plan.record), arguments.plan);
   const auto random =
       random_states(plan, arguments.start_region(), arguments.random, arguments.sampled.seed);
   if (arguments.random > 0 && random.empty()) {
@@ -79,7 +75,7 @@ bool put(const fs::path& path, const Session& session, const std::string& text) 
 
 void check_places(const SimulateArguments& arguments, const Session& session) {
   require_places({arguments.csv, arguments.outcomes, arguments.geojson, arguments.qgc},
-                 {arguments.plan, arguments.states_file, arguments.fence}, session.existing());
+                 {arguments.plan, arguments.asked.file, arguments.fence}, session.existing());
 }
 
 /// What the exported plan keeps beside the mission.
@@ -120,6 +116,10 @@ int simulate_command(const SimulateArguments& arguments, const Session& session)
   clock.begin("reading the plan", unknown_time);
   const Plan plan = read_plan(arguments.plan);
   const std::vector<State> starts = starts_of(arguments, plan);
+  const std::size_t given = starts.size() - arguments.random;
+  for (const std::string& warning :
+       degree_warnings(std::span(starts).first(given), plan.grid, frame_in(plan.record)))
+    session.warn(warning);
   clock.begin("flying", unknown_time);
   const ManyFlights flown = flights_asked_for(arguments, plan, starts, clock);
   terminal.reset();
@@ -146,9 +146,13 @@ int simulate_command(const SimulateArguments& arguments, const Session& session)
             outcomes_csv(starts, flown.results, flown.measures, flown.followed.has_value()));
   }
   if (!stdout_used) {
-    nlohmann::json report = flight_json(starts, flown);
+    std::optional<EarthFrame> earth;
+    if (frame_in(plan.record).is_on_earth())
+      earth.emplace(frame_in(plan.record), arguments.plan.string());
+    const EarthFrame* degrees = earth ? &*earth : nullptr;
+    nlohmann::json report = flight_json(starts, flown, degrees);
     report["plan"] = arguments.plan.string();
-    session.tell(report, flight_words(starts, flown));
+    session.tell(report, flight_words(starts, flown, degrees));
   }
   return exit_done;
 }

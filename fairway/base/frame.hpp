@@ -39,6 +39,14 @@ struct LonLat {
   double longitude_deg = 0.0;
   double latitude_deg = 0.0;
 };
+/// A state as navigators write it: where on the WGS84 ellipsoid, and the course over ground,
+/// degrees clockwise from true north.
+struct EarthState {
+  double latitude_deg = 0.0;   ///< [-90, 90]
+  double longitude_deg = 0.0;  ///< [-180, 180]
+  double course_deg = 0.0;     ///< [-360, 360]; [0, 360) where Fairway writes it
+  friend bool operator==(const EarthState&, const EarthState&) = default;
+};
 /// The place on Earth of a point of a frame; empty: the frame has none.
 using LonLatOf = std::function<LonLat(Vec2 position_m)>;
 

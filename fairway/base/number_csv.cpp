@@ -68,8 +68,23 @@ std::string names_of(std::span<const CsvColumn> columns) {
   return names;
 }
 
+double degrees_of(std::string_view text, const CsvColumn& column, const CsvPlace& place) {
+  const double most = column.quantity == CsvQuantity::latitude    ? 90.0
+                      : column.quantity == CsvQuantity::longitude ? 180.0
+                                                                  : 360.0;
+  const auto value = number_of(text);
+  if (value && std::abs(*value) <= most) return *value;
+  const std::string range = std::to_string(static_cast<int>(most));
+  place.refuse(std::string(column.name) + " is " + quoted(text) + ": expected degrees from -" +
+               range + " to " + range +
+               (column.quantity == CsvQuantity::course ? ", clockwise from north" : ""));
+}
+
 double value_of(std::string_view text, const CsvColumn& column, const CsvPlace& place) {
   const bool is_heading = column.quantity == CsvQuantity::heading;
+  if (!is_heading && column.quantity != CsvQuantity::metres) {
+    return degrees_of(text, column, place);
+  }
   const bool degrees = is_heading && text.ends_with("deg");
   const auto value = number_of(degrees ? trimmed(text.substr(0, text.size() - 3)) : text);
   if (!value) {
@@ -171,6 +186,21 @@ void for_csv_lines(std::string_view text, const std::string& where,
   if (!any) {
     throw InputError(where, "no " + std::string(lines) + ": expected lines " + names_of(columns));
   }
+}
+
+bool csv_header_names(std::string_view text, const std::string& where, std::string_view name) {
+  const std::string plain = plain_text(text, where);
+  text = plain;
+  while (!text.empty()) {
+    const auto end = text.find('\n');
+    const std::string_view line = trimmed(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (line.empty() || line.starts_with('#')) continue;
+    std::vector<std::string_view> words;
+    split(line, separator_of(line), words);
+    return std::find(words.begin(), words.end(), name) != words.end();
+  }
+  return false;
 }
 
 std::vector<double> csv_values(std::string_view line, const std::string& where,

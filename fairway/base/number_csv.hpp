@@ -20,7 +20,9 @@ namespace fairway {
 /// More radians are no heading that anyone means: it is refused, wherever states are given.
 inline constexpr double most_heading_rad = 7.0;
 
-enum class CsvQuantity : std::uint8_t { metres, heading };
+/// Angles of a place on Earth and a course, degrees clockwise from north, are in degrees: latitudes
+/// from -90 to 90, longitudes from -180 to 180, courses from -360 to 360.
+enum class CsvQuantity : std::uint8_t { metres, heading, latitude, longitude, course };
 
 struct CsvColumn {
   std::string_view name;
@@ -43,6 +45,11 @@ using CsvTake = std::function<void(std::span<const double> values, const CsvPlac
 /// says what they are.
 void for_csv_lines(std::string_view text, const std::string& where,
                    std::span<const CsvColumn> columns, const char* lines, const CsvTake& take);
+
+/// True when the text has a header, and `name` is one of its columns. Throws InputError{where, ...}
+/// for what is no text.
+[[nodiscard]] bool csv_header_names(std::string_view text, const std::string& where,
+                                    std::string_view name);
 
 /// The values of one line without a header. Throws InputError{where, ...}.
 [[nodiscard]] std::vector<double> csv_values(std::string_view line, const std::string& where,

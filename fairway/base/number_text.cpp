@@ -37,6 +37,26 @@ bool is_within_as_printed(const Grid& g, Vec2 p, int decimals) {
 
 std::string coordinate_text(double x_m) { return fixed_text(x_m, centimetres); }
 
+std::string decimal_text(double value, int decimals) { return fixed_text(value, decimals); }
+
+double rounded_down(double value, int digits) {
+  const int unit = static_cast<int>(std::floor(std::log10(value))) - digits + 1;
+  double rounded = 0.0;
+  // Once more when log10 or the quotient came out a trifle too high.
+  for (auto units = std::floor(value / std::pow(10.0, unit) + 1e-9); units > 0.0; units -= 1.0) {
+    const std::string text =
+        std::to_string(static_cast<long long>(units)) + "e" + std::to_string(unit);
+    rounded = std::strtod(text.c_str(), nullptr);
+    if (rounded <= value) return rounded;
+  }
+  return rounded;
+}
+
+std::string whole_percent_text(double share) {
+  if (share > 0.0 && share < 0.01) return "under 1 %";
+  return std::to_string(static_cast<int>(std::floor(100.0 * share + 1e-9))) + " %";
+}
+
 std::string length_text(double length_m) {
   const double size = std::abs(length_m);
   int decimals = centimetres;

@@ -12,7 +12,18 @@ namespace fairway {
 /// half of one), never in powers of ten. "5200009.5", "-16.2", "0".
 [[nodiscard]] std::string coordinate_text(double x_m);
 
-/// A length: the same, but that one of less than a metre has three digits that count: "0.00125".
+/// The same in as many decimals as asked for, from 0 on, without the zeros at their end.
+[[nodiscard]] std::string decimal_text(double value, int decimals);
+
+/// A positive number of `digits` digits that is at most `value`, for a limit that is still to hold
+/// once it is printed: "{:.4g}" shows one of 4 digits whole.
+[[nodiscard]] double rounded_down(double value, int digits);
+
+/// A share from 0 to 1 as "97 %", rounded down, and not to nothing: "under 1 %".
+[[nodiscard]] std::string whole_percent_text(double share);
+
+/// A length: as a coordinate, but that one of less than a metre has three digits that count:
+/// "0.00125".
 [[nodiscard]] std::string length_text(double length_m);
 
 /// "(x, y)" in coordinates.

@@ -1,6 +1,8 @@
 #include "fairway/base/number_text.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <string>
@@ -55,6 +57,34 @@ TEST(NumberText, APlaceOutsideIsOutsideAsPrinted) {
   EXPECT_TRUE(is_within(grid, {500400.0, 5200010.0}));
   EXPECT_FALSE(is_within(grid, {500400.0, 5200010.0004}));
   EXPECT_FALSE(is_within(grid, {std::nan(""), 5200000.0}));
+}
+
+TEST(NumberText, RoundedDownIsAtMostTheValueAndOneUnitOfItsDigitsBelow) {
+  EXPECT_EQ(rounded_down(1.59999, 4), 1.599);
+  EXPECT_EQ(rounded_down(0.9, 4), 0.9);
+  EXPECT_EQ(rounded_down(2.0, 3), 2.0);
+  EXPECT_EQ(rounded_down(std::nextafter(2.0, 0.0), 4), 1.999);
+  EXPECT_EQ(rounded_down(12345.0, 3), 12300.0);
+  Random random(2);
+  for (int i = 0; i < 10'000; ++i) {
+    const double x = random.unit() * std::pow(10.0, random.uniform(-8.0, 8.0));
+    if (x == 0.0) continue;
+    const double told = rounded_down(x, 4);
+    EXPECT_LE(told, x);
+    EXPECT_GT(told, x * (1.0 - 1.001e-3));
+    std::array<char, 40> digits;
+    (void)std::snprintf(digits.data(), digits.size(), "%.4g", told);
+    EXPECT_EQ(std::strtod(digits.data(), nullptr), told);
+  }
+}
+
+TEST(NumberText, WholePercentsAreRoundedDownButNotToNothing) {
+  EXPECT_EQ(whole_percent_text(0.0), "0 %");
+  EXPECT_EQ(whole_percent_text(0.004), "under 1 %");
+  EXPECT_EQ(whole_percent_text(0.01), "1 %");
+  EXPECT_EQ(whole_percent_text(0.29), "29 %");
+  EXPECT_EQ(whole_percent_text(0.9999), "99 %");
+  EXPECT_EQ(whole_percent_text(1.0), "100 %");
 }
 
 }  // namespace

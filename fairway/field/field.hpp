@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "fairway/base/grid.hpp"
+#include "fairway/base/vec2.hpp"
 #include "fairway/map/region.hpp"
 
 namespace fairway {
@@ -60,6 +62,9 @@ struct Field {
       0;  ///< cells whose filtered vector was too short to have a direction
 };
 
+/// A place as the user writes places, in so many decimals of metres: "[x, y]".
+using PlaceText = std::function<std::string(Vec2 place_m, int decimals)>;
+
 /// Why there is no field for this mission on this map. `message` is one sentence for the user.
 struct MissionRefusal {
   enum class Reason { outside_map, in_obstacle, in_buffer, goal_too_small, unreachable };
@@ -67,6 +72,8 @@ struct MissionRefusal {
   std::string message;
   double lacks_m = 0.0;               ///< in_buffer: the clearance that is missing (Assumption 1)
   std::vector<std::string> warnings;  ///< of the map: the reason may stand there
+  /// The message with the places in it as the user writes them; empty: it names none.
+  std::function<std::string(const PlaceText&)> words = {};
 };
 
 using FieldOrRefusal = std::variant<Field, MissionRefusal>;

@@ -21,27 +21,29 @@ struct FrameFromDegrees::Conversion {
 bool has_geographic_frame(const ObstacleMap& map) { return map.frame.is_on_earth(); }
 
 FrameFromDegrees::FrameFromDegrees(const ObstacleMap& map, const std::filesystem::path& file)
+    : FrameFromDegrees(map.frame, file.string()) {}
+
+FrameFromDegrees::FrameFromDegrees(const Frame& frame, const std::string& where)
     : conversion_(std::make_unique<Conversion>()) {
-  if (map.frame.geo) {
-    conversion_->plane.emplace(
-        GeodeticPoint{map.frame.geo->latitude_deg, map.frame.geo->longitude_deg});
+  if (frame.geo) {
+    conversion_->plane.emplace(GeodeticPoint{frame.geo->latitude_deg, frame.geo->longitude_deg});
     return;
   }
-  if (!map.frame.projected_crs)
-    throw InputError(file.string(),
+  if (!frame.projected_crs)
+    throw InputError(where,
                      "is in degrees, but the map does not say where on Earth it lies; expected x_m "
                      "and y_m in the map's metres");
   OGRSpatialReference from;
   OGRSpatialReference to;
   if (from.SetWellKnownGeogCS("WGS84") != OGRERR_NONE ||
-      to.importFromWkt(map.frame.projected_crs->c_str()) != OGRERR_NONE)
-    throw InputError(file.string(), "cannot be laid on the map: its reference system is unknown: " +
-                                        conversion_->session.message());
+      to.importFromWkt(frame.projected_crs->c_str()) != OGRERR_NONE)
+    throw InputError(where, "cannot be laid on the map: its reference system is unknown: " +
+                                conversion_->session.message());
   from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   to.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   conversion_->projection.reset(OGRCreateCoordinateTransformation(&from, &to));
   if (!conversion_->projection)
-    throw InputError(file.string(), "cannot be laid on the map: " + conversion_->session.message());
+    throw InputError(where, "cannot be laid on the map: " + conversion_->session.message());
 }
 
 FrameFromDegrees::~FrameFromDegrees() = default;

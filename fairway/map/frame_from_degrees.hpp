@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
+#include "fairway/base/frame.hpp"
 #include "fairway/base/vec2.hpp"
 #include "fairway/map/obstacle_map.hpp"
 #include "fairway/map/read_map.hpp"
@@ -17,6 +19,7 @@ class FrameFromDegrees {
  public:
   /// Throws InputError{file, ...} when the map has no geographic frame or PROJ cannot convert.
   FrameFromDegrees(const ObstacleMap& map, const std::filesystem::path& file);
+  FrameFromDegrees(const Frame& frame, const std::string& where);
   ~FrameFromDegrees();
   FrameFromDegrees(const FrameFromDegrees&) = delete;
   FrameFromDegrees& operator=(const FrameFromDegrees&) = delete;

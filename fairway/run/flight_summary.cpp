@@ -95,14 +95,17 @@ std::string onward_words(const ManyFlights& flown, std::size_t i) {
 
 }  // namespace
 
-std::string flight_words(std::span<const State> starts, const ManyFlights& flown) {
+std::string flight_words(std::span<const State> starts, const ManyFlights& flown,
+                         const EarthFrame* earth) {
   std::string text;
   constexpr std::size_t most_listed = 20;
   for (std::size_t i = 0; i < starts.size() && starts.size() <= most_listed; ++i) {
     const State& s = starts[i];
     const FlightResult& r = flown.results[i];
-    text += fmt::format("({}, {}, {:g} rad): {}", coordinate_text(s.position_m.x),
-                        coordinate_text(s.position_m.y), s.heading.rad(), name_of(r.outcome));
+    text += fmt::format("({}, {}, {:g} rad){}: {}", coordinate_text(s.position_m.x),
+                        coordinate_text(s.position_m.y), s.heading.rad(),
+                        earth == nullptr ? "" : " = " + earth_text(earth->degrees_of(s)),
+                        name_of(r.outcome));
     if (std::isfinite(r.time_s))
       text += fmt::format(" after {:.2f} s, {:.1f} m", r.time_s, r.length_m);
     text += onward_words(flown, i);
@@ -118,7 +121,15 @@ std::string flight_words(std::span<const State> starts, const ManyFlights& flown
   return onward.empty() ? text : text + "\n" + onward;
 }
 
-json flight_json(std::span<const State> starts, const ManyFlights& flown) {
+void add_degrees(json& object, const State& state, const EarthFrame& earth) {
+  const EarthState degrees = earth.degrees_of(state);
+  const auto rounded = [](double deg, double steps) { return std::round(deg * steps) / steps; };
+  object["lat_deg"] = rounded(degrees.latitude_deg, 1e9);
+  object["lon_deg"] = rounded(degrees.longitude_deg, 1e9);
+  object["course_deg"] = rounded(degrees.course_deg, 1e6);
+}
+
+json flight_json(std::span<const State> starts, const ManyFlights& flown, const EarthFrame* earth) {
   json flights = json::array();
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const FlightResult& r = flown.results[i];
@@ -132,6 +143,7 @@ json flight_json(std::span<const State> starts, const ManyFlights& flown) {
     if (!flown.measures.empty()) {
       flights.back().update(measures_json(flown.measures[i], flown.followed.has_value()));
     }
+    if (earth != nullptr) add_degrees(flights.back(), starts[i], *earth);
   }
   json all = outcome_json(count_outcomes(flown.results));
   all["final_legs"] = final_legs_json(flown.final_legs);

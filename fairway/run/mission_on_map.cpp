@@ -8,6 +8,9 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/number_text.hpp"
+#include "fairway/map/degrees_from_frame.hpp"
+#include "fairway/map/earth_frame.hpp"
+#include "fairway/map/frame_from_degrees.hpp"
 #include "fairway/map/read_path.hpp"
 #include "fairway/map/source_text.hpp"
 #include "fairway/map/tangent_plane.hpp"
@@ -15,26 +18,40 @@
 namespace fairway {
 namespace {
 
+constexpr int goal_decimals_deg = 7;  // a centimetre
+
 Vec2 goal_on_map(const Scenario& scenario, const ObstacleMap& map) {
   const MissionRequest& asked = scenario.mission;
   if (!asked.goal_deg) return *asked.goal_m;
-  if (!map.frame.geo) {
-    throw InputError(
-        scenario.place_of("mission.goal_deg"),
-        "mission.goal_deg: this map is not in degrees, expected mission.goal_m = [x, y] "
-        "in metres");
+  const std::string where = scenario.place_of("mission.goal_deg");
+  if (!map.frame.is_on_earth()) {
+    throw InputError(where,
+                     "mission.goal_deg: this map is not georeferenced, expected mission.goal_m = "
+                     "[x, y] in metres");
   }
-  const TangentPlane plane({map.frame.geo->latitude_deg, map.frame.geo->longitude_deg});
-  const Vec2 goal_m = plane.to_plane_m(*asked.goal_deg);
-  if (!std::isfinite(goal_m.x) || !std::isfinite(goal_m.y) ||
-      norm(goal_m) > tangent_plane_limit_m) {
-    throw InputError(scenario.place_of("mission.goal_deg"),
-                     fmt::format("mission.goal_deg: is more than {} km from the map's reference "
-                                 "point, latitude {} longitude {}",
-                                 tangent_plane_limit_m / 1000.0, map.frame.geo->latitude_deg,
-                                 map.frame.geo->longitude_deg));
+  const FrameFromDegrees to_metres(map.frame, where);
+  const Vec2 goal_m = to_metres.point_m(where, *asked.goal_deg);
+  if (map.frame.geo && !(norm(goal_m) <= tangent_plane_limit_m)) {
+    throw InputError(where, fmt::format("mission.goal_deg: is more than {} km from the map's "
+                                        "reference point, latitude {} longitude {}",
+                                        tangent_plane_limit_m / 1000.0, map.frame.geo->latitude_deg,
+                                        map.frame.geo->longitude_deg));
   }
   return goal_m;
+}
+
+/// In degrees, with the map's extent between its corners; nothing where that is not plain.
+std::string outside_in_degrees(const Scenario& scenario, const ObstacleMap& map) {
+  const Grid& g = map.grid;
+  const LonLatOf degrees = lon_lat_of(map.frame, scenario.map.file.string());
+  const LonLat low = degrees({g.x0_m, g.y0_m});
+  const LonLat high = degrees({g.x0_m + g.width_m(), g.y0_m + g.height_m()});
+  const auto& asked = *scenario.mission.goal_deg;
+  const auto text = [](double deg) { return decimal_text(deg, goal_decimals_deg); };
+  return fmt::format(" ({} is outside about latitude {} to {} and longitude {} to {})",
+                     lat_lon_text({asked.longitude_deg, asked.latitude_deg}, goal_decimals_deg),
+                     text(low.latitude_deg), text(high.latitude_deg), text(low.longitude_deg),
+                     text(high.longitude_deg));
 }
 
 /// What most often stands behind a goal outside the map.
@@ -61,6 +78,8 @@ MapRequest map_request(const Scenario& scenario) {
   if (asked.goal_m) request.also_hold_m.push_back(*asked.goal_m);
   if (asked.goal_deg) request.also_hold_deg.push_back(*asked.goal_deg);
   for (const State& s : scenario.simulate.states) request.also_hold_m.push_back(s.position_m);
+  for (const EarthState& s : scenario.simulate.states_deg)
+    request.also_hold_deg.push_back({s.latitude_deg, s.longitude_deg});
   request.also_hold_path = asked.path_file;
   if (!scenario.file.empty()) {
     request.place_of = [of = std::make_shared<const Scenario>(scenario)](std::string_view key) {
@@ -91,9 +110,10 @@ Mission mission_on_map(const Scenario& scenario, const ObstacleMap& map) {
     if (asked.kind == MissionKind::path) return path_on_map(scenario, map);
     const Vec2 goal_m = goal_on_map(scenario, map);
     if (!is_within(map.grid, goal_m)) {
-      throw InputError(scenario.place_of(place_key(scenario)),
-                       fmt::format("{}: the goal {}{}", place_key(scenario),
-                                   outside_text(goal_m, map.grid), hint(scenario, map)));
+      throw InputError(
+          scenario.place_of(place_key(scenario)),
+          fmt::format("{}: the goal {}{}", place_key(scenario), outside_text(goal_m, map.grid),
+                      asked.goal_deg ? outside_in_degrees(scenario, map) : hint(scenario, map)));
     }
     return GoalMission{goal_m, asked.goal_heading_rad};
   } catch (const InputError& error) {
@@ -101,9 +121,20 @@ Mission mission_on_map(const Scenario& scenario, const ObstacleMap& map) {
   }
 }
 
-void throw_refusal(const Scenario& scenario, const MissionRefusal& refusal) {
+std::string refusal_words(const Scenario& scenario, const Frame& frame,
+                          const MissionRefusal& refusal) {
+  if (!scenario.mission.goal_deg || !refusal.words) return refusal.message;
+  const LonLatOf degrees = lon_lat_of(frame, scenario.map.file.string());
+  return refusal.words([&](Vec2 place_m, int decimals) {
+    constexpr int of_a_degree = 5;  // 1e-5 degrees are a metre
+    return lat_lon_text(degrees(place_m), decimals + of_a_degree);
+  });
+}
+
+void throw_refusal(const Scenario& scenario, const Frame& frame, const MissionRefusal& refusal) {
   const char* key = place_key(scenario);
-  throw WarnedInputError(scenario.place_of(key), fmt::format("{}: {}", key, refusal.message),
+  throw WarnedInputError(scenario.place_of(key),
+                         fmt::format("{}: {}", key, refusal_words(scenario, frame, refusal)),
                          refusal.warnings);
 }
 

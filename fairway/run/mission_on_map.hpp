@@ -35,8 +35,13 @@ class WarnedInputError : public InputError {
 /// The key of the scenario that says where to: "mission.goal_m", ...
 [[nodiscard]] const char* place_key(const Scenario& scenario);
 
+/// The refusal's message, its places in degrees where the scenario gave its goal in degrees.
+[[nodiscard]] std::string refusal_words(const Scenario& scenario, const Frame& frame,
+                                        const MissionRefusal& refusal);
+
 /// A refusal that is the input's fault (not Reason::unreachable) as an InputError at the key of the
-/// scenario that asked for it.
-[[noreturn]] void throw_refusal(const Scenario& scenario, const MissionRefusal& refusal);
+/// scenario that asked for it. `frame`: of the map.
+[[noreturn]] void throw_refusal(const Scenario& scenario, const Frame& frame,
+                                const MissionRefusal& refusal);
 
 }  // namespace fairway

@@ -64,7 +64,7 @@ TEST(MissionOnMap, GoalsThatCannotBeOnTheMapAreRefusedAtTheirLine) {
   EXPECT_NE(refusal("goal_m = [8.5, 47.4]", true), "");
   EXPECT_NE(refusal("goal_m = [147.4, 8.5]", true).find("mission.goal_deg = [lat"),
             std::string::npos);
-  EXPECT_NE(refusal("goal_deg = [47.3977, 8.5456]", false).find("not in degrees"),
+  EXPECT_NE(refusal("goal_deg = [47.3977, 8.5456]", false).find("not georeferenced"),
             std::string::npos);
   EXPECT_NE(refusal("goal_deg = [8.5456, 47.3977]", true).find("100 km"), std::string::npos);
   EXPECT_NE(refusal("goal_deg = [47.41, 8.5456]", true).find("outside the map"), std::string::npos);
@@ -177,7 +177,7 @@ TEST(MissionOnMap, RefusalsBringTheWarningsOfTheMap) {
   const auto answer = compute_field(map, scenario.vehicle, GoalMission{{0, 0}, {}}, scenario.plan);
   const auto& refusal = std::get<MissionRefusal>(answer);
   EXPECT_NE(refusal.message.find("no cell of this map is free"), std::string::npos);
-  EXPECT_EQ(warnings_of([&] { throw_refusal(scenario, refusal); }), map.warnings);
+  EXPECT_EQ(warnings_of([&] { throw_refusal(scenario, map.frame, refusal); }), map.warnings);
 }
 
 TEST(PlanRecord, HoldsTheFrameOfTheMap) {

@@ -45,6 +45,7 @@ PlanRecord plan_record(const Scenario& scenario, const ObstacleMap& map, const M
   json options = {{"map", effective_values(scenario, "map")},
                   {"plan", effective_values(scenario, "plan")}};
   options["map"].erase("file");  // it stands among the inputs
+  if (!scenario.only_connected) options["map"].erase("only_connected");  // as records always were
   return {program_version, mission, map.frame, inputs_of(scenario, map), text_of(options), {}};
 }
 

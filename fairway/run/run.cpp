@@ -22,6 +22,7 @@
 #include "fairway/run/flight_engine.hpp"
 #include "fairway/run/flight_summary.hpp"
 #include "fairway/run/mission_on_map.hpp"
+#include "fairway/run/only_connected.hpp"
 #include "fairway/run/plan_record.hpp"
 #include "fairway/run/product_picture.hpp"
 #include "fairway/run/products.hpp"
@@ -31,6 +32,7 @@
 #include "fairway/run/scenario_flights.hpp"
 #include "fairway/run/scenario_overrides.hpp"
 #include "fairway/run/stage_clock.hpp"
+#include "fairway/run/start_warnings.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/run/verdict_pictures.hpp"
 #include "fairway/run/verification.hpp"
@@ -62,11 +64,13 @@ std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& scenario, St
   for (std::string& warning : design_warnings(scenario, mission)) {
     map.warnings.push_back(std::move(warning));
   }
+  if (scenario.only_connected) keep_only_connected(map, mission, scenario.map.file.string());
 
   clock.begin("computing the field", estimate(scenario, map.grid).from_field());
   FieldOrRefusal answer = compute_field(map, scenario.vehicle, mission, scenario.plan);
   if (auto* refusal = std::get_if<MissionRefusal>(&answer)) {
-    if (refusal->reason != MissionRefusal::Reason::unreachable) throw_refusal(scenario, *refusal);
+    if (refusal->reason != MissionRefusal::Reason::unreachable)
+      throw_refusal(scenario, map.frame, *refusal);
     return std::move(*refusal);
   }
   Plan plan = plan_of_field(std::move(std::get<Field>(answer)), scenario.vehicle,
@@ -245,6 +249,10 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   clock.begin("making the page", left.page_s);
   RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
   add_overrides(result.summary, scenario);
+  for (const std::string& warning : start_warnings(flown.given_starts(), plan)) {
+    result.warnings.push_back(warning);
+    result.summary["warnings"].push_back(warning);
+  }
   add_flights(result.summary, flown, scenario.simulate.seed);
   result.summary["verify"] = json_of(verified);
   result.summary["products"] = product_digests(place);

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fairway/base/frame.hpp"
 #include "fairway/field/field.hpp"
 #include "fairway/map/read_map.hpp"
 #include "fairway/run/verify_limits.hpp"
@@ -38,8 +39,9 @@ struct MissionRequest {
 
 /// The [simulate] table.
 struct SimulateRequest {
-  std::vector<State> states;      ///< flights to record, draw and count
-  std::uint64_t random = 200;     ///< random safe-start flights to record and draw
+  std::vector<State> states;           ///< flights to record, draw and count
+  std::vector<EarthState> states_deg;  ///< further ones, on georeferenced maps
+  std::uint64_t random = 200;          ///< random safe-start flights to record and draw
   std::uint64_t sample = 10'000;  ///< random safe-start flights behind the shares in the summary
   std::uint64_t seed = 1;
 };
@@ -56,6 +58,8 @@ struct Scenario {
   std::filesystem::path file;
   std::string sha256;  ///< of the file
   MapRequest map;
+  bool only_connected =
+      false;  ///< map.only_connected: leave out free ground not joined to the mission
   Vehicle vehicle;
   MissionRequest mission;
   FieldOptions plan;

@@ -7,49 +7,12 @@
 
 #include <fmt/format.h>
 
+#include "fairway/run/scenario_values.hpp"
+
 namespace fairway {
 namespace {
 
 using nlohmann::json;
-
-// How each kind of member is taken from a TOML value, and shown as JSON.
-void take(const TomlValue& v, double& x) { x = v.number(); }
-void take(const TomlValue& v, std::uint64_t& x) { x = v.whole_number(); }
-void take(const TomlValue& v, bool& x) { x = v.flag(); }
-void take(const TomlValue& v, Vec2& x) { x = v.pair(); }
-void take(const TomlValue& v, std::filesystem::path& x) {
-  x = v.text();
-  if (x.empty()) v.refuse("the name of a file");
-}
-void take(const TomlValue& v, GeodeticPoint& x) {
-  const Vec2 pair = v.pair();
-  if (pair.x < -90.0 || pair.x > 90.0) v.refuse("[latitude, longitude], latitude in [-90, 90]");
-  x = {pair.x, pair.y};
-}
-void take(const TomlValue& v, std::vector<State>& x) {
-  x.clear();
-  for (const auto& row : v.rows(3)) x.push_back({{row[0], row[1]}, Heading::from_rad(row[2])});
-}
-template <typename T>
-void take(const TomlValue& v, std::optional<T>& x) {
-  take(v, x.emplace());
-}
-
-json shown(double x) { return x; }
-json shown(std::uint64_t x) { return x; }
-json shown(bool x) { return x; }
-json shown(Vec2 x) { return {x.x, x.y}; }
-json shown(const GeodeticPoint& x) { return {x.latitude_deg, x.longitude_deg}; }
-json shown(const std::filesystem::path& x) { return x.empty() ? json() : json(x.string()); }
-json shown(const std::vector<State>& states) {
-  json rows = json::array();
-  for (const State& s : states) rows.push_back({s.position_m.x, s.position_m.y, s.heading.rad()});
-  return rows;
-}
-template <typename T>
-json shown(const std::optional<T>& x) {
-  return x ? shown(*x) : json();
-}
 
 /// A key for a member of Scenario, reached by `member`.
 template <typename Member>
@@ -115,6 +78,7 @@ constexpr Range factor{0.0, 1000.0, true};
 constexpr Range width{0.0, 1000.0, false};
 constexpr Range metres{-1e9, 1e9, false};
 constexpr Range degrees{-180.0, 180.0, false};
+constexpr Range turn_degrees{-360.0, 360.0, false};
 
 // Members of const and mutable scenarios alike.
 // NOLINTBEGIN(bugprone-macro-parentheses): a member's name cannot stand in parentheses
@@ -140,6 +104,10 @@ std::vector<ScenarioKey> map_keys() {
       choice<bool>("map.outside", {{"obstacle", true}, {"free", false}},
                    FAIRWAY_MEMBER(map.outside_is_obstacle),
                    "the world beyond the map: a ring of obstacle cells, or free to leave"),
+      key("map.only_connected", "true or false", any_finite, FAIRWAY_MEMBER(only_connected),
+          "leave out free ground that nothing joins to goal or path: it becomes an obstacle, and "
+          "no "
+          "share counts it"),
       number("map.footprint_radius_m", not_negative, FAIRWAY_MEMBER(map.footprint_radius_m),
              "obstacles grow by this, metres"),
       key("map.reference_deg", "[latitude, longitude]", degrees, FAIRWAY_MEMBER(map.reference),
@@ -170,7 +138,7 @@ std::vector<ScenarioKey> vehicle_and_mission_keys() {
       key("mission.goal_m", "[x, y]", metres, FAIRWAY_MEMBER(mission.goal_m),
           "goal missions: where to, metres in the map's frame"),
       key("mission.goal_deg", "[latitude, longitude]", degrees, FAIRWAY_MEMBER(mission.goal_deg),
-          "goal missions on maps in degrees: instead of `mission.goal_m`"),
+          "goal missions on georeferenced maps: instead of `mission.goal_m`"),
       number(
           "mission.goal_heading_rad", Range{-7.0, 7.0}, FAIRWAY_MEMBER(mission.goal_heading_rad),
           "heading to arrive with, radians counter-clockwise from east: steering takes over where "
@@ -229,7 +197,10 @@ std::vector<ScenarioKey> plan_keys() {
 std::vector<ScenarioKey> simulate_and_verify_keys() {
   return {
       key("simulate.states", "[[x, y, heading], ...]", metres, FAIRWAY_MEMBER(simulate.states),
-          "flights to record and draw, metres and radians"),
+          "flights to record and draw, metres and radians (from -7 to 7)"),
+      key("simulate.states_deg", "[[latitude, longitude, course], ...]", turn_degrees,
+          FAIRWAY_MEMBER(simulate.states_deg),
+          "further ones on georeferenced maps; the course is in degrees clockwise from north"),
       whole("simulate.random", Range{0.0, 1e5}, FAIRWAY_MEMBER(simulate.random),
             "further flights to record and draw, from random safe-start states"),
       whole("simulate.sample", Range{0.0, 1e7}, FAIRWAY_MEMBER(simulate.sample),

@@ -136,6 +136,17 @@ TEST(Scenarios, RefusalsNameLineKeyAndWhatIsExpected) {
       {with("[120.0, 340.0]", "[120.0, nan]"), "dir/s.toml:10: mission.goal_m: expected a number"},
       {with("[1, 2, 3]", "[1, 2]"),
        "dir/s.toml:15: simulate.states: expected an array of arrays of 3 numbers, found"},
+      {with("[1, 2, 3]", "[1, 2, 90]"),
+       "dir/s.toml:15: simulate.states: expected headings in radians from -7 to 7 (not 90; 90 "
+       "degrees "
+       "are 1.5708), found"},
+      {with("[1, 2, 3]", "[1, 2, -1e3]"),
+       "dir/s.toml:15: simulate.states: expected headings in radians from -7 to 7 (not -1000), "
+       "found"},
+      {with("seed = 7", "states_deg = [[8.5, 47.3, 0.0], [97.3, 8.5, 0.0]]"),
+       "dir/s.toml:16: simulate.states_deg: expected [latitude, longitude, course] with"},
+      {with("seed = 7", "states_deg = [[47.3, 8.5, 361.0]]"),
+       "dir/s.toml:16: simulate.states_deg: expected a number in [-360, 360]"},
       {with("[[10.0, 20, 0.0], [1, 2, 3]]", "3"),
        "dir/s.toml:15: simulate.states: expected an array"},
       {with("goal_m = [120.0, 340.0]\n", ""), "dir/s.toml: mission.goal_m is missing"},

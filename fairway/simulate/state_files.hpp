@@ -1,26 +1,39 @@
-// Starts as text: the states CSV of `fairway simulate --states`, and `--state X,Y,H`.
+// Starts as text: the states CSV of `fairway simulate --states`, `--state X,Y,H`, and
+// `--state-deg LAT,LON,COURSE`.
 //
 // Columns x_m,y_m,heading_rad, as base/number_csv.hpp reads them: others are passed over when there
-// is a header, so an outcomes file is a states file.
+// is a header, so an outcomes file is a states file. A header may name lat_deg,lon_deg,course_deg
+// instead, where a plan has a place on Earth.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "fairway/base/frame.hpp"
 #include "fairway/vehicle/vehicle.hpp"
 
 namespace fairway {
 
+/// What a state on Earth is in the metres of a plan; throws InputError{where, ...} where it is
+/// none.
+using StateFromEarth = std::function<State(const EarthState& state, const std::string& where)>;
+
 /// Of a file or, for "-", the standard input. Throws InputError{FILE:LINE, ...}, and when the file
-/// cannot be read or holds no state.
-[[nodiscard]] std::vector<State> read_states(const std::filesystem::path& path);
+/// cannot be read or holds no state, or is in degrees and `from_earth` is empty.
+[[nodiscard]] std::vector<State> read_states(const std::filesystem::path& path,
+                                             const StateFromEarth& from_earth = {});
 
 /// The same for a text in memory; `where` stands for the file's name in errors.
-[[nodiscard]] std::vector<State> states_of_csv(std::string_view text, const std::string& where);
+[[nodiscard]] std::vector<State> states_of_csv(std::string_view text, const std::string& where,
+                                               const StateFromEarth& from_earth = {});
 
 /// One state `X,Y,H`. Throws InputError{where, ...}.
 [[nodiscard]] State state_of_text(std::string_view text, const std::string& where);
+
+/// One state `LAT,LON,COURSE` in degrees. Throws InputError{where, ...}.
+[[nodiscard]] EarthState earth_state_of_text(std::string_view text, const std::string& where);
 
 }  // namespace fairway

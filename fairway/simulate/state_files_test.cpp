@@ -77,5 +77,50 @@ TEST(StateFiles, ReadsOneStateOfTheCommandLine) {
   EXPECT_THROW((void)state_of_text("10,20", "--state"), InputError);
 }
 
+// On a plane where a degree is a metre, and a course a heading.
+State from_degrees(const EarthState& d, const std::string& where) {
+  if (d.latitude_deg > 80.0) throw InputError(where, "too far north");
+  return state(d.longitude_deg, d.latitude_deg, (90.0 - d.course_deg) * pi / 180.0);
+}
+
+TEST(StateFiles, ReadsStatesInDegreesWhereThereIsAWayFromDegrees) {
+  const std::string text =
+      "\xef\xbb\xbf# drawn\r\nlon_deg;lat_deg;course_deg;note\r\n8.5;47;90;x\r\n";
+  EXPECT_EQ(states_of_csv(text, "s.csv", from_degrees),
+            (std::vector<State>{state(8.5, 47.0, 0.0)}));
+  EXPECT_THAT(refusal_of(text),
+              HasSubstr("s.csv: is in degrees, and the map is not georeferenced"));
+  // Metres go before: a file may have both.
+  EXPECT_EQ(states_of_csv("lat_deg,x_m,y_m,heading_rad\n47,1,2,0.5\n", "s", from_degrees),
+            (std::vector<State>{state(1.0, 2.0, 0.5)}));
+  EXPECT_EQ(states_of_csv("1,2,0.5\n", "s", from_degrees),
+            (std::vector<State>{state(1.0, 2.0, 0.5)}));
+}
+
+TEST(StateFiles, ErrorsInDegreesNameTheLine) {
+  const auto refusal = [](const std::string& line) -> std::string {
+    try {
+      (void)states_of_csv("lat_deg,lon_deg,course_deg\n" + line, "s.csv", from_degrees);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal("47,8,359.9\n"), "accepted");
+  EXPECT_EQ(refusal("85,8,0\n"), "s.csv:2: too far north");
+  EXPECT_EQ(refusal("95,8,0\n"), "s.csv:2: lat_deg is '95': expected degrees from -90 to 90");
+  EXPECT_EQ(refusal("47,181,0\n"), "s.csv:2: lon_deg is '181': expected degrees from -180 to 180");
+  EXPECT_EQ(
+      refusal("47,8,361\n"),
+      "s.csv:2: course_deg is '361': expected degrees from -360 to 360, clockwise from north");
+  EXPECT_EQ(refusal("47,8,nan\n").substr(0, 24), "s.csv:2: course_deg is '");
+}
+
+TEST(StateText, InDegreesIsLatitudeLongitudeCourse) {
+  EXPECT_EQ(earth_state_of_text("47.5, -8, 270", "--state-deg"), (EarthState{47.5, -8.0, 270.0}));
+  EXPECT_THROW((void)earth_state_of_text("47.5,-8", "--state-deg"), InputError);
+  EXPECT_THROW((void)earth_state_of_text("147.5,-8,0", "--state-deg"), InputError);
+}
+
 }  // namespace
 }  // namespace fairway

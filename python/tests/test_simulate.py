@@ -155,3 +155,38 @@ def test_random_starts_begin_alike_and_lie_where_asked(plan):
     assert np.all(plan.region[iy, ix] == fairway.Region.FREE)
     with pytest.raises(ValueError, match="safe_start"):
         plan.random_starts(3, where="anywhere")
+
+
+@pytest.mark.parametrize("wrong", [7.1, -90.0, 1e3])
+def test_headings_in_degrees_are_refused_wherever_they_are_given(plan, certificate, wrong):
+    hint = "expected radians from -7 to 7" + ("; did you mean math.radians" if abs(wrong) <= 360 else "")
+    state = [30.0, 40.0, wrong]
+    for call in (lambda: plan.fly([state]), lambda: certificate.query([state]),
+                 lambda: certificate.verdict_map(wrong),
+                 lambda: fairway.steer([[0, 0, 0]], [state], 10.0),
+                 lambda: fairway.shortest_path(state, [0, 0, 0], 10.0)):
+        with pytest.raises(ValueError, match=hint):
+            call()
+
+
+SITE = {"fileType": "Plan", "version": 1, "mission": {"version": 2, "items": [], "plannedHomePosition": [47.4, 8.55, 400]},
+        "geoFence": {"version": 2, "circles": [], "polygons": [{"version": 1, "inclusion": True, "polygon": [
+            [47.393, 8.5397], [47.393, 8.5603], [47.407, 8.5603], [47.407, 8.5397]]}]}}
+
+
+def test_states_in_degrees_and_back(plan, tmp_path):
+    (tmp_path / "site.plan").write_text(json.dumps(SITE))
+    site = fairway.read_map(tmp_path / "site.plan", cell_m=20.0)
+    on_earth = fairway.plan_arrays(site, speed_mps=12.0, turn_radius_m=45.0, goal_m=(300.0, 200.0))
+    degrees = np.array([[47.397, 8.545, 90.0], [47.401, 8.555, 315.0]])
+    states = on_earth.states_from_deg(degrees)
+    np.testing.assert_allclose(states[:, 2], [0.0, math.pi * 0.75], atol=1e-3)
+    np.testing.assert_allclose(on_earth.states_to_deg(states), degrees, atol=1e-7)
+    assert on_earth.states_from_deg([]).shape == (0, 3) == on_earth.states_to_deg([]).shape
+    assert len(on_earth.fly(states)) == 2
+    with pytest.raises(fairway.InputError, match="not georeferenced"):
+        plan.states_from_deg(degrees)
+    with pytest.raises(ValueError, match="course_deg"):
+        on_earth.states_from_deg([[47.397, 8.545, 400.0]])
+    with pytest.raises(fairway.InputError, match="100 km"):
+        on_earth.states_from_deg([[8.545, 47.397, 0.0]])

@@ -1,0 +1,58 @@
+// fairway info: what a map holds, before any mission.
+#include <filesystem>
+#include <memory>
+
+#include "fairway/app/command.hpp"
+#include "fairway/app/map_arguments.hpp"
+#include "fairway/app/places.hpp"
+#include "fairway/base/atomic_file.hpp"
+#include "fairway/run/map_survey.hpp"
+
+namespace fairway {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct InfoArguments {
+  MapArguments map;
+  fs::path picture;
+};
+
+int info_command(const InfoArguments& a, const Session& session) {
+  require_places({a.picture}, {a.map.file}, session.existing());
+  MapRequest request = a.map.request();
+  constexpr int cells_across = 500;
+  if (!a.map.cell_m) request.cell_m = sensible_cell_m(request, cells_across);
+  const MapSurvey survey = survey_map(request, a.map.turn_radius_m);
+  for (const std::string& warning : survey.map.warnings) session.warn(warning);
+  if (!a.picture.empty()) {
+    const Picture picture = survey_picture(survey, a.map.file.filename().string());
+    write_whole(a.picture, session.existing(),
+                a.picture.extension() == ".png" ? picture.png : picture.svg);
+  }
+  nlohmann::json report = survey_json(survey);
+  report["map"] = a.map.file.string();
+  session.tell(report, survey_words(survey, a.map.file.string()));
+  return exit_done;
+}
+
+}  // namespace
+
+Action declare_info(CLI::App& options) {
+  auto arguments = std::make_shared<InfoArguments>();
+  InfoArguments& a = *arguments;
+  declare_map(options, a.map);
+  options.add_option("-o,--output", a.picture, "draw the map, as SVG or PNG by the file's ending")
+      ->type_name("PICTURE");
+  options.final_callback([&a] {
+    if (!a.picture.empty() && a.picture.extension() != ".svg" && a.picture.extension() != ".png") {
+      throw CLI::ValidationError("--output", "expected a file that ends in .svg or .png");
+    }
+  });
+  options.footer(
+      "With --turn-radius, what lies in the buffer of such a vehicle does not count as free.\n"
+      "Example: fairway info demo/basin.yaml -o basin.png");
+  return [arguments](const Session& session) { return info_command(*arguments, session); };
+}
+
+}  // namespace fairway

@@ -1,0 +1,23 @@
+// What cuts free cells off from the goal, in a sentence: where, how wide, and what would open it.
+#pragma once
+
+#include <string>
+
+#include "fairway/field/passages.hpp"
+#include "fairway/map/obstacle_map.hpp"
+#include "fairway/plan/plan.hpp"
+#include "fairway/run/scenario.hpp"
+
+namespace fairway {
+
+/// Of a plan made of this scenario on this map. Cost: n log n in cells; for plans with cells that
+/// are cut off.
+[[nodiscard]] CutOff cut_off_in(const Scenario& scenario, const ObstacleMap& map, const Plan& plan);
+
+/// "The widest passage that is too narrow lies at (12.3, 45.6), latitude ..., longitude ...: it is
+/// 8 m wide, and 2 alpha turning radii are 10 m; alpha = 1.599 or turn_radius_m = 1.999 opens it,
+/// for 95 % of the free cells that are cut off." With what is walled off; empty: nothing is cut
+/// off. No full stop is missing; it begins with a capital letter.
+[[nodiscard]] std::string passage_words(const CutOff& cut_off, const Frame& frame);
+
+}  // namespace fairway
