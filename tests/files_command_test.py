@@ -90,6 +90,7 @@ class Inputs(Files):
         os.link(self.folder / "p", self.folder / "hard")
         os.link(self.folder / "p", self.folder / "p.tif")
         os.link(self.folder / "c", self.folder / "c.tif")
+        os.link(self.folder / "p", self.folder / "p.svg")
         (self.folder / "pictures").mkdir()
         os.link(self.folder / "p", self.folder / "pictures/proved.png")
         before = self.content()
@@ -101,6 +102,7 @@ class Inputs(Files):
                       ("verify", "p", "-o", "c", "--resume", "c"),
                       ("verify", "p", "-o", "d", "--pictures", "pictures"),
                       ("export", "p", "-o", "p.tif"), ("export", "c", "-o", "c.tif"),
+                      ("cell", "p.svg", "--cell", "5,5", "-o", "p.svg"),
                       ("simulate", "p", "--state", "20,20,0", "--outcomes", "p"),
                       ("simulate", "p", "--state", "20,20,0", "--csv", "hard"),
                       ("simulate", "p", "--states", "states.csv", "--outcomes", "states.csv"),
@@ -218,7 +220,7 @@ class Interrupted(Files):
 
 class Help(Files):
     def test_common_options_stand_in_the_help_of_every_command(self):
-        for command in ("run", "plan", "simulate", "verify", "query", "check", "export", "steer", "view"):
+        for command in ("run", "plan", "simulate", "verify", "query", "check", "cell", "export", "steer", "view"):
             told = self.expect(0, command, "--help").stdout
             common = told.partition("Common options:\n")[2]
             for option in ("--threads", "--quiet", "--json"):

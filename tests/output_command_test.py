@@ -76,6 +76,7 @@ class Output(unittest.TestCase):
                       ["simulate", "p", "--random", "10", "--csv", "-"],
                       ["simulate", "p", "--random", "10", "--geojson", "-"],
                       ["query", "c", *state], ["query", "c", *state, "--json"],
+                      ["cell", "p", "--cell", "5,5"], ["cell", "p", "--cell", "5,5", "--json"],
                       steer, [*steer, "--json"],
                       ["--help"], ["verify", "--help"], ["--version"], ["--scenario-keys"]):
             self.lost(words)

@@ -1,6 +1,7 @@
-// fairway query: what a certificate says of a state.
+// fairway query: what a certificate, or a bitmap, says of a state.
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "fairway/base/file_kind.hpp"
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/base/parallel.hpp"
+#include "fairway/bitmap/bitmap_file.hpp"
+#include "fairway/bitmap/sample_bitmap.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/runtime.hpp"
 #include "fairway/simulate/state_files.hpp"
@@ -38,47 +41,79 @@ std::vector<State> states_of(const QueryArguments& a) {
   return states;
 }
 
+/// What is printed of a state.
+struct Answer {
+  const char* word = "";
+  std::optional<double> time_bound_s;
+};
+
+std::vector<Answer> answers_of(const runtime::Certificate& certificate,
+                               const std::vector<State>& states) {
+  std::vector<Answer> answers(states.size());
+  for_ranges(states.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const State& s = states[i];
+      const auto found = certificate.query(s.position_m.x, s.position_m.y, s.heading.rad());
+      answers[i].word = name_of(found.verdict);
+      if (found.verdict == Verdict::reach) answers[i].time_bound_s = found.time_bound_s;
+    }
+  });
+  return answers;
+}
+
+std::vector<Answer> answers_of(const Bitmap& bitmap, const std::vector<State>& states) {
+  std::vector<Answer> answers;
+  for (const Sampled found : sampled_answers(bitmap, states)) {
+    answers.push_back({name_of(found), {}});
+  }
+  return answers;
+}
+
+void tell(const QueryArguments& a, const char* kind, const std::vector<State>& states,
+          const std::vector<Answer>& answers, const Session& session) {
+  if (session.json) {
+    json all = json::array();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const auto& bound_s = answers[i].time_bound_s;
+      all.push_back({{"x_m", states[i].position_m.x},
+                     {"y_m", states[i].position_m.y},
+                     {"heading_rad", states[i].heading.rad()},
+                     {"verdict", answers[i].word},
+                     {"time_bound_s", bound_s ? json(*bound_s) : json()}});
+    }
+    session.tell({{kind, a.certificate.string()}, {"states", std::move(all)}}, "");
+    return;
+  }
+  fmt::memory_buffer text;
+  fmt::format_to(std::back_inserter(text), "x_m,y_m,heading_rad,verdict,time_bound_s\n");
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},", states[i].position_m.x,
+                   states[i].position_m.y, states[i].heading.rad(), answers[i].word);
+    if (const auto& bound_s = answers[i].time_bound_s) {
+      fmt::format_to(std::back_inserter(text), "{}", *bound_s);
+    }
+    text.push_back('\n');
+  }
+  print({text.data(), text.size()});
+}
+
 int query_command(const QueryArguments& a, const Session& session) {
+  const MappedFile file(a.certificate);
+  if (kind_of_bytes(file.bytes()) == FileKind::bitmap) {
+    const Bitmap bitmap = read_bitmap(a.certificate);
+    const std::vector<State> states = states_of(a);
+    tell(a, "bitmap", states, answers_of(bitmap, states), session);
+    return exit_done;
+  }
   // Reading it whole checks digests and order; the answers then come from the mapped file.
   if (!a.trust_file) static_cast<void>(read_certificate(a.certificate));
-  const MappedFile file(a.certificate);
   runtime::Certificate certificate;
   if (certificate.open(file.bytes().data(), file.bytes().size()) != runtime::Status::ok) {
     refuse_other_kind(file.bytes(), FileKind::certificate, a.certificate.string());
     throw InputError(a.certificate.string(), "is not a certificate");
   }
   const std::vector<State> states = states_of(a);
-  std::vector<runtime::Answer> answers(states.size());
-  for_ranges(states.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const State& s = states[i];
-      answers[i] = certificate.query(s.position_m.x, s.position_m.y, s.heading.rad());
-    }
-  });
-  if (session.json) {
-    json all = json::array();
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      const bool reaches = answers[i].verdict == Verdict::reach;
-      all.push_back({{"x_m", states[i].position_m.x},
-                     {"y_m", states[i].position_m.y},
-                     {"heading_rad", states[i].heading.rad()},
-                     {"verdict", name_of(answers[i].verdict)},
-                     {"time_bound_s", reaches ? json(answers[i].time_bound_s) : json()}});
-    }
-    session.tell({{"certificate", a.certificate.string()}, {"states", std::move(all)}}, "");
-    return exit_done;
-  }
-  fmt::memory_buffer text;
-  fmt::format_to(std::back_inserter(text), "x_m,y_m,heading_rad,verdict,time_bound_s\n");
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},", states[i].position_m.x,
-                   states[i].position_m.y, states[i].heading.rad(), name_of(answers[i].verdict));
-    if (answers[i].verdict == Verdict::reach) {
-      fmt::format_to(std::back_inserter(text), "{}", answers[i].time_bound_s);
-    }
-    text.push_back('\n');
-  }
-  print({text.data(), text.size()});
+  tell(a, "certificate", states, answers_of(certificate, states), session);
   return exit_done;
 }
 
@@ -87,9 +122,9 @@ int query_command(const QueryArguments& a, const Session& session) {
 Action declare_query(CLI::App& options) {
   auto arguments = std::make_shared<QueryArguments>();
   QueryArguments& a = *arguments;
-  options.add_option("certificate", a.certificate, "the certificate")
+  options.add_option("certificate", a.certificate, "the certificate, or a bitmap")
       ->required()
-      ->type_name("CERT");
+      ->type_name("CERT|BITMAP");
   options
       .add_option("--state", a.states,
                   "a state: metres, and radians or degrees with the suffix deg; may be repeated")
@@ -102,12 +137,18 @@ Action declare_query(CLI::App& options) {
                   "states from a CSV file, x_m,y_m,heading_rad; - for standard input")
       ->type_name("CSV");
   options.add_flag("--trust-file", a.trust_file,
-                   "do not check digests first: faster for a few states of a large certificate");
+                   "do not check a certificate's digests first: faster for a few states of a large "
+                   "one");
   options.final_callback([&a] {
     if (a.states.empty() && a.states_file.empty()) throw CLI::RequiredError("--state or --states");
   });
   options.footer(
       "Prints CSV x_m,y_m,heading_rad,verdict,time_bound_s (the bound for reach, else empty).\n"
+      "A certificate answers with what is proved. A bitmap answers with what its samples say of "
+      "the\n"
+      "border that the state's flight meets first: sampled_reach, sampled_other, or undecided "
+      "where\n"
+      "they disagree. That is a picture, not a proof.\n"
       "Example: fairway query demo.cert.safetensors --state 100,100,90deg");
   return [arguments](const Session& session) { return query_command(*arguments, session); };
 }

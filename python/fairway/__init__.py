@@ -16,6 +16,7 @@ The work is done by the extension _fairway, without the interpreter's lock; noth
 """
 
 from fairway._fairway import (
+    Bitmap,
     Certificate,
     ClfLaw,
     DubinsPath,
@@ -28,6 +29,7 @@ from fairway._fairway import (
     Plan,
     Region,
     RunResult,
+    Sampled,
     Scenario,
     ShortestLaw,
     SteeringFlight,
@@ -37,8 +39,10 @@ from fairway._fairway import (
     WaypointLeg,
     __version__,
     check,
+    draw_bitmap,
     follow_waypoints,
     limit_threads,
+    load_bitmap,
     load_certificate,
     load_plan,
     plan,
@@ -51,6 +55,7 @@ from fairway._fairway import (
 )
 
 __all__ = [
+    "Bitmap",
     "Certificate",
     "ClfLaw",
     "DubinsPath",
@@ -63,6 +68,7 @@ __all__ = [
     "Plan",
     "Region",
     "RunResult",
+    "Sampled",
     "Scenario",
     "ShortestLaw",
     "SteeringFlight",
@@ -71,8 +77,10 @@ __all__ = [
     "WaypointFlight",
     "WaypointLeg",
     "check",
+    "draw_bitmap",
     "follow_waypoints",
     "limit_threads",
+    "load_bitmap",
     "load_certificate",
     "load_plan",
     "plan",
