@@ -14,7 +14,10 @@ namespace {
 nlohmann::json region_identity(const RegionOfInterest& interest, const Grid& grid,
                                const std::vector<Region>& region) {
   nlohmann::json known = {static_cast<int>(interest.kind), interest.rectangle_m};
-  if (interest.kind == RegionOfInterest::Kind::cells) {
+  if (interest.kind != RegionOfInterest::Kind::cells) return known;
+  if (interest.cells.size() != grid.size()) {  // of another grid: of no proof about this one
+    known.push_back(interest.cells.size());
+  } else {
     const std::vector<std::uint8_t> target = target_cells(grid, region, interest);
     known.push_back(sha256_hex(std::as_bytes(std::span(target))));
   }

@@ -79,7 +79,7 @@ Picture draw_cell_sets(const CellSets& sets, const std::string& title) {
                        along,
                        {from_deg, from_deg + 180.0, "heading (degrees)", 5}};
     };
-    const PlotFrame enters = frame_at(0, turns + 90.0);
+    const PlotFrame enters = frame_at(0, turns < 180.0 ? turns + 90.0 : turns - 270.0);
     draw_panel(canvas, enters, fmt::format("theta-{}", name_of(side)), sets.along_m.size(),
                [&](Side exit) -> const CellSets::Row& { return sets.theta_of(side, exit); });
     canvas.text(fmt::format("Θ: enters by {}", name_of(side)), {left, enters.rect.y - 8.0});

@@ -116,6 +116,13 @@ TEST(RegionOfCells, IsPartOfWhatWasProvedAndReadsBack) {
   }
 }
 
+TEST(RegionOfCells, OfAnotherGridIsOfNoProofAboutThisOne) {
+  const Plan plan = random_plan(11);
+  RegionOfInterest other = by_polygon(plan);
+  other.cells.push_back(0);
+  EXPECT_NE(proof_identity(plan, other), proof_identity(plan, by_polygon(plan)));
+}
+
 TEST(RegionOfCells, OfNothingButObstaclesIsRefused) {
   Plan plan = random_plan(11);
   plan.region[5] = Region::obstacle;
