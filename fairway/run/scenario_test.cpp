@@ -69,7 +69,7 @@ TEST(Scenarios, SayWhatIsToBeReachedByAWordARectangleOrAFile) {
   EXPECT_EQ(region("\"area.geojson\"").file, "dir/area.geojson");
   for (const char* wrong : {"[1, 2, 3]", "[3, 0, 1, 4]", "7", "\"\"", "\"1,2,3,4\""}) {
     const std::string said = refusal(whole + "[verify]\nregion = " + wrong + "\n");
-    EXPECT_TRUE(said.starts_with("dir/s.toml:17: verify.region: expected")) << said;
+    EXPECT_TRUE(said.starts_with("dir/s.toml:18: verify.region: expected")) << said;
   }
 }
 
@@ -77,9 +77,9 @@ TEST(Scenarios, HaveBorderSamplesInFoursAndForBitmapsAlone) {
   const std::string bitmap = whole + "[verify]\nmethod = \"bitmap\"\nborder_samples = ";
   EXPECT_EQ(refusal(bitmap + "40\n"), "accepted");
   EXPECT_EQ(refusal(bitmap + "42\n"),
-            "dir/s.toml:18: verify.border_samples: is 42, expected a multiple of four");
+            "dir/s.toml:19: verify.border_samples: is 42, expected a multiple of four");
   EXPECT_EQ(refusal(whole + "[verify]\nborder_samples = 40\n"),
-            "dir/s.toml:17: verify.border_samples: belongs to verify.method = \"bitmap\"");
+            "dir/s.toml:18: verify.border_samples: belongs to verify.method = \"bitmap\"");
 }
 
 TEST(Scenarios, GiveWhatTheySayAndDefaultsForTheRest) {
