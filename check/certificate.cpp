@@ -115,12 +115,13 @@ bool lies_within(double low, double cell_m, double from, double to, bool claimed
   return std::abs(least) > 0x1p-49 * (std::abs(low) + cell_m) ? least > 0.0 : claimed;
 }
 
-/// `interest`: "goal", "obstacle" or a rectangle.
+/// `interest`: "goal", "obstacle", a rectangle, or "cells": those that cell_kind calls targets.
 void require_cells(const Certificate& c, const json& interest) {
   const bool of_goal = interest == "goal";
   const bool of_obstacles = interest == "obstacle";
-  const auto box =
-      of_goal || of_obstacles ? std::vector<double>(4) : interest.get<std::vector<double>>();
+  const bool of_cells = interest == "cells";
+  const auto box = of_goal || of_obstacles || of_cells ? std::vector<double>(4)
+                                                       : interest.get<std::vector<double>>();
   require(box.size() == 4, "region_of_interest: expected four numbers", unreadable);
   for (std::size_t i = 0; i < c.loop.kind.size(); ++i) {
     const double d = c.geometry.cell_m;
@@ -129,9 +130,10 @@ void require_cells(const Certificate& c, const json& interest) {
     const double y = c.geometry.y0_m + cell.y * d;
     const double h = c.loop.command_rad[i];
     const bool said = c.loop.kind[i] == target;
-    const bool is_target = of_goal ? c.region[i] == 2
-                           : of_obstacles
-                               ? c.region[i] == 1
+    const bool is_target = of_goal        ? c.region[i] == 2
+                           : of_obstacles ? c.region[i] == 1
+                           : of_cells
+                               ? c.region[i] != 1 && said
                                : c.region[i] != 1 && lies_within(x, d, box[0], box[2], said) &&
                                      lies_within(y, d, box[1], box[3], said);
     const CellKind kind = is_target ? target : c.region[i] == 1 ? obstacle : ordinary;
@@ -188,6 +190,10 @@ Certificate read_certificate(const std::string& path, const std::string& plan) {
   const TensorFile file = read_tensors(path);
   Certificate c;
   c.record = file.record;
+  require(file.record.at("format") != "fairway-bitmap",
+          "is a bitmap, a picture drawn from samples: it claims no proof, so there is nothing to "
+          "check",
+          unreadable);
   require(file.record.at("format") == "fairway-certificate" &&
               file.record.at("format_version").is_number_unsigned() &&
               file.record.at("format_version") == 1 && file.record.at("method") == "certified",

@@ -8,8 +8,10 @@
 #include <stdexcept>
 
 #include "fairway/base/error.hpp"
+#include "fairway/bitmap/bitmap_file.hpp"
 #include "fairway/map/read_map.hpp"
 #include "fairway/map/read_path.hpp"
+#include "fairway/map/read_region.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/run/scenario.hpp"
 #include "fairway/simulate/state_files.hpp"
@@ -18,7 +20,7 @@ namespace fairway {
 
 namespace {
 
-enum class Verb { map, path, path_in_degrees, plan, scenario, states };
+enum class Verb { map, path, path_in_degrees, plan, bitmap, region, scenario, states };
 
 struct Feed {
   std::string_view reader;
@@ -26,7 +28,7 @@ struct Feed {
   Verb verb;
 };
 
-constexpr std::array<Feed, 16> feeds = {{{"ros_map", "map.yaml", Verb::map},
+constexpr std::array<Feed, 18> feeds = {{{"ros_map", "map.yaml", Verb::map},
                                          {"moving_ai", "map.map", Verb::map},
                                          {"geojson", "map.geojson", Verb::map},
                                          {"qgc_plan", "map.plan", Verb::map},
@@ -40,6 +42,8 @@ constexpr std::array<Feed, 16> feeds = {{{"ros_map", "map.yaml", Verb::map},
                                          {"path_json", "path.geojson", Verb::path_in_degrees},
                                          {"path_waypoints", "path.txt", Verb::path_in_degrees},
                                          {"plan_file", "plan.safetensors", Verb::plan},
+                                         {"bitmap_file", "bitmap.safetensors", Verb::bitmap},
+                                         {"region", "region.geojson", Verb::region},
                                          {"scenario", "scenario.toml", Verb::scenario},
                                          {"states_csv", "states.csv", Verb::states}}};
 
@@ -113,6 +117,14 @@ void read(const Feed& to, const Folder& folder) {
     case Verb::plan:
       (void)read_plan(file);
       return;
+    case Verb::bitmap:
+      (void)read_bitmap(file);
+      return;
+    case Verb::region: {
+      const ObstacleMap world = world_for(to.verb);
+      (void)read_region(file, world.grid, world.frame);
+      return;
+    }
     case Verb::scenario:
       (void)read_scenario(file);
       return;

@@ -1,5 +1,4 @@
 // verify: plan -> verdicts.
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -7,6 +6,7 @@
 #include <utility>
 
 #include "bind_certificate.hpp"
+#include "bind_region.hpp"
 #include "binding.hpp"
 #include "fairway/run/progress.hpp"
 #include "fairway/run/verification.hpp"
@@ -19,27 +19,6 @@ namespace fairway::python {
 namespace {
 
 using namespace pybind11::literals;
-
-RegionOfInterest region_from(const py::object& region) {
-  RegionOfInterest made;
-  if (py::isinstance<py::str>(region)) {
-    made.kind = choice_of<RegionOfInterest::Kind>(
-        "region", region.cast<std::string>(),
-        {{"goal", RegionOfInterest::Kind::goal}, {"obstacle", RegionOfInterest::Kind::obstacle}});
-    return made;
-  }
-  made.kind = RegionOfInterest::Kind::rectangle;
-  try {
-    made.rectangle_m = region.cast<std::array<double, 4>>();
-  } catch (const py::cast_error&) {
-    throw py::type_error("region: expected \"goal\", \"obstacle\" or (x0, y0, x1, y1) in metres");
-  }
-  const auto& [x0, y0, x1, y1] = made.rectangle_m;
-  if (!(x0 < x1 && y0 < y1)) {
-    throw py::value_error("region: expected (x0, y0, x1, y1) with x0 < x1 and y0 < y1");
-  }
-  return made;
-}
 
 std::shared_ptr<HeldCertificate> verify(const std::shared_ptr<HeldPlan>& plan,
                                         const py::object& region, double undecided_max,
@@ -59,7 +38,7 @@ std::shared_ptr<HeldCertificate> verify(const std::shared_ptr<HeldPlan>& plan,
   }
   const CertifyOptions options =
       certify_options({undecided_max, time_limit_s.value_or(0.0), memory_limit_mb}, seed, samples);
-  const RegionOfInterest of_interest = region_from(region);
+  const RegionOfInterest of_interest = region_from(region, plan->plan);
   const Progress told = progress_of(progress);
 
   const py::gil_scoped_release unlocked;
@@ -83,8 +62,10 @@ void bind_verify(py::module_& m) {
         "resume"_a = nullptr, "progress"_a = py::none(),
         R"(Proves, for every place and heading, what the vehicle does under `plan`.
 
-region           what is to be reached: "goal", "obstacle", or the cells wholly inside
-                 (x0, y0, x1, y1), metres
+region           what is to be reached: "goal", "obstacle", the cells wholly inside
+                 (x0, y0, x1, y1), metres, or any cells: a mask bool [ny, nx], a polygon [n, 2]
+                 of corners x_m, y_m that they lie wholly in, or a pathlib.Path of a file
+                 (GeoJSON areas, or CSV ix,iy)
 undecided_max    stop once this share of the volume is undecided
 time_limit_s     stop after this time, seconds
 memory_limit_mb  stop before using more, megabytes

@@ -46,6 +46,8 @@ void translate(std::exception_ptr thrown) {
 }  // namespace
 
 void bind_picture(py::module_& m);
+void bind_cellular(py::module_& m);
+void bind_bitmap(py::module_& m);
 
 }  // namespace fairway::python
 
@@ -69,6 +71,8 @@ PYBIND11_MODULE(_fairway, m) {
   bind_simulate(m);
   bind_certificate(m);  // before verify, whose answer it is
   bind_verify(m);
+  bind_cellular(m);
+  bind_bitmap(m);
   bind_steer(m);
   bind_report(m);
   bind_run(m);

@@ -447,11 +447,53 @@ class Verify(Command):
         self.assertEqual(running.wait(60), 0)
         self.assertRegex(shown, rb"% undecided  \d s so far, time limit in \d s")
 
-    def test_bitmaps_have_no_pictures(self):
+    def test_a_bitmap_is_drawn_asked_exported_and_no_certificate(self):
         self.plan()
-        self.expect(64, "verify", "p.safetensors", "-o", "b.safetensors", "--method", "bitmap",
-                    "--pictures", "pictures")
-        self.assertNotIn("pictures", self.names())
+        for words in (("--failures", "f.csv"), ("--resume", "c.safetensors")):
+            self.expect(64, "verify", "p.safetensors", "-o", "b", "--method", "bitmap", *words)
+        told = self.expect(0, "verify", "p.safetensors", "-o", "b", "--method", "bitmap",
+                           "--border-samples", 20, "--pictures", "pictures").stdout
+        self.assertIn("not a proof", told)
+        self.assertIn("The bitmap is b", told)
+        self.assertEqual(sorted(os.listdir(self.folder / "pictures")),
+                         ["sampled.png", "sampled.svg", "slices.png", "slices.svg"])
+        summary = json.loads((self.folder / "b.summary.json").read_text())
+        self.assertEqual((summary["method"], summary["proved"]), ("bitmap", False))
+        answer = self.expect(0, "query", "b", "--state", "20,45,0").stdout.splitlines()
+        self.assertEqual(answer[0], "x_m,y_m,heading_rad,verdict,time_bound_s")
+        self.assertRegex(answer[1], r"^20,45,0,(sampled_reach|sampled_other|undecided),$")
+        told = json.loads(self.expect(0, "query", "b", "--state", "20,45,0", "--json").stdout)
+        self.assertEqual(told["bitmap"], "b")
+        self.assertIn("not a proof", self.expect(0, "export", "b", "-o", "b.tif").stdout)
+        for words in (("check", "b"), ("simulate", "b", "--state", "20,45,0"), ("verify", "b", "-o", "c")):
+            self.assertIn("is a bitmap", self.expect(65, *words).stderr)
+
+    def test_a_region_of_any_cells_is_proved_and_checked(self):
+        self.plan()
+        (self.folder / "area.geojson").write_text(
+            '{"type": "Polygon", "coordinates": [[[12, 12], [40, 12], [26, 40], [12, 12]]]}')
+        (self.folder / "cells.csv").write_text("ix,iy\n5,5\n6,5\n")
+        for region in ("area.geojson", "cells.csv"):
+            self.expect(0, "verify", "p.safetensors", "-o", "c", "--force", "--region", region,
+                        "--undecided-max", 0.9, "--volume-samples", 2000)
+            self.expect(0, "check", "c")
+        self.expect(65, "verify", "p.safetensors", "-o", "area.geojson", "--force", "--region", "area.geojson")
+        self.assertIn("or a file", self.expect(64, "verify", "p.safetensors", "-o", "d", "--region", "nowhere").stderr)
+        (self.folder / "cells.csv").write_text("ix,iy\n5,5000\n")
+        self.assertIn("cells.csv:2: is no cell", self.expect(65, "verify", "p.safetensors", "-o", "d",
+                                                             "--region", "cells.csv").stderr)
+        self.assertNotIn("d", self.names())
+
+    def test_the_sets_of_a_cell_are_printed_and_drawn(self):
+        self.plan()
+        told = self.expect(0, "cell", "p.safetensors", "--cell", "5,5", "--entry", "left", "-o", "cell.png").stdout
+        self.assertEqual(told.splitlines()[0], "set,entry,exit,along_m,from_rad,to_rad")
+        self.assertTrue(all(line.split(",")[1] == "left" for line in told.splitlines()[1:]))
+        self.assertEqual((self.folder / "cell.png").read_bytes()[:4], b"\x89PNG")
+        self.expect(65, "cell", "p.safetensors", "--cell", "5,5", "-o", "cell.png")
+        self.assertIn("has no cell 500,5", self.expect(65, "cell", "p.safetensors", "--cell", "500,5").stderr)
+        for wrong in (("--cell", "5"), ("--cell", "5,5", "--exit", "up"), ("--cell", "5,5", "-o", "x.gif")):
+            self.expect(64, "cell", "p.safetensors", *wrong)
 
 
 class Simulate(Command):

@@ -105,6 +105,7 @@ class Inputs(Files):
                       ("verify", "p", "-o", "d", "--pictures", "pictures"),
                       ("draw", "p", "-o", "p.svg"), ("plan", "s.toml", "-o", "q", "--picture", "map.png"),
                       ("export", "p", "-o", "p.tif"), ("export", "c", "-o", "c.tif"),
+                      ("cell", "p.svg", "--cell", "5,5", "-o", "p.svg"),
                       ("simulate", "p", "--state", "20,20,0", "--outcomes", "p"),
                       ("simulate", "p", "--state", "20,20,0", "--csv", "hard"),
                       ("simulate", "p", "--states", "states.csv", "--outcomes", "states.csv"),
@@ -229,7 +230,7 @@ class Interrupted(Files):
 
 class Help(Files):
     def test_common_options_stand_in_the_help_of_every_command(self):
-        for command in ("run", "plan", "simulate", "verify", "query", "check", "draw", "export", "steer", "view"):
+        for command in ("run", "plan", "simulate", "verify", "query", "check", "cell", "draw", "export", "steer", "view"):
             told = self.expect(0, command, "--help").stdout
             common = told.partition("Common options:\n")[2]
             for option in ("--threads", "--quiet", "--json"):

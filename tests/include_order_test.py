@@ -15,12 +15,13 @@ JOINERS = {"run", "view", "app"}
 NOUNS = {
     "map": {"obstacle_map.hpp", "region.hpp", "gdal_session.hpp"},
     "field": {"field.hpp"},
-    "plan": {"plan.hpp", "plan_record.hpp", "plan_digests.hpp"},
+    "plan": {"plan.hpp", "plan_record.hpp", "plan_digests.hpp", "plan_digests_json.hpp"},
     "simulate": {"flight.hpp", "flight_measures.hpp"},
-    "verify": {"verdict.hpp", "flow.hpp", "region_of_interest.hpp", "section_view.hpp", "section_verdicts.hpp",
-               "verdict_map.hpp"},
+    "verify": {"verdict.hpp", "flow.hpp", "region_of_interest.hpp", "region_of_interest_json.hpp", "section_view.hpp",
+               "section_verdicts.hpp", "verdict_map.hpp"},
     "certificate": {"certificate.hpp"},
-    "bitmap": {"border_bitmap.hpp"},
+    "cellular": {"border_heading_set.hpp", "cell_sets.hpp"},
+    "bitmap": {"border_bitmap.hpp", "bitmap.hpp", "sampled.hpp", "reachability_map.hpp"},
     "report": {"picture.hpp"},
 }
 # Libraries that must stay out of the core, and the folders that may name them.

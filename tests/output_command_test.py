@@ -77,6 +77,7 @@ class Output(unittest.TestCase):
                       ["simulate", "p", "--random", "10", "--csv", "-"],
                       ["simulate", "p", "--random", "10", "--geojson", "-"],
                       ["query", "c", *state], ["query", "c", *state, "--json"],
+                      ["cell", "p", "--cell", "5,5"], ["cell", "p", "--cell", "5,5", "--json"],
                       steer, [*steer, "--json"],
                       ["info", "map.pgm", "--resolution", "1"], ["init", "map.pgm", "--resolution", "1", "-o", "i", "--force"],
                       ["--help"], ["verify", "--help"], ["--version"], ["--scenario-keys"]):

@@ -39,8 +39,8 @@ class Entry:
 
 
 KINDS = {"toml": ".toml", "safetensors": ".safetensors", "PLAN": ".safetensors",
-         "CERT": ".safetensors", "PLAN|CERT": ".safetensors", "CSV": ".csv", "JSON": ".json",
-         "DIR": "directory", "FILE": "file", "tif": ".tif"}
+         "CERT": ".safetensors", "CERT|BITMAP": ".safetensors", "PLAN|CERT|BITMAP": ".safetensors",
+         "CSV": ".csv", "JSON": ".json", "DIR": "directory", "FILE": "file", "tif": ".tif"}
 
 
 @dataclasses.dataclass

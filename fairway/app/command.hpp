@@ -28,6 +28,7 @@ Action declare_verify(CLI::App& options);
 Action declare_query(CLI::App& options);
 Action declare_check(CLI::App& options);
 Action declare_draw(CLI::App& options);
+Action declare_cell(CLI::App& options);
 Action declare_export(CLI::App& options);
 Action declare_steer(CLI::App& options);
 Action declare_view(CLI::App& options);

@@ -1,4 +1,4 @@
-// fairway export: a plan or verdicts as GeoTIFF.
+// fairway export: a plan, verdicts or what a bitmap says, as GeoTIFF.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -10,9 +10,11 @@
 #include "fairway/app/command.hpp"
 #include "fairway/app/places.hpp"
 #include "fairway/base/error.hpp"
+#include "fairway/bitmap/bitmap_file.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/exchange/plan_rasters.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/run/ask_bitmap.hpp"
 #include "fairway/run/ask_certificate.hpp"
 #include "fairway/run/product_file.hpp"
 
@@ -51,40 +53,61 @@ std::string place_words(const Frame& frame) {
   return "in metres of the map, which has no place on Earth";
 }
 
+/// What was written, in words, and where it lies.
+struct Exported {
+  const char* of = "plan";
+  std::string words = "heading, cost and region of the plan";
+  Frame frame;
+};
+
+std::string layers_words(const char* what, std::size_t count) {
+  return fmt::format("{} at {} heading{}", what, count, count == 1 ? "" : "s");
+}
+
+Exported export_product(const ExportArguments& a, const std::vector<Heading>& headings,
+                        ProductKind kind, Existing existing) {
+  if (kind == ProductKind::certificate) {
+    const Certificate certificate = read_certificate(a.product);
+    const Frame frame = certificate.frame.value_or(Frame{});
+    write_verdict_raster(certificate.grid, frame, verdict_layers(certificate, headings), a.output,
+                         existing);
+    return {"verdicts", layers_words("the verdicts", headings.size()), frame};
+  }
+  if (kind == ProductKind::bitmap) {
+    const Bitmap bitmap = read_bitmap(a.product);
+    const Frame frame = bitmap.frame.value_or(Frame{});
+    write_sampled_raster(bitmap.grid(), frame, sampled_layers(bitmap, headings), a.output,
+                         existing);
+    return {"samples", layers_words("what samples say (a picture, not a proof)", headings.size()),
+            frame};
+  }
+  const Plan plan = read_plan(a.product);
+  write_plan_raster(plan, a.output, existing);
+  Exported of_plan;
+  of_plan.frame = frame_in(plan.record);
+  return of_plan;
+}
+
 int export_command(const ExportArguments& a, const Session& session) {
   require_places({a.output}, {a.product}, session.existing());
-  const std::string where = a.product.string();
+  const ProductKind kind = product_kind(a.product);
   std::vector<Heading> headings;
-  Frame frame;
-  const bool verdicts = product_kind(a.product) == ProductKind::certificate;
-  if (verdicts) {
-    for (const std::string& text : a.headings) {
-      headings.push_back(heading_as_state(text).heading);
-    }
+  if (kind != ProductKind::plan) {
+    for (const std::string& text : a.headings) headings.push_back(heading_as_state(text).heading);
     if (headings.empty()) headings = even_headings(8);
-    const Certificate certificate = read_certificate(a.product);
-    frame = certificate.frame.value_or(Frame{});
-    write_verdict_raster(certificate.grid, frame, verdict_layers(certificate, headings), a.output,
-                         session.existing());
-  } else {
-    if (!a.headings.empty()) {
-      throw InputError(where, "is a plan: --heading asks for verdicts, which a certificate has");
-    }
-    const Plan plan = read_plan(a.product);
-    frame = frame_in(plan.record);
-    write_plan_raster(plan, a.output, session.existing());
+  } else if (!a.headings.empty()) {
+    throw InputError(a.product.string(),
+                     "is a plan: --heading asks for verdicts, which a certificate has");
   }
+  const Exported made = export_product(a, headings, kind, session.existing());
   json list = json::array();
   for (const Heading heading : headings) list.push_back(heading.rad());
-  session.tell({{"raster", a.output.string()},
-                {"of", verdicts ? "verdicts" : "plan"},
-                {"headings_rad", verdicts ? list : json()},
-                {"on_earth", frame.geo.has_value() || frame.projected_crs.has_value()}},
-               fmt::format("{} has {} {}.", a.output.string(),
-                           verdicts ? fmt::format("the verdicts at {} heading{}", headings.size(),
-                                                  headings.size() == 1 ? "" : "s")
-                                    : "heading, cost and region of the plan",
-                           place_words(frame)));
+  session.tell(
+      {{"raster", a.output.string()},
+       {"of", made.of},
+       {"headings_rad", kind != ProductKind::plan ? list : json()},
+       {"on_earth", made.frame.is_on_earth()}},
+      fmt::format("{} has {} {}.", a.output.string(), made.words, place_words(made.frame)));
   return exit_done;
 }
 
@@ -102,9 +125,9 @@ std::string verdict_codes() {
 Action declare_export(CLI::App& options) {
   auto arguments = std::make_shared<ExportArguments>();
   ExportArguments& a = *arguments;
-  options.add_option("product", a.product, "a plan or a certificate")
+  options.add_option("product", a.product, "a plan, a certificate or a bitmap")
       ->required()
-      ->type_name("PLAN|CERT");
+      ->type_name("PLAN|CERT|BITMAP");
   options.add_option("-o,--output", a.output, "the GeoTIFF to write")
       ->required()
       ->check(CLI::Validator(
@@ -118,16 +141,18 @@ Action declare_export(CLI::App& options) {
           ""))
       ->type_name("FILE.tif");
   options
-      .add_option("--heading", a.headings,
-                  "certificates: verdicts at this heading, radians or degrees with the suffix deg; "
-                  "may be repeated (default: eight, evenly spaced)")
+      .add_option(
+          "--heading", a.headings,
+          "certificates and bitmaps: at this heading, radians or degrees with the suffix deg; "
+          "may be repeated (default: eight, evenly spaced)")
       ->type_name("H")
       ->check(heading_argument())
       ->allow_extra_args(false);
   options.footer(fmt::format(
       "A plan becomes the bands heading_rad, cost_m and region; a certificate a band of\n"
-      "verdicts for each heading: {}.\n"
-      "QGIS opens both where the map was.\n"
+      "verdicts for each heading: {};\n"
+      "a bitmap a band of what its samples say: 0 undecided, 1 sampled_reach, 2 sampled_other.\n"
+      "QGIS opens all where the map was.\n"
       "Example: fairway export out/demo/plan.safetensors -o demo.tif",
       verdict_codes()));
   return [arguments](const Session& session) { return export_command(*arguments, session); };

@@ -1,4 +1,4 @@
-// fairway query: what a certificate says of a state.
+// fairway query: what a certificate, or a bitmap, says of a state.
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,6 +13,8 @@
 #include "fairway/base/file_kind.hpp"
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/base/parallel.hpp"
+#include "fairway/bitmap/bitmap_file.hpp"
+#include "fairway/bitmap/sample_bitmap.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/map/earth_frame.hpp"
 #include "fairway/run/flight_summary.hpp"
@@ -31,54 +33,95 @@ struct QueryArguments {
   bool trust_file = false;
 };
 
-int query_command(const QueryArguments& a, const Session& session) {
-  // Reading it whole checks digests and order; the answers then come from the mapped file.
-  Frame frame;
-  if (!a.trust_file || a.asked.may_be_in_degrees())
-    frame = read_certificate(a.certificate).frame.value_or(Frame{});
-  const MappedFile file(a.certificate);
-  runtime::Certificate certificate;
-  if (certificate.open(file.bytes().data(), file.bytes().size()) != runtime::Status::ok) {
-    refuse_other_kind(file.bytes(), FileKind::certificate, a.certificate.string());
-    throw InputError(a.certificate.string(), "is not a certificate");
-  }
-  const std::vector<State> states = states_of(a.asked, frame, a.certificate);
-  for (const std::string& warning : degree_warnings(states, certificate.flow().grid, frame))
-    session.warn(warning);
-  std::vector<runtime::Answer> answers(states.size());
+/// What is printed of a state.
+struct Answer {
+  const char* word = "";
+  std::optional<double> time_bound_s;
+};
+
+std::vector<Answer> answers_of(const runtime::Certificate& certificate,
+                               const std::vector<State>& states) {
+  std::vector<Answer> answers(states.size());
   for_ranges(states.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const State& s = states[i];
-      answers[i] = certificate.query(s.position_m.x, s.position_m.y, s.heading.rad());
+      const auto found = certificate.query(s.position_m.x, s.position_m.y, s.heading.rad());
+      answers[i].word = name_of(found.verdict);
+      if (found.verdict == Verdict::reach) answers[i].time_bound_s = found.time_bound_s;
     }
   });
+  return answers;
+}
+
+std::vector<Answer> answers_of(const Bitmap& bitmap, const std::vector<State>& states) {
+  std::vector<Answer> answers;
+  for (const Sampled found : sampled_answers(bitmap, states)) {
+    answers.push_back({name_of(found), {}});
+  }
+  return answers;
+}
+
+void tell(const QueryArguments& a, const char* kind, const Frame& frame,
+          const std::vector<State>& states, const std::vector<Answer>& answers,
+          const Session& session) {
   if (session.json) {
     json all = json::array();
     std::optional<EarthFrame> earth;
     if (frame.is_on_earth()) earth.emplace(frame, a.certificate.string());
     for (std::size_t i = 0; i < states.size(); ++i) {
-      const bool reaches = answers[i].verdict == Verdict::reach;
+      const auto& bound_s = answers[i].time_bound_s;
       all.push_back({{"x_m", states[i].position_m.x},
                      {"y_m", states[i].position_m.y},
                      {"heading_rad", states[i].heading.rad()},
-                     {"verdict", name_of(answers[i].verdict)},
-                     {"time_bound_s", reaches ? json(answers[i].time_bound_s) : json()}});
+                     {"verdict", answers[i].word},
+                     {"time_bound_s", bound_s ? json(*bound_s) : json()}});
       if (earth) add_degrees(all.back(), states[i], *earth);
     }
-    session.tell({{"certificate", a.certificate.string()}, {"states", std::move(all)}}, "");
-    return exit_done;
+    session.tell({{kind, a.certificate.string()}, {"states", std::move(all)}}, "");
+    return;
   }
   fmt::memory_buffer text;
   fmt::format_to(std::back_inserter(text), "x_m,y_m,heading_rad,verdict,time_bound_s\n");
   for (std::size_t i = 0; i < states.size(); ++i) {
     fmt::format_to(std::back_inserter(text), "{},{},{},{},", states[i].position_m.x,
-                   states[i].position_m.y, states[i].heading.rad(), name_of(answers[i].verdict));
-    if (answers[i].verdict == Verdict::reach) {
-      fmt::format_to(std::back_inserter(text), "{}", answers[i].time_bound_s);
+                   states[i].position_m.y, states[i].heading.rad(), answers[i].word);
+    if (const auto& bound_s = answers[i].time_bound_s) {
+      fmt::format_to(std::back_inserter(text), "{}", *bound_s);
     }
     text.push_back('\n');
   }
   print({text.data(), text.size()});
+}
+
+/// The states asked for; warns of those that look like degrees typed as metres.
+std::vector<State> states_of(const QueryArguments& a, const Grid& grid, const Frame& frame,
+                             const Session& session) {
+  std::vector<State> states = states_of(a.asked, frame, a.certificate);
+  for (const std::string& warning : degree_warnings(states, grid, frame)) session.warn(warning);
+  return states;
+}
+
+int query_command(const QueryArguments& a, const Session& session) {
+  const MappedFile file(a.certificate);
+  if (kind_of_bytes(file.bytes()) == FileKind::bitmap) {
+    const Bitmap bitmap = read_bitmap(a.certificate);
+    const Frame frame = bitmap.frame.value_or(Frame{});
+    const std::vector<State> states = states_of(a, bitmap.grid, frame, session);
+    tell(a, "bitmap", frame, states, answers_of(bitmap, states), session);
+    return exit_done;
+  }
+  // Reading it whole checks digests and order; the answers then come from the mapped file.
+  Frame frame;
+  if (!a.trust_file || a.asked.may_be_in_degrees()) {
+    frame = read_certificate(a.certificate).frame.value_or(Frame{});
+  }
+  runtime::Certificate certificate;
+  if (certificate.open(file.bytes().data(), file.bytes().size()) != runtime::Status::ok) {
+    refuse_other_kind(file.bytes(), FileKind::certificate, a.certificate.string());
+    throw InputError(a.certificate.string(), "is not a certificate");
+  }
+  const std::vector<State> states = states_of(a, certificate.flow().grid, frame, session);
+  tell(a, "certificate", frame, states, answers_of(certificate, states), session);
   return exit_done;
 }
 
@@ -87,17 +130,23 @@ int query_command(const QueryArguments& a, const Session& session) {
 Action declare_query(CLI::App& options) {
   auto arguments = std::make_shared<QueryArguments>();
   QueryArguments& a = *arguments;
-  options.add_option("certificate", a.certificate, "the certificate")
+  options.add_option("certificate", a.certificate, "the certificate, or a bitmap")
       ->required()
-      ->type_name("CERT");
+      ->type_name("CERT|BITMAP");
   declare_states(options, a.asked, "state");
   options.add_flag("--trust-file", a.trust_file,
-                   "do not check digests first: faster for a few states of a large certificate");
+                   "do not check a certificate's digests first: faster for a few states of a large "
+                   "one");
   options.final_callback([&a] {
     if (a.asked.empty()) throw CLI::RequiredError("--state, --state-deg or --states");
   });
   options.footer(
       "Prints CSV x_m,y_m,heading_rad,verdict,time_bound_s (the bound for reach, else empty).\n"
+      "A certificate answers with what is proved. A bitmap answers with what its samples say of "
+      "the\n"
+      "border that the state's flight meets first: sampled_reach, sampled_other, or undecided "
+      "where\n"
+      "they disagree. That is a picture, not a proof.\n"
       "Example: fairway query demo.cert.safetensors --state 100,100,90deg");
   return [arguments](const Session& session) { return query_command(*arguments, session); };
 }

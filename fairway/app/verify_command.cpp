@@ -12,9 +12,13 @@
 #include "fairway/app/places.hpp"
 #include "fairway/app/terminal_progress.hpp"
 #include "fairway/base/error.hpp"
+#include "fairway/bitmap/bitmap_file.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/run/bitmap_pictures.hpp"
+#include "fairway/run/bitmap_verification.hpp"
 #include "fairway/run/failing_flights.hpp"
+#include "fairway/run/region_request.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/run/verdict_pictures.hpp"
 #include "fairway/run/verification.hpp"
@@ -41,33 +45,16 @@ struct VerifyArguments {
   VerifyLimits limits;
   std::size_t volume_samples = CertifyOptions{}.samples;
   std::uint64_t seed = CertifyOptions{}.seed;
-  int samples_per_border = 200;
+  int samples_per_border = usual_border_samples;
 };
-
-RegionOfInterest region_of_text(const std::string& text) {
-  RegionOfInterest region;
-  if (text == "goal") return region;
-  region.kind = RegionOfInterest::Kind::obstacle;
-  if (text == "obstacle") return region;
-  region.kind = RegionOfInterest::Kind::rectangle;
-  const std::vector<std::string> parts = CLI::detail::split(text, ',');
-  for (std::size_t i = 0; i < 4 && i < parts.size(); ++i) {
-    if (!CLI::detail::lexical_cast(parts[i], region.rectangle_m[i])) break;
-  }
-  return region;
-}
 
 CLI::Validator region_argument() {
   const auto check = [](const std::string& text) -> std::string {
-    if (text == "goal" || text == "obstacle") return {};
-    const std::vector<std::string> parts = CLI::detail::split(text, ',');
-    std::array<double, 4> r{};
-    bool fits = parts.size() == 4;
-    for (std::size_t i = 0; fits && i < 4; ++i) {
-      fits = CLI::detail::lexical_cast(parts[i], r[i]) && std::isfinite(r[i]);
-    }
-    if (fits && r[0] < r[2] && r[1] < r[3]) return {};
-    return "expected goal, obstacle, or X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1, found " + text;
+    const auto request = region_request_of(text);
+    const bool is_file = request && request->kind == RegionOfInterest::Kind::cells;
+    if (request && (!is_file || fs::exists(request->file))) return {};
+    return "expected goal, obstacle, X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1, or a file, found " +
+           text;
   };
   return {check, "", "region"};
 }
@@ -78,33 +65,45 @@ fs::path summary_place(const VerifyArguments& a) {
   return a.output.parent_path() / (a.output.stem().string() + ".summary.json");
 }
 
+/// The folder of the pictures, none of which takes an input's place.
+void open_pictures(const VerifyArguments& a, const Places& inputs, const Session& session,
+                   std::optional<AtomicFolder>& folder) {
+  if (a.pictures.empty()) return;
+  const bool drawn = a.method == "bitmap";
+  const std::vector<std::string> files = drawn ? bitmap_picture_files() : verdict_picture_files();
+  for (const std::string& picture : files) require_no_input(a.pictures / picture, inputs);
+  folder.emplace(a.pictures, session.existing(), drawn ? "sampled.png" : "proved.png", files);
+}
+
 int verify_command(const VerifyArguments& a, const Session& session) {
   const fs::path summary_file = summary_place(a);
-  const Places inputs = files_of({a.plan, a.resume});
+  const RegionRequest asked = region_request_of(a.region).value_or(RegionRequest{});
+  const Places inputs = files_of({a.plan, a.resume, asked.file});
   require_places({a.output, summary_file, a.failures}, inputs, session.existing());
   std::optional<AtomicFolder> pictures;
-  if (!a.pictures.empty()) {
-    for (const std::string& picture : verdict_picture_files()) {
-      require_no_input(a.pictures / picture, inputs);
-    }
-    pictures.emplace(a.pictures, session.existing(), "proved.png", verdict_picture_files());
-  }
+  open_pictures(a, inputs, session, pictures);
   say_when_interrupted(
       "nothing half-made was left; with --time-limit S a certificate holds what is proved by then, "
       "and --resume CERT goes on from it");
-  const RegionOfInterest region = region_of_text(a.region);
-
   std::optional<TerminalProgress> terminal(std::in_place, session.quiet);
   const Progress progress = terminal->progress();
   StageClock clock(progress);
   clock.begin("reading the plan", unknown_time);
   const Plan plan = read_plan(a.plan);
+  const RegionOfInterest region = region_on_plan(asked, plan);
   json summary;
   std::string words;
   if (a.method == "bitmap") {
     clock.begin("verifying", unknown_time);
     const BitmapVerification made =
-        write_bitmap(plan, region, a.samples_per_border, a.seed, a.output, session.existing());
+        draw_bitmap(plan, a.plan.string(), region, a.samples_per_border, a.seed);
+    clock.begin("writing the bitmap", unknown_time);
+    write_bitmap(made.bitmap, a.output, session.existing());
+    if (pictures) {
+      clock.begin("drawing", unknown_time);
+      write_bitmap_pictures(made.bitmap, a.plan.stem().string(), pictures->temporary_path());
+      pictures->commit();
+    }
     clock.end();
     summary = verification_json(made);
     words = verification_words(made);
@@ -141,12 +140,14 @@ int verify_command(const VerifyArguments& a, const Session& session) {
   }
   terminal.reset();
   summary["plan"] = a.plan.string();
-  summary["certificate"] = a.output.string();
+  const char* product = a.method == "bitmap" ? "bitmap" : "certificate";
+  summary[product] = a.output.string();
   summary["region"] = a.region;
   add_cost(summary, clock);
   write_whole(summary_file, session.existing(), summary.dump(2) + "\n");
-  session.tell(summary, fmt::format("{} {}\nThe certificate is {}, in numbers {}.", words,
-                                    cost_words(summary), a.output.string(), summary_file.string()));
+  session.tell(summary,
+               fmt::format("{} {}\nThe {} is {}, in numbers {}.", words, cost_words(summary),
+                           product, a.output.string(), summary_file.string()));
   return exit_done;
 }
 
@@ -156,18 +157,21 @@ Action declare_verify(CLI::App& options) {
   auto arguments = std::make_shared<VerifyArguments>();
   VerifyArguments& a = *arguments;
   options.add_option("plan", a.plan, "the plan file")->required()->type_name("PLAN");
-  options.add_option("-o,--output", a.output, "the certificate to write")
+  options.add_option("-o,--output", a.output, "the certificate, or the bitmap, to write")
       ->required()
       ->type_name("CERT.safetensors");
   options
-      .add_option("--method", a.method,
-                  "certified: a proof; bitmap: the paper's, on samples of the borders, a picture")
+      .add_option(
+          "--method", a.method,
+          "certified: a proof, and a certificate of it; bitmap: paper 2's backward reachable "
+          "set on samples of the borders, a picture to look at and to ask, no proof")
       ->check(CLI::IsMember({"certified", "bitmap"}))
       ->type_name("METHOD")
       ->capture_default_str();
   options
       .add_option("--region", a.region,
-                  "what is to be reached: goal, obstacle, or the cells wholly inside X0,Y0,X1,Y1")
+                  "what is to be reached: goal, obstacle, the cells wholly inside X0,Y0,X1,Y1, or "
+                  "those of a file: GeoJSON areas, or CSV of cells ix,iy")
       ->check(region_argument())
       ->type_name("REGION")
       ->capture_default_str();
@@ -196,7 +200,8 @@ Action declare_verify(CLI::App& options) {
       ->type_name("CSV");
   options
       .add_option("--pictures", a.pictures,
-                  "draw the verdicts, the shares proved, and a flight to each kind of failure")
+                  "draw the verdicts, the shares proved, and a flight to each kind of failure; "
+                  "bitmap: slices by heading, and the shares of headings that reach")
       ->type_name("DIR");
   options
       .add_option("--summary", a.summary,
@@ -212,15 +217,15 @@ Action declare_verify(CLI::App& options) {
   options
       .add_option("--border-samples", a.samples_per_border,
                   "bitmap: places and headings on a border, a multiple of four")
-      ->check(CLI::Range(4, 4000))
+      ->check(CLI::Range(least_border_samples, most_border_samples))
       ->type_name("M")
       ->capture_default_str();
   options.final_callback([&a] {
     if (a.samples_per_border % 4 != 0) {
       throw CLI::ValidationError("--border-samples", "expected a multiple of four");
     }
-    if (a.method == "bitmap" && (!a.resume.empty() || !a.failures.empty() || !a.pictures.empty())) {
-      throw CLI::ValidationError("--method bitmap", "has no --resume, --failures or --pictures");
+    if (a.method == "bitmap" && (!a.resume.empty() || !a.failures.empty())) {
+      throw CLI::ValidationError("--method bitmap", "has no --resume or --failures");
     }
   });
   options.footer("Example: fairway verify out/demo/plan.safetensors -o demo.cert.safetensors");

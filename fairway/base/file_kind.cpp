@@ -28,6 +28,7 @@ FileKind product_kind_of(std::span<const std::byte> bytes) {
   if (text == content.metadata.end()) return FileKind::unknown;
   const nlohmann::json record = parse_strict_json(text->second, "");
   if (!record.is_object() || !record.contains("format")) return FileKind::plan;
+  if (record["format"] == "fairway-bitmap") return FileKind::bitmap;
   return record["format"] == "fairway-certificate" ? FileKind::certificate : FileKind::unknown;
 }
 
@@ -68,6 +69,8 @@ const char* name_of(FileKind kind) {
       return "a plan";
     case FileKind::certificate:
       return "a certificate";
+    case FileKind::bitmap:
+      return "a bitmap";
     case FileKind::ros_map:
       return "a ROS map";
     case FileKind::moving_ai:
@@ -112,8 +115,18 @@ std::string other_kind_words(FileKind found, FileKind wanted) {
       return is + ": `fairway plan` makes a plan of it";
     case FileKind::plan:
       if (wanted == FileKind::certificate) return is + ": `fairway verify` makes its certificate";
+      if (wanted == FileKind::bitmap) {
+        return is + ": `fairway verify --method bitmap` draws its bitmap";
+      }
       return is + ", expected " + name_of(wanted) + ": `fairway simulate` flies it";
     case FileKind::certificate:
+      return is + ", expected " + name_of(wanted) + ": `fairway query` asks it";
+    case FileKind::bitmap:
+      if (wanted == FileKind::certificate) {
+        return is +
+               ", a picture drawn from samples, not a proof: `fairway verify` without "
+               "--method bitmap makes a certificate";
+      }
       return is + ", expected " + name_of(wanted) + ": `fairway query` asks it";
     default:
       return is + ": name it in a scenario, as map.file";

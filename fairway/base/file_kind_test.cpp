@@ -31,6 +31,7 @@ TEST(FileKind, IsToldByContent) {
       {"P5\n1 1\n255\nx", FileKind::image},
       {"x_m,y_m\n0,0\n", FileKind::unknown},
       {product("{\"format\":\"another\"}"), FileKind::unknown},
+      {product("{\"format\":\"fairway-bitmap\"}"), FileKind::bitmap},
       {"", FileKind::unknown},
       {"\n", FileKind::unknown},
       {"{\"a\": 1}", FileKind::unknown},
@@ -44,6 +45,11 @@ TEST(FileKind, WordsSayWhatToDoWithTheOtherKind) {
             "is a scenario: `fairway plan` makes a plan of it");
   EXPECT_EQ(other_kind_words(FileKind::plan, FileKind::certificate),
             "is a plan: `fairway verify` makes its certificate");
+  EXPECT_EQ(other_kind_words(FileKind::plan, FileKind::bitmap),
+            "is a plan: `fairway verify --method bitmap` draws its bitmap");
+  EXPECT_EQ(other_kind_words(FileKind::bitmap, FileKind::certificate),
+            "is a bitmap, a picture drawn from samples, not a proof: `fairway verify` without "
+            "--method bitmap makes a certificate");
   EXPECT_EQ(other_kind_words(FileKind::ros_map, FileKind::scenario),
             "is a ROS map: name it in a scenario, as map.file");
   EXPECT_EQ(other_kind_words(FileKind::certificate, FileKind::plan),

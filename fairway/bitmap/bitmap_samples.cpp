@@ -10,7 +10,8 @@
 namespace fairway {
 
 BitmapSamples::BitmapSamples(int m) : m_(m), step_(1.0 / m), slots_per_one_(8.0 * m) {
-  require(m >= 4 && m <= 8192 && m % 4 == 0, "samples per border: a multiple of 4 in 4 .. 8192");
+  require(m >= least && m <= most && m % 4 == 0,
+          "samples per border: a multiple of 4 in 4 .. 8192");
   const double sector_rad = two_pi / m;
   const int quarter_count = m / 4;
   // Sines of one quadrant serve all four: turned and mirrored samples are the same bits.

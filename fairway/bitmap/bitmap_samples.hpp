@@ -21,7 +21,10 @@ namespace fairway {
 
 class BitmapSamples {
  public:
-  /// Throws PreconditionViolation unless m is a multiple of 4 in 4 .. 8192.
+  static constexpr int least = 4;
+  static constexpr int most = 8192;
+
+  /// Throws PreconditionViolation unless m is a multiple of 4 in least .. most.
   explicit BitmapSamples(int m);
 
   int count() const { return m_; }

@@ -9,14 +9,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "fairway/base/digest.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/base/file_kind.hpp"
 #include "fairway/base/frame_json.hpp"
 #include "fairway/base/mapped_file.hpp"
-#include "fairway/base/parallel.hpp"
 #include "fairway/base/safetensors.hpp"
 #include "fairway/base/strict_json.hpp"
+#include "fairway/base/tensor_arrays.hpp"
+#include "fairway/plan/plan_digests_json.hpp"
+#include "fairway/verify/region_of_interest_json.hpp"
 
 namespace fairway {
 namespace {
@@ -43,16 +44,6 @@ std::vector<Tensor> tensors_of(const Certificate& c, const Geometry& geometry) {
           {"leaf_verdict", "U8", leaves, bytes(c.sections.verdict)}};
 }
 
-json digests_of(const std::vector<Tensor>& tensors) {
-  std::vector<std::string> digest(tensors.size());
-  for_ranges(tensors.size(), 1, [&](std::size_t a, std::size_t b) {
-    for (std::size_t i = a; i < b; ++i) digest[i] = sha256_hex(tensors[i].data);
-  });
-  json all = json::object();
-  for (std::size_t i = 0; i < tensors.size(); ++i) all[tensors[i].name] = digest[i];
-  return all;
-}
-
 json record_of(const Certificate& c) {
   json record = json::parse(c.evidence_json, nullptr, false);
   require(record.is_object(), "evidence_json is one JSON object");
@@ -61,63 +52,14 @@ json record_of(const Certificate& c) {
   return record;
 }
 
-PlanDigests plan_digests_of(const json& value, const std::string& where) {
-  return {text_member(value, "heading_rad", where), text_member(value, "cost_m", where),
-          text_member(value, "region", where)};
-}
-
-json json_of(const RegionOfInterest& region) {
-  switch (region.kind) {
-    case RegionOfInterest::Kind::goal:
-      return "goal";
-    case RegionOfInterest::Kind::obstacle:
-      return "obstacle";
-    case RegionOfInterest::Kind::rectangle:
-      return region.rectangle_m;
-  }
-  return {};
-}
-
-RegionOfInterest region_of(const json& value, const std::string& where) {
-  RegionOfInterest region;
-  if (value == "goal") return region;
-  region.kind = RegionOfInterest::Kind::obstacle;
-  if (value == "obstacle") return region;
-  region.kind = RegionOfInterest::Kind::rectangle;
-  if (!value.is_array() || value.size() != 4) {
-    throw InputError(where, "expected \"goal\", \"obstacle\" or [x0, y0, x1, y1]");
-  }
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (!value[i].is_number()) throw InputError(where, "expected four numbers");
-    region.rectangle_m[i] = value[i].get<double>();
-  }
-  return region;
-}
-
 /// The array `name` of `file`, of this type and shape (0: any extent).
 template <typename T>
 std::vector<T> array_of(const Safetensors& file, const char* name, const char* dtype,
                         const std::vector<std::uint64_t>& shape, const std::string& where) {
-  for (const Tensor& tensor : file.tensors) {
-    if (tensor.name != name) continue;
-    const std::string place = fmt::format("{}: \"{}\"", where, name);
-    if (tensor.dtype != dtype) {
-      throw InputError(place + ".dtype", fmt::format("is {}, expected {}", tensor.dtype, dtype));
-    }
-    bool fits = tensor.shape.size() == shape.size();
-    for (std::size_t i = 0; fits && i < shape.size(); ++i) {
-      fits = shape[i] == 0 ? tensor.shape[i] <= 0x7fffffff : tensor.shape[i] == shape[i];
-    }
-    if (!fits) throw InputError(place + ".shape", "does not fit the other arrays");
-    if (reinterpret_cast<std::uintptr_t>(tensor.data.data()) % sizeof(T) != 0) {
-      throw InputError(place + ".data_offsets",
-                       "begin at no multiple of the element's size in the file");
-    }
-    std::vector<T> values(tensor.data.size() / sizeof(T));
-    std::memcpy(values.data(), tensor.data.data(), values.size() * sizeof(T));
-    return values;
-  }
-  throw InputError(where, fmt::format("is not a certificate: lacks the array \"{}\"", name));
+  const Tensor& tensor = tensor_of(file, name, dtype, shape, sizeof(T), where, "a certificate");
+  std::vector<T> values(tensor.data.size() / sizeof(T));
+  std::memcpy(values.data(), tensor.data.data(), tensor.data.size());
+  return values;
 }
 
 void take_cells(const Safetensors& file, const std::string& where, Certificate& c) {
@@ -211,21 +153,15 @@ Certificate certificate_of_bytes(std::span<const std::byte> bytes, const std::st
   Certificate c;
   take_cells(file, where, c);
   take_sections(file, where, c);
-  c.region_of_interest =
-      region_of(member(record, "region_of_interest", place), place + ".region_of_interest");
+  c.region_of_interest = region_of_interest_of(member(record, "region_of_interest", place), c.kind,
+                                               place + ".region_of_interest");
   if (file.tensors.size() != 9) throw InputError(where, "has arrays that no certificate has");
-  const json claimed = member(record, "sha256", place);
   const json found = digests_of(file.tensors);
-  for (const auto& [name, digest] : found.items()) {
-    if (!claimed.is_object() || claimed.value(name, json()) != digest) {
-      throw InputError(fmt::format("{}.sha256.{}", place, name),
-                       "is not the digest of the array: the file was damaged or altered");
-    }
-  }
+  require_digests(record, found, place);
   if (cell_kinds(c.grid, c.region, c.region_of_interest) != c.kind) {
     throw InputError(where + ": \"cell_kind\"", "does not follow from region");
   }
-  c.plan = plan_digests_of(member(record, "plan_sha256", place), place + ".plan_sha256");
+  c.plan = plan_digests_of_json(member(record, "plan_sha256", place), place + ".plan_sha256");
   if (c.plan.heading_rad != found["heading_rad"] || c.plan.region != found["region"]) {
     throw InputError(place + ".plan_sha256", "heading_rad and region are not those of that plan");
   }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -31,20 +32,52 @@ void write_plan_raster(const Plan& plan, const std::filesystem::path& path, Exis
   write_geotiff(plan.grid, frame_in(plan.record), bands, path, existing);
 }
 
+namespace {
+
+/// "0 undecided, 1 reach, ...".
+template <typename Code>
+std::string codes_text(int count) {
+  std::string codes;
+  for (int v = 0; v < count; ++v) {
+    codes += fmt::format("{}{} {}", v == 0 ? "" : ", ", v, name_of(static_cast<Code>(v)));
+  }
+  return codes;
+}
+
+template <typename Code>
+RasterBand band_of(const char* what, Heading heading, std::string meaning,
+                   const std::vector<Code>& cells) {
+  static_assert(sizeof(Code) == 1);
+  return {fmt::format("{} at heading {:.6g} rad", what, heading.rad()), "", std::move(meaning),
+          std::span(reinterpret_cast<const std::uint8_t*>(cells.data()), cells.size())};
+}
+
+}  // namespace
+
 void write_verdict_raster(const Grid& grid, const Frame& frame,
                           std::span<const VerdictLayer> layers, const std::filesystem::path& path,
                           Existing existing) {
   require(!layers.empty(), "a raster of verdicts has a heading");
-  std::string codes;
-  for (int v = 0; v < verdict_count; ++v) {
-    codes += fmt::format("{}{} {}", v == 0 ? "" : ", ", v, name_of(static_cast<Verdict>(v)));
-  }
   std::vector<RasterBand> bands;
   for (const VerdictLayer& layer : layers) {
-    const auto* codes_of_cells = reinterpret_cast<const std::uint8_t*>(layer.verdict.data());
-    bands.push_back({fmt::format("verdict at heading {:.6g} rad", layer.heading.rad()), "",
-                     "what is proved of the vehicle there: " + codes,
-                     std::span(codes_of_cells, layer.verdict.size())});
+    bands.push_back(
+        band_of("verdict", layer.heading,
+                "what is proved of the vehicle there: " + codes_text<Verdict>(verdict_count),
+                layer.verdict));
+  }
+  write_geotiff(grid, frame, bands, path, existing);
+}
+
+void write_sampled_raster(const Grid& grid, const Frame& frame,
+                          std::span<const SampledLayer> layers, const std::filesystem::path& path,
+                          Existing existing) {
+  require(!layers.empty(), "a raster of samples has a heading");
+  std::vector<RasterBand> bands;
+  for (const SampledLayer& layer : layers) {
+    bands.push_back(band_of(
+        "samples", layer.heading,
+        "what samples say of the vehicle there, not a proof: " + codes_text<Sampled>(sampled_count),
+        layer.answer));
   }
   write_geotiff(grid, frame, bands, path, existing);
 }

@@ -9,6 +9,7 @@
 #include "fairway/base/frame.hpp"
 #include "fairway/base/grid.hpp"
 #include "fairway/base/heading.hpp"
+#include "fairway/bitmap/sampled.hpp"
 #include "fairway/plan/plan.hpp"
 #include "fairway/verify/verdict.hpp"
 
@@ -27,6 +28,17 @@ struct VerdictLayer {
 /// A band of bytes for each layer, at least one: the verdicts by code.
 void write_verdict_raster(const Grid& grid, const Frame& frame,
                           std::span<const VerdictLayer> layers, const std::filesystem::path& path,
+                          Existing existing);
+
+/// What a bitmap says of a grid at one heading, [iy][ix].
+struct SampledLayer {
+  Heading heading;
+  std::vector<Sampled> answer;
+};
+
+/// The same of a bitmap: answers by code, a picture.
+void write_sampled_raster(const Grid& grid, const Frame& frame,
+                          std::span<const SampledLayer> layers, const std::filesystem::path& path,
                           Existing existing);
 
 /// `count` headings, evenly spaced, the first east.

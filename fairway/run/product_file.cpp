@@ -21,6 +21,7 @@ ProductKind kind_of_product(const MappedFile& mapped, const std::string& where) 
   const nlohmann::json record = parse_strict_json(text->second, where + ": fairway");
   if (!record.is_object() || !record.contains("format")) return ProductKind::plan;
   if (record["format"] == "fairway-certificate") return ProductKind::certificate;
+  if (record["format"] == "fairway-bitmap") return ProductKind::bitmap;
   throw InputError(where, "is " + shown(record["format"]) + ", expected a plan or a certificate");
 }
 

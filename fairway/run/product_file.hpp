@@ -6,10 +6,10 @@
 
 namespace fairway {
 
-enum class ProductKind : std::uint8_t { plan, certificate };
+enum class ProductKind : std::uint8_t { plan, certificate, bitmap };
 
 /// By its metadata alone; whoever reads it then checks the rest. Throws InputError for a file that
-/// is neither.
+/// is none of them.
 [[nodiscard]] ProductKind product_kind(const std::filesystem::path& file);
 
 }  // namespace fairway

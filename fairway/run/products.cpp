@@ -1,5 +1,6 @@
 #include "fairway/run/products.hpp"
 
+#include "fairway/run/bitmap_pictures.hpp"
 #include "fairway/run/run_pictures.hpp"
 #include "fairway/run/verdict_pictures.hpp"
 
@@ -14,6 +15,7 @@ std::vector<std::string> product_names() {
     names.push_back(picture + ".png");
   }
   for (std::string& file : verdict_picture_files()) names.push_back(std::move(file));
+  for (std::string& file : bitmap_picture_files()) names.push_back(std::move(file));
   return names;
 }
 

@@ -27,6 +27,14 @@ VerdictMapOptions sampling_of(const Grid& grid) {
   return options;
 }
 
+/// What takes the assumptions' place where there is no certificate.
+std::vector<std::string> nothing_proved() {
+  return {
+      fmt::format("Nothing on this page is proved. What the samples of {} say of every place is "
+                  "drawn in slices.svg and sampled.svg, beside this page.",
+                  product::bitmap)};
+}
+
 }  // namespace
 
 std::string write_report_page(const Plan& plan, const Mission& mission,
@@ -51,7 +59,7 @@ std::string write_report_page(const Plan& plan, const Mission& mission,
                             verdicts ? &*verdicts : nullptr,
                             page.words,
                             page.summary.dump(-1, ' ', true),
-                            proof_assumptions(),
+                            verdicts ? proof_assumptions() : nothing_proved(),
                             lon_lat_of(frame_in(plan.record), page.title)};
   write_whole(folder / product::report_page, Existing::keep, page_html(content));
   return {};

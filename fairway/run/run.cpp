@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "fairway/base/digest.hpp"
+#include "fairway/bitmap/bitmap_file.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/exchange/flight_files.hpp"
 #include "fairway/field/compute_field.hpp"
@@ -16,6 +17,8 @@
 #include "fairway/map/read_map.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/plan/plan_of_field.hpp"
+#include "fairway/run/bitmap_pictures.hpp"
+#include "fairway/run/bitmap_verification.hpp"
 #include "fairway/run/checker.hpp"
 #include "fairway/run/design_warnings.hpp"
 #include "fairway/run/failing_flights.hpp"
@@ -27,7 +30,7 @@
 #include "fairway/run/product_picture.hpp"
 #include "fairway/run/products.hpp"
 #include "fairway/run/report_page.hpp"
-#include "fairway/run/run_estimate.hpp"
+#include "fairway/run/run_inputs.hpp"
 #include "fairway/run/run_pictures.hpp"
 #include "fairway/run/scenario_flights.hpp"
 #include "fairway/run/scenario_overrides.hpp"
@@ -105,13 +108,13 @@ struct NotVerified {};
 using Verified = std::variant<NotVerified, BitmapVerification, Proved>;
 
 /// The verdicts into a certificate, re-proved by the independent program.
-Proved prove_and_check(const Plan& plan, const Scenario& scenario, const fs::path& place,
-                       StageClock& clock, double after_s) {
+Proved prove_and_check(const Plan& plan, const Scenario& scenario, const RegionOfInterest& region,
+                       const fs::path& place, StageClock& clock) {
   const fs::path file = place / product::certificate;
   const CertifyOptions options = certify_options(scenario.verify.limits, scenario.simulate.seed);
   Proved proved;
-  proved.verification = verify_plan(plan, scenario.file.string(), {}, options, std::nullopt,
-                                    begin_verifying(clock, options, after_s));
+  proved.verification = verify_plan(plan, scenario.file.string(), region, options, std::nullopt,
+                                    levels_told_by(clock));
   const Certificate& certificate = proved.verification.certificate;
   write_certificate(certificate, file, Existing::keep);
   proved.failing = failing_states(certificate, 100, options.seed);
@@ -126,16 +129,37 @@ Proved prove_and_check(const Plan& plan, const Scenario& scenario, const fs::pat
   return proved;
 }
 
-Verified verify_and_check(const Plan& plan, const Scenario& scenario, const fs::path& place,
-                          StageClock& clock, double after_s) {
-  if (scenario.verify.method == VerifyMethod::none) return NotVerified{};
-  if (scenario.verify.method == VerifyMethod::certified) {
-    return prove_and_check(plan, scenario, place, clock, after_s);
-  }
+Verified verify_and_check(const Plan& plan, const Scenario& scenario,
+                          const RegionOfInterest& region, const fs::path& place,
+                          StageClock& clock) {
   clock.begin("verifying", unknown_time);
-  constexpr int samples_per_border = 200;
-  return write_bitmap(plan, {}, samples_per_border, scenario.simulate.seed, place / product::bitmap,
-                      Existing::keep);
+  if (scenario.verify.method == VerifyMethod::certified) {
+    return prove_and_check(plan, scenario, region, place, clock);
+  }
+  BitmapVerification drawn =
+      draw_bitmap(plan, scenario.file.string(), region,
+                  static_cast<int>(scenario.verify.border_samples), scenario.simulate.seed);
+  write_bitmap(drawn.bitmap, place / product::bitmap, Existing::keep);
+  return drawn;
+}
+
+/// The plan with what was to be reached as its goal: what verdicts and their flights are about.
+Plan as_verified(const Plan& plan, const Verified& verified) {
+  const auto* proved = std::get_if<Proved>(&verified);
+  return proved != nullptr ? as_verified(plan, proved->verification.certificate) : plan;
+}
+
+/// `flown` and `flights`: as verified.
+void write_verified_pictures(const Plan& flown, const ExactFlights& flights,
+                             const Verified& verified, std::uint64_t seed, const std::string& title,
+                             const fs::path& place) {
+  if (const auto* drawn = std::get_if<BitmapVerification>(&verified)) {
+    write_bitmap_pictures(drawn->bitmap, title, place);
+    return;
+  }
+  const Proved& proved = std::get<Proved>(verified);
+  write_verdict_pictures(flown, proved.verification.certificate,
+                         longest_failing(flights, proved.failing, 1), seed, title, place);
 }
 
 std::string words_of(const Verified& verified) {
@@ -188,28 +212,6 @@ json product_digests(const fs::path& folder) {
 
 }  // namespace
 
-namespace {
-
-/// Throws when a product would take the place of what it is made of.
-void require_no_inputs(const std::vector<fs::path>& products, const std::vector<fs::path>& inputs) {
-  for (const fs::path& product : products) require_no_input(product, inputs);
-}
-
-std::vector<fs::path> inputs_of(const Scenario& scenario) {
-  std::vector<fs::path> inputs{scenario.file, scenario.map.file};
-  if (const auto& path = scenario.mission.path_file) inputs.push_back(*path);
-  return inputs;
-}
-
-/// What the map's file names in turn.
-std::vector<fs::path> inputs_of(const ObstacleMap& map) {
-  std::vector<fs::path> inputs;
-  for (const InputFile& input : map.inputs) inputs.emplace_back(input.path);
-  return inputs;
-}
-
-}  // namespace
-
 RunResult run(const Scenario& scenario, const fs::path& folder, Existing existing,
               const Progress& progress) {
   std::vector<fs::path> places;
@@ -224,6 +226,7 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
     return unreachable(scenario, *refusal);
   const auto& [map, mission, plan] = std::get<Planned>(answer);
   require_no_inputs(places, inputs_of(map));
+  const RegionOfInterest region = region_on_plan(scenario.verify.region, plan);
   const Estimate left = estimate(scenario, map.grid);
 
   clock.begin("writing the plan", left.from_plan());
@@ -234,17 +237,14 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   const ScenarioFlights flown = fly_scenario(scenario, plan, engine, clock, left.from_pictures());
   write_flights(flown, plan, scenario.file.string(), place);
 
-  const Verified verified = verify_and_check(plan, scenario, place, clock, left.from_pictures());
+  const Verified verified = verify_and_check(plan, scenario, region, place, clock);
+  const Plan as_asked = as_verified(plan, verified);
+  const ExactFlights flights(as_asked);
 
   clock.begin("drawing", left.from_pictures());
   const std::string title = scenario.file.stem().string();
   write_run_pictures(plan, mission, flown, title, place);
-  const auto* proved = std::get_if<Proved>(&verified);
-  if (proved != nullptr) {
-    write_verdict_pictures(plan, proved->verification.certificate,
-                           longest_failing(*engine.exact(), proved->failing, 1),
-                           scenario.simulate.seed, title, place);
-  }
+  write_verified_pictures(as_asked, flights, verified, scenario.simulate.seed, title, place);
 
   clock.begin("making the page", left.page_s);
   RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
@@ -256,7 +256,7 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   add_flights(result.summary, flown, scenario.simulate.seed);
   result.summary["verify"] = json_of(verified);
   result.summary["products"] = product_digests(place);
-  write_page(plan, mission, flown, verified, *engine.exact(), title, place, result);
+  write_page(plan, mission, flown, verified, flights, title, place, result);
   clock.end();
   result.summary["products"] = product_digests(place);
   add_cost(result.summary, clock);
@@ -266,7 +266,8 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   if (result.summary["products"].contains(product::report_page)) {
     pictures = (folder / product::report_page).string() + ", " + pictures;
   }
-  if (proved != nullptr) pictures += ", " + (folder / "verdicts.svg").string();
+  const bool proved = std::holds_alternative<Proved>(verified);
+  pictures += ", " + (folder / (proved ? "verdicts.svg" : "slices.svg")).string();
   result.paragraph =
       fmt::format("{} {}{} {} {}\nLook at {} and {}.", plan_words(plan), flight_words(flown),
                   evidence_words, words_of(verified), cost_words(result.summary), pictures,

@@ -93,6 +93,13 @@ void check(const Scenario& s) {
                        s.vehicle.turn_radius_m, s.map.cell_m));
   }
   check_mission(s);
+  if (s.verify.border_samples % 4 != 0) {
+    refuse(s, "verify.border_samples",
+           fmt::format("is {}, expected a multiple of four", s.verify.border_samples));
+  }
+  if (s.verify.method != VerifyMethod::bitmap) {
+    forbid(s, "verify.border_samples", "belongs to verify.method = \"bitmap\"");
+  }
 }
 
 /// Past a TOML string that begins at `i`; of one that does not end, past its line.
@@ -147,6 +154,8 @@ void root_paths(Scenario& s) {
   const fs::path folder = s.file.parent_path();
   s.map.file = folder / s.map.file;
   if (s.mission.path_file) s.mission.path_file = folder / *s.mission.path_file;
+  fs::path& region = s.verify.region.file;
+  if (!region.empty()) region = folder / region;
 }
 
 }  // namespace

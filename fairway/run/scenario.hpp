@@ -17,6 +17,8 @@
 #include "fairway/base/frame.hpp"
 #include "fairway/field/field.hpp"
 #include "fairway/map/read_map.hpp"
+#include "fairway/run/bitmap_verification.hpp"
+#include "fairway/run/region_request.hpp"
 #include "fairway/run/verify_limits.hpp"
 #include "fairway/vehicle/mission.hpp"
 #include "fairway/vehicle/vehicle.hpp"
@@ -51,6 +53,8 @@ enum class VerifyMethod { certified, bitmap, none };
 /// The [verify] table.
 struct VerifyRequest {
   VerifyMethod method = VerifyMethod::certified;
+  RegionRequest region;
+  std::uint64_t border_samples = usual_border_samples;  ///< bitmap: m, a multiple of four
   VerifyLimits limits = limits_of_a_run;
 };
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "fairway/run/region_key.hpp"
 #include "fairway/run/scenario_values.hpp"
 
 namespace fairway {
@@ -215,6 +216,13 @@ std::vector<ScenarioKey> simulate_and_verify_keys() {
            {"none", VerifyMethod::none}},
           FAIRWAY_MEMBER(verify.method),
           "a proof for every state; or the paper's samples of the borders: a picture; or nothing"),
+      key("verify.region", "\"goal\", \"obstacle\", [x0, y0, x1, y1] or file", metres,
+          FAIRWAY_MEMBER(verify.region),
+          "what is to be reached, in place of the goal: obstacles, the cells wholly inside a "
+          "rectangle, or those of a file (GeoJSON areas, or CSV ix,iy)"),
+      whole("verify.border_samples", Range{least_border_samples, most_border_samples},
+            FAIRWAY_MEMBER(verify.border_samples),
+            "method \"bitmap\": places and headings sampled on each border, a multiple of four"),
       number("verify.undecided_max", Range{0.0, 1.0}, FAIRWAY_MEMBER(verify.limits.undecided_max),
              "stop refining once this share of the volume is undecided"),
       number("verify.time_limit_s", Range{0.0, 1e9}, FAIRWAY_MEMBER(verify.limits.time_limit_s),

@@ -1,5 +1,6 @@
 #include "fairway/run/scenario.hpp"
 
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -53,6 +54,32 @@ std::string refusal(const std::string& text) {
     return error.what();
   }
   return "accepted";
+}
+
+TEST(Scenarios, SayWhatIsToBeReachedByAWordARectangleOrAFile) {
+  const auto region = [](const std::string& value) {
+    return scenario_of_text(whole + "[verify]\nregion = " + value + "\n", "dir/s.toml")
+        .verify.region;
+  };
+  using Kind = RegionOfInterest::Kind;
+  EXPECT_EQ(scenario_of_text(whole, "dir/s.toml").verify.region.kind, Kind::goal);
+  EXPECT_EQ(region("\"obstacle\"").kind, Kind::obstacle);
+  EXPECT_EQ(region("[1, -2, 3.5, 4]").rectangle_m, (std::array{1.0, -2.0, 3.5, 4.0}));
+  EXPECT_EQ(region("\"area.geojson\"").kind, Kind::cells);
+  EXPECT_EQ(region("\"area.geojson\"").file, "dir/area.geojson");
+  for (const char* wrong : {"[1, 2, 3]", "[3, 0, 1, 4]", "7", "\"\"", "\"1,2,3,4\""}) {
+    const std::string said = refusal(whole + "[verify]\nregion = " + wrong + "\n");
+    EXPECT_TRUE(said.starts_with("dir/s.toml:18: verify.region: expected")) << said;
+  }
+}
+
+TEST(Scenarios, HaveBorderSamplesInFoursAndForBitmapsAlone) {
+  const std::string bitmap = whole + "[verify]\nmethod = \"bitmap\"\nborder_samples = ";
+  EXPECT_EQ(refusal(bitmap + "40\n"), "accepted");
+  EXPECT_EQ(refusal(bitmap + "42\n"),
+            "dir/s.toml:19: verify.border_samples: is 42, expected a multiple of four");
+  EXPECT_EQ(refusal(whole + "[verify]\nborder_samples = 40\n"),
+            "dir/s.toml:18: verify.border_samples: belongs to verify.method = \"bitmap\"");
 }
 
 TEST(Scenarios, GiveWhatTheySayAndDefaultsForTheRest) {

@@ -88,6 +88,16 @@ Vec2 TomlValue::pair() const {
   return {number_of((*array)[0], range_), number_of((*array)[1], range_)};
 }
 
+std::vector<double> TomlValue::numbers(std::size_t count) const {
+  const toml::array* array = node_.as_array();
+  if (array == nullptr || array->size() != count) refuse(fmt::format("{} numbers", count));
+  std::vector<double> numbers;
+  for (const toml::node& number : *array) numbers.push_back(number_of(number, range_));
+  return numbers;
+}
+
+bool TomlValue::is_text() const { return node_.is_string(); }
+
 std::vector<std::vector<double>> TomlValue::rows(std::size_t width) const {
   const std::string expected = fmt::format("an array of arrays of {} numbers", width);
   const toml::array* array = node_.as_array();

@@ -2,6 +2,7 @@
 // the option, key, and both what was expected and what was found.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -46,6 +47,9 @@ class TomlValue {
   [[nodiscard]] bool flag() const;
   [[nodiscard]] std::string text() const;
   [[nodiscard]] Vec2 pair() const;
+  /// As many numbers.
+  [[nodiscard]] std::vector<double> numbers(std::size_t count) const;
+  [[nodiscard]] bool is_text() const;
   /// Rows of `width` numbers each.
   [[nodiscard]] std::vector<std::vector<double>> rows(std::size_t width) const;
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <span>
 #include <string_view>
 #include <utility>
 
@@ -14,10 +13,6 @@
 #include "fairway/base/heading.hpp"
 #include "fairway/base/number_text.hpp"
 #include "fairway/base/random.hpp"
-#include "fairway/base/safetensors.hpp"
-#include "fairway/bitmap/bitmap_backward.hpp"
-#include "fairway/bitmap/bitmap_volume.hpp"
-#include "fairway/certificate/certificate_file.hpp"
 #include "fairway/run/verification_summary.hpp"
 #include "fairway/run/version.hpp"
 #include "fairway/simulate/flight.hpp"
@@ -159,36 +154,6 @@ std::string failing_states_csv(const std::vector<FailingState>& states) {
         fmt::format("{},{},{},{}\n", p.x, p.y, state.start.heading.rad(), name_of(state.verdict));
   }
   return text;
-}
-
-BitmapVerification write_bitmap(const Plan& plan, const RegionOfInterest& region,
-                                int samples_per_border, std::uint64_t seed,
-                                const std::filesystem::path& file, Existing existing) {
-  require_writable_place(file, existing);
-  const std::vector<std::uint8_t> target = target_cells(plan.grid, plan.region, region);
-  const BorderBitmap set = backward_reachable_set(plan, target, {samples_per_border});
-  constexpr std::size_t draws = 200'000;
-  const VolumeShare share = volume_share_reached(plan, target, set, draws, seed);
-  BitmapVerification made;
-  made.grid = plan.grid;
-  made.plan = plan_digests(plan);
-  made.samples_per_border = samples_per_border;
-  made.seed = seed;
-  made.border_states = set.borders().count() * set.states_per_border();
-  made.share_of_border_states = set.share_reached();
-  made.stored_bytes = set.bytes();
-  made.estimated_reach = share.reached;
-  made.standard_error = share.standard_error;
-  std::vector<std::uint64_t> words(set.words.size());
-  for (std::size_t i = 0; i < words.size(); ++i) words[i] = set.words[i];
-  AtomicFile out(file, existing);
-  write_safetensors(out, {{{"fairway", bitmap_record(made).dump(-1, ' ', true)}},
-                          {{"border_words",
-                            "U64",
-                            {set.borders().count(), set.words_per_border()},
-                            std::as_bytes(std::span(words))}}});
-  out.commit();
-  return made;
 }
 
 }  // namespace fairway

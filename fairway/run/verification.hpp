@@ -2,12 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "fairway/base/atomic_file.hpp"
 #include "fairway/certificate/certificate.hpp"
 #include "fairway/plan/plan.hpp"
 #include "fairway/plan/plan_digests.hpp"
@@ -46,23 +44,5 @@ struct FailingState {
 
 /// The same for `fairway simulate --states`: CSV x_m,y_m,heading_rad,verdict.
 [[nodiscard]] std::string failing_states_csv(const std::vector<FailingState>& states);
-
-/// What the paper's method finds: an estimate, no proof.
-struct BitmapVerification {
-  Grid grid;
-  PlanDigests plan;
-  int samples_per_border = 0;
-  std::uint64_t seed = 1;  ///< of the states behind estimated_reach
-  std::size_t border_states = 0;
-  double share_of_border_states = 0.0;  ///< that reach the region
-  std::size_t stored_bytes = 0;
-  double estimated_reach = 0.0;  ///< share of all states, by samples
-  double standard_error = 0.0;   ///< of estimated_reach
-};
-
-/// The paper's method into a file: the bits of border samples from which the region is reached.
-[[nodiscard]] BitmapVerification write_bitmap(const Plan& plan, const RegionOfInterest& region,
-                                              int samples_per_border, std::uint64_t seed,
-                                              const std::filesystem::path& file, Existing existing);
 
 }  // namespace fairway

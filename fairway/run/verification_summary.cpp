@@ -98,33 +98,6 @@ const std::vector<std::string>& proof_assumptions() {
   return sentences;
 }
 
-json bitmap_record(const BitmapVerification& v) {
-  return {{"format", "fairway-bitmap"},
-          {"format_version", 1},
-          {"program", program_version},
-          {"method", "bitmap"},
-          {"samples_per_border", v.samples_per_border},
-          {"plan_sha256", json::parse(json_text(v.plan))}};
-}
-
-json verification_json(const BitmapVerification& v) {
-  json summary = bitmap_record(v);
-  summary["cells"] = {v.grid.nx, v.grid.ny};
-  summary["options"] = {{"samples_per_border", v.samples_per_border}, {"seed", v.seed}};
-  summary["border_states"] = v.border_states;
-  summary["share_of_border_states"] = v.share_of_border_states;
-  summary["stored_bytes"] = v.stored_bytes;
-  summary["estimated_reach"] = v.estimated_reach;
-  summary["standard_error"] = v.standard_error;
-  summary["proved"] = false;
-  return summary;
-}
-
-std::string verification_words(const BitmapVerification& v) {
-  return fmt::format("Estimated from border samples (not a proof): {:.2f} % of states reach.",
-                     100.0 * v.estimated_reach);
-}
-
 std::string level_words(const LevelRecord& level) {
   return fmt::format("verifying, {:.2f} % undecided", 100.0 * level.undecided_volume);
 }

@@ -15,20 +15,15 @@ namespace fairway {
 
 /// docs/formats.md, summary.json of verify; without times.
 [[nodiscard]] nlohmann::json verification_json(const Verification& verification);
-[[nodiscard]] nlohmann::json verification_json(const BitmapVerification& verification);
 
 /// What was proved and what was assumed, in one paragraph.
 [[nodiscard]] std::string verification_words(const Verification& verification);
-[[nodiscard]] std::string verification_words(const BitmapVerification& verification);
 
 /// What every proof rests on, a sentence or two each; verification_words says it in one.
 [[nodiscard]] const std::vector<std::string>& proof_assumptions();
 
 /// Shares by the verdicts' names.
 [[nodiscard]] nlohmann::json shares_json(const std::array<double, verdict_count>& share);
-
-/// The record in a bitmap's file.
-[[nodiscard]] nlohmann::json bitmap_record(const BitmapVerification& verification);
 
 /// "verifying, 3.20 % undecided": the stage under way once a level is done.
 [[nodiscard]] std::string level_words(const LevelRecord& level);

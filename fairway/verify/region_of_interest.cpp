@@ -2,12 +2,16 @@
 
 #include <algorithm>
 
+#include "fairway/base/error.hpp"
+
 namespace fairway {
 
 std::vector<CellKind> cell_kinds(const Grid& grid, const std::vector<Region>& region,
                                  const RegionOfInterest& interest) {
   using Of = RegionOfInterest::Kind;
   std::vector<CellKind> kind(grid.size(), CellKind::ordinary);
+  require(interest.kind != Of::cells || interest.cells.size() == kind.size(),
+          "a region of cells has one entry per cell");
   const auto& [x0, y0, x1, y1] = interest.rectangle_m;
   for (std::size_t i = 0; i < kind.size(); ++i) {
     if (region[i] == Region::obstacle) {
@@ -18,6 +22,8 @@ std::vector<CellKind> cell_kinds(const Grid& grid, const std::vector<Region>& re
       const Vec2 low = grid.corner(grid.cell_at(i));
       const Vec2 high{low.x + grid.cell_m, low.y + grid.cell_m};
       if (low.x >= x0 && low.y >= y0 && high.x <= x1 && high.y <= y1) kind[i] = CellKind::target;
+    } else if (interest.kind == Of::cells && interest.cells[i] != 0) {
+      kind[i] = CellKind::target;
     }
   }
   return kind;

@@ -1,6 +1,5 @@
 #include "fairway/verify/sample_verdicts.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "fairway/base/error.hpp"
@@ -11,8 +10,6 @@
 
 namespace fairway {
 namespace {
-
-constexpr double aside_rad = 0.0005;  // verdict_map.hpp, property 2
 
 /// Gathers the verdicts of all ends that one state's flights may have.
 struct Reader {
@@ -81,19 +78,8 @@ VerdictMap verdict_map_of(const Flow& flow, const SectionView& sections,
           "a verdict map has at least one heading, one sample across, and flights that may cross");
   require(options.states_per_sample >= 0 && options.states_per_sample <= 65535,
           "0 to 65535 states a sample");
-  VerdictMap map;
-  map.grid = {flow.grid.nx, flow.grid.ny, flow.grid.x0_m, flow.grid.y0_m, flow.grid.cell_m};
-  const int most = options.most_across;
-  map.cells_per_sample = std::max(1, (std::max(flow.grid.nx, flow.grid.ny) + most - 1) / most);
-  map.nx = (flow.grid.nx + map.cells_per_sample - 1) / map.cells_per_sample;
-  map.ny = (flow.grid.ny + map.cells_per_sample - 1) / map.cells_per_sample;
+  VerdictMap map = VerdictMap::over(flow.grid, options.headings, options.most_across);
   map.states_per_sample = options.states_per_sample;
-  for (int k = 0; k < options.headings; ++k) {
-    map.heading_rad.push_back(Heading::from_rad(aside_rad + two_pi * k / options.headings).rad());
-  }
-  map.kind.resize(map.samples());
-  map.verdict.assign(map.samples() * map.heading_rad.size(), Verdict::undecided);
-  map.count.assign(map.samples(), {});
   const Sampler sampler(flow, sections, options);
   for_ranges(map.samples(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

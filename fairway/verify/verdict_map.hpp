@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "fairway/base/grid.hpp"
+#include "fairway/base/heading.hpp"
 #include "fairway/verify/flow.hpp"
 #include "fairway/verify/verdict.hpp"
 
@@ -33,6 +34,26 @@ struct VerdictMap {
   int states_per_sample = 0;
   /// [ny][nx][Verdict]: verdicts of states spread evenly over the cell's places and all headings.
   std::vector<std::array<std::uint16_t, verdict_count>> count;
+
+  /// A map that knows nothing yet but its places: `count` headings, evenly spaced, the first all
+  /// but east, and at most `most_across` samples along the longer side; both at least 1.
+  static VerdictMap over(const Grid& grid, int headings, int most_across) {
+    constexpr double aside_rad = 0.0005;  // property 2
+    VerdictMap map;
+    map.grid = grid;
+    const int longer = grid.nx > grid.ny ? grid.nx : grid.ny;
+    const int block = (longer + most_across - 1) / most_across;
+    map.cells_per_sample = block > 1 ? block : 1;
+    map.nx = (grid.nx + map.cells_per_sample - 1) / map.cells_per_sample;
+    map.ny = (grid.ny + map.cells_per_sample - 1) / map.cells_per_sample;
+    for (int k = 0; k < headings; ++k) {
+      map.heading_rad.push_back(Heading::from_rad(aside_rad + two_pi * k / headings).rad());
+    }
+    map.kind.resize(map.samples());
+    map.verdict.assign(map.samples() * map.heading_rad.size(), Verdict::undecided);
+    map.count.assign(map.samples(), {});
+    return map;
+  }
 
   std::size_t samples() const {
     return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);

@@ -17,6 +17,7 @@ The work is done by the extension _fairway, without the interpreter's lock; noth
 
 from fairway._fairway import (
     After,
+    Bitmap,
     Certificate,
     ClfLaw,
     DubinsPath,
@@ -29,6 +30,7 @@ from fairway._fairway import (
     Plan,
     Region,
     RunResult,
+    Sampled,
     Scenario,
     ShortestLaw,
     SteeringFlight,
@@ -38,8 +40,10 @@ from fairway._fairway import (
     WaypointLeg,
     __version__,
     check,
+    draw_bitmap,
     follow_waypoints,
     limit_threads,
+    load_bitmap,
     load_certificate,
     load_plan,
     plan,
@@ -53,6 +57,7 @@ from fairway._fairway import (
 
 __all__ = [
     "After",
+    "Bitmap",
     "Certificate",
     "ClfLaw",
     "DubinsPath",
@@ -65,6 +70,7 @@ __all__ = [
     "Plan",
     "Region",
     "RunResult",
+    "Sampled",
     "Scenario",
     "ShortestLaw",
     "SteeringFlight",
@@ -73,8 +79,10 @@ __all__ = [
     "WaypointFlight",
     "WaypointLeg",
     "check",
+    "draw_bitmap",
     "follow_waypoints",
     "limit_threads",
+    "load_bitmap",
     "load_certificate",
     "load_plan",
     "plan",

@@ -1,0 +1,69 @@
+#include "fairway/run/bitmap_verification.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "fairway/base/error.hpp"
+#include "fairway/bitmap/bitmap_backward.hpp"
+#include "fairway/bitmap/bitmap_volume.hpp"
+#include "fairway/plan/plan_digests.hpp"
+#include "fairway/run/version.hpp"
+
+namespace fairway {
+
+using nlohmann::json;
+
+BitmapVerification draw_bitmap(const Plan& plan, const std::string& where,
+                               const RegionOfInterest& region, int samples_per_border,
+                               std::uint64_t seed) {
+  if (!(plan.grid.cell_m < plan.vehicle.turn_radius_m)) {
+    throw InputError(where, fmt::format("its cells of {:g} m are not smaller than the turning "
+                                        "radius, {:g} m: no bitmap of such a plan can be drawn",
+                                        plan.grid.cell_m, plan.vehicle.turn_radius_m));
+  }
+  BitmapVerification made;
+  Bitmap& b = made.bitmap;
+  b.vehicle = plan.vehicle;
+  b.region_of_interest = region;
+  b.heading_rad = plan.heading_rad;
+  b.region = plan.region;
+  b.kind = cell_kinds(plan.grid, plan.region, region);
+  b.set = backward_reachable_set(plan, target_cells(plan.grid, plan.region, region),
+                                 {samples_per_border});
+  b.plan = plan_digests(plan);
+  b.frame = plan.record.frame;
+  constexpr std::size_t draws = 200'000;
+  const VolumeShare share = volume_share_reached(BitmapLookup(b), draws, seed);
+  made.estimated_reach = share.reached;
+  made.standard_error = share.standard_error;
+  b.evidence_json = json{
+      {"program", program_version},
+      {"options", {{"samples_per_border", samples_per_border}, {"seed", seed}}},
+      {"border_states", b.set.borders().count() * b.set.states_per_border()},
+      {"share_of_border_states", b.set.share_reached()},
+      {"estimated_reach", made.estimated_reach},
+      {"standard_error", made.standard_error},
+      {"proved", false}}.dump();
+  return made;
+}
+
+json verification_json(const BitmapVerification& v) {
+  json summary = json::parse(record_text(v.bitmap));
+  summary["method"] = "bitmap";
+  summary["cells"] = {v.bitmap.grid().nx, v.bitmap.grid().ny};
+  summary["stored_bytes"] = v.bitmap.set.bytes();
+  return summary;
+}
+
+std::string verification_words(const BitmapVerification& v) {
+  const int m = v.bitmap.set.samples;
+  return fmt::format(
+      "A picture, not a proof: by {0} places and {0} headings on each border, about {1:.1f} % of "
+      "all states outside obstacles and target reach. Nothing certain is known of the states "
+      "between the samples.",
+      m, 100.0 * v.estimated_reach);
+}
+
+}  // namespace fairway
