@@ -9,6 +9,7 @@
 #include "fairway/base/number_text.hpp"
 
 #include "fairway/run/final_legs.hpp"
+#include "fairway/run/share_text.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/simulate/flight_statistics.hpp"
 
@@ -16,10 +17,6 @@ namespace fairway {
 namespace {
 
 using nlohmann::json;
-
-std::string plural(std::size_t n, const char* noun) {
-  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
-}
 
 }  // namespace
 

@@ -22,6 +22,7 @@
 #include "fairway/run/flight_summary.hpp"
 #include "fairway/run/mission_on_map.hpp"
 #include "fairway/run/plan_record.hpp"
+#include "fairway/run/plan_warnings.hpp"
 #include "fairway/run/products.hpp"
 #include "fairway/run/report_page.hpp"
 #include "fairway/run/run_pictures.hpp"
@@ -243,7 +244,7 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   }
 
   clock.begin("making the page", left.page_s);
-  RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
+  RunResult result{false, plan_summary(scenario, map, plan), {}, plan_warnings(map, plan)};
   add_flights(result.summary, flown, scenario.simulate.seed);
   result.summary["verify"] = json_of(verified);
   result.summary["products"] = product_digests(place);
@@ -281,7 +282,7 @@ RunResult run_plan_only(const Scenario& scenario, const fs::path& file, Existing
   write_plan(plan, file, existing);
   clock.end();
 
-  RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
+  RunResult result{false, plan_summary(scenario, map, plan), {}, plan_warnings(map, plan)};
   result.summary["products"] = {{file.filename().string(), sha256_file(file)}};
   add_cost(result.summary, clock);
   result.paragraph = fmt::format("{} {}\nThe plan is {}.", plan_words(plan),

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <tbb/global_control.h>
 
+#include "fairway/run/plan_warnings.hpp"
 #include "fairway/run/scenario_keys.hpp"
+#include "fairway/run/share_text.hpp"
 #include "fairway/run/version.hpp"
 
 namespace fairway {
@@ -49,14 +52,9 @@ RegionCells count_regions(const Plan& plan) {
   return counts;
 }
 
-std::array<double, 2> wilson_interval(std::size_t hits, std::size_t count) {
-  if (count == 0) return {0.0, 1.0};
-  constexpr double z = 1.959963984540054;  // 97.5 % of the normal distribution
-  const auto n = static_cast<double>(count);
-  const double p = static_cast<double>(hits) / n;
-  const double middle = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
-  const double half = z / (1.0 + z * z / n) * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
-  return {hits == 0 ? 0.0 : middle - half, hits == count ? 1.0 : middle + half};
+const char* goal_word(const Plan& plan) {
+  const auto& mission = plan.record.mission;
+  return mission && std::holds_alternative<PathMission>(*mission) ? "path" : "goal";
 }
 
 json outcome_json(const OutcomeCounts& counts) {
@@ -102,7 +100,7 @@ json plan_summary(const Scenario& scenario, const ObstacleMap& map, const Plan& 
       {"unreachable_share_of_free", share(regions.unreachable, regions.free)},
       {"inputs", json::parse(json_text(plan.record)).value("inputs", json::array())},
       {"options", options},
-      {"warnings", map.warnings},
+      {"warnings", plan_warnings(map, plan)},
   };
   return summary;
 }

@@ -32,8 +32,8 @@ struct RegionCells {
 /// "9998 reach (99.98 %; 95 % interval 99.92 % to 99.99 %), 2 collide, 0 leave, 0 are trapped".
 [[nodiscard]] std::string outcome_words(const OutcomeCounts& counts);
 
-/// Wilson's interval for a share seen `hits` times in `count` draws, 95 %.
-[[nodiscard]] std::array<double, 2> wilson_interval(std::size_t hits, std::size_t count);
+/// What is to be reached: "goal", or "path".
+[[nodiscard]] const char* goal_word(const Plan& plan);
 
 /// Cells, regions, inputs, options, warnings: what plan and run have in common.
 [[nodiscard]] nlohmann::json plan_summary(const Scenario& scenario, const ObstacleMap& map,
