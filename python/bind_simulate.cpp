@@ -217,7 +217,7 @@ void save_mission(const Flights& flights, py::ssize_t i, const std::filesystem::
   const Plan& plan = flights.plan->plan;
   const LonLatOf lon_lat = lon_lat_of(frame_in(plan.record), record_name);
   require(static_cast<bool>(lon_lat),
-          "the plan's map has no place on Earth: there is no latitude and longitude to fly to");
+          "the plan's map is not georeferenced: there is no latitude and longitude to fly to");
   write_whole(path, force ? Existing::replace : Existing::keep,
               qgc_mission_text(path, flights.recorded(place, 1).front(), plan.vehicle.speed_mps,
                                lon_lat, {altitude_m, tolerance_m}));
@@ -318,14 +318,14 @@ void bind_flights(py::module_& m) {
           [](const Flights& f, const std::filesystem::path& path, std::optional<double> step_m,
              bool force) { save(f, path, Text::geojson, step_m, force); },
           "path"_a, py::kw_only(), "step_m"_a = py::none(), "force"_a = false,
-          "The tracks as GeoJSON: longitude and latitude when the map had a place on Earth, else "
+          "The tracks as GeoJSON: longitude and latitude when the map is georeferenced, else "
           "metres and a note that says so.")
       .def("save_mission", &save_mission, "i"_a, "path"_a, py::kw_only(),
            "altitude_m"_a = QgcMissionOptions{}.altitude_m,
            "tolerance_m"_a = QgcMissionOptions{}.tolerance_m, "force"_a = false,
            "Flight `i` as a mission: .plan for QGroundControl, .waypoints or .txt for QGC WPL 110; "
            "`altitude_m` above its start, its line within `tolerance_m` of the flight, metres. "
-           "ValueError when the plan's map has no place on Earth.")
+           "ValueError when the plan's map is not georeferenced.")
       .def("_repr_png_", [](const Flights& f) { return py::bytes(picture(f, "", 200).png); })
       .def("__len__", [](const Flights& f) { return f.starts.size(); })
       .def("__repr__", [](const Flights& f) {

@@ -48,7 +48,7 @@ std::string place_words(const Frame& frame) {
     return fmt::format("in the tangent plane about latitude {}, longitude {}",
                        frame.geo->latitude_deg, frame.geo->longitude_deg);
   }
-  return "in metres of the map, which has no place on Earth";
+  return "in metres of the map, which is not georeferenced";
 }
 
 int export_command(const ExportArguments& a, const Session& session) {

@@ -21,6 +21,7 @@
 #include "fairway/run/flight_summary.hpp"
 #include "fairway/run/fly_many.hpp"
 #include "fairway/run/plan_record.hpp"
+#include "fairway/run/share_text.hpp"
 #include "fairway/run/stage_clock.hpp"
 #include "fairway/simulate/start_states.hpp"
 #include "fairway/simulate/state_files.hpp"
@@ -59,6 +60,18 @@ ManyFlights flights_asked_for(const SimulateArguments& arguments, const Plan& pl
   return fly_many(FlightEngine(plan, arguments.sampled_options()), starts, options);
 }
 
+/// Where random starts were drawn from, and how many when not all of them were.
+std::string drawn_words(const SimulateArguments& arguments, std::size_t starts) {
+  if (arguments.random == 0) return {};
+  const StartRegion region = arguments.start_region();
+  const std::string from = region == StartRegion::safe_start ? "random safe starts with a command"
+                           : region == StartRegion::flyable
+                               ? "random states in free and buffer cells"
+                               : "random states outside obstacles";
+  if (arguments.random == starts) return " from " + from;
+  return fmt::format(" ({} of them from {})", grouped(arguments.random), from);
+}
+
 /// To a file, or to stdout for "-". True when stdout was used.
 bool put(const fs::path& path, const Session& session, const std::string& text) {
   if (path == "-") {
@@ -87,7 +100,7 @@ std::string mission_text(const SimulateArguments& arguments, const Plan& plan,
   const LonLatOf lon_lat = lon_lat_of(frame_in(plan.record), file);
   if (!lon_lat) {
     throw InputError(file,
-                     "its map has no place on Earth, so that there is no latitude and longitude to "
+                     "its map is not georeferenced: there is no latitude and longitude to "
                      "fly to; a mission needs a plan on a map in degrees or in a projected system");
   }
   return qgc_mission_text(arguments.qgc, flights.front(), plan.vehicle.speed_mps, lon_lat,
@@ -127,7 +140,7 @@ int simulate_command(const SimulateArguments& arguments, const Session& session)
   if (!stdout_used) {
     nlohmann::json report = flight_json(starts, flown);
     report["plan"] = arguments.plan.string();
-    session.tell(report, flight_words(starts, flown));
+    session.tell(report, flight_words(starts, flown, drawn_words(arguments, starts.size())));
   }
   return exit_done;
 }

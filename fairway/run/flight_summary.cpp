@@ -23,13 +23,15 @@ using nlohmann::json;
 std::string flight_words(const ScenarioFlights& flown) {
   std::string words;
   if (!flown.random_results().empty()) {
-    words += fmt::format("Of {}, {}. ", plural(flown.random_results().size(), "random safe start"),
+    words += fmt::format("Of {} from safe starts with a command, {}. ",
+                         plural(flown.random_results().size(), "random flight"),
                          outcome_words(count_outcomes(flown.random_results())));
   }
   if (flown.given > 0) {
     const OutcomeCounts counts = count_outcomes(flown.given_results());
-    words += fmt::format("Of {} in the scenario, {} reach. ", plural(flown.given, "state"),
-                         counts.of(Outcome::reach));
+    words += fmt::format("Of {} in the scenario, {}. ", plural(flown.given, "start"),
+                         grouped(counts.of(Outcome::reach)) +
+                             (counts.of(Outcome::reach) == 1 ? " reaches" : " reach"));
   }
   if (const std::string legs = final_legs_words(flown.final_legs); !legs.empty()) {
     words += legs + " ";
@@ -45,7 +47,8 @@ void add_flights(json& summary, const ScenarioFlights& flown, std::uint64_t seed
   summary["final_legs"] = final_legs_json(flown.final_legs);
 }
 
-std::string flight_words(std::span<const State> starts, const ManyFlights& flown) {
+std::string flight_words(std::span<const State> starts, const ManyFlights& flown,
+                         const std::string& drawn) {
   std::string text;
   constexpr std::size_t most_listed = 20;
   for (std::size_t i = 0; i < starts.size() && starts.size() <= most_listed; ++i) {
@@ -57,7 +60,7 @@ std::string flight_words(std::span<const State> starts, const ManyFlights& flown
       text += fmt::format(" after {:.2f} s, {:.1f} m", r.time_s, r.length_m);
     text += "\n";
   }
-  text += fmt::format("Of {}, {}.", plural(starts.size(), "flight"),
+  text += fmt::format("Of {}{}, {}.", plural(starts.size(), "flight"), drawn,
                       outcome_words(count_outcomes(flown.results)));
   const std::string legs = final_legs_words(flown.final_legs);
   return legs.empty() ? text : text + "\n" + legs;

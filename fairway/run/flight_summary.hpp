@@ -21,7 +21,9 @@ namespace fairway {
 void add_flights(nlohmann::json& summary, const ScenarioFlights& flown, std::uint64_t seed);
 
 /// A line for each flight while there are few of them, then one for all, and one for the last legs.
-[[nodiscard]] std::string flight_words(std::span<const State> starts, const ManyFlights& flown);
+/// `drawn`: where the starts were drawn from, " from ..."; empty: nowhere.
+[[nodiscard]] std::string flight_words(std::span<const State> starts, const ManyFlights& flown,
+                                       const std::string& drawn = {});
 
 /// Every flight, their counts and the last legs. There are as many starts as results.
 [[nodiscard]] nlohmann::json flight_json(std::span<const State> starts, const ManyFlights& flown);

@@ -3,11 +3,25 @@
 #include <variant>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "fairway/run/share_text.hpp"
 #include "fairway/run/summary.hpp"
 
 namespace fairway {
+namespace {
+
+using namespace nlohmann::literals;
+
+/// The buffer's width in turning radii, where the plan says it.
+std::optional<double> alpha_of(const Plan& plan) {
+  if (plan.record.options_json.empty()) return std::nullopt;
+  const auto options = nlohmann::json::parse(plan.record.options_json);
+  const nlohmann::json alpha = options.value("/plan/alpha"_json_pointer, nlohmann::json());
+  return alpha.is_number() ? std::optional(alpha.get<double>()) : std::nullopt;
+}
+
+}  // namespace
 
 std::optional<std::string> cut_off_warning(const Plan& plan, const std::string& remedy) {
   const RegionCells cells = count_regions(plan);
@@ -21,6 +35,26 @@ std::optional<std::string> cut_off_warning(const Plan& plan, const std::string& 
       percent_text(cells.unreachable, cells.free), grouped(cells.unreachable), grouped(cells.free),
       goal_word(plan));
   return remedy.empty() ? warning : warning + " " + remedy;
+}
+
+std::optional<std::string> failing_warning(const Plan& plan,
+                                           const OutcomeCounts& starts_with_command) {
+  const OutcomeCounts& counts = starts_with_command;
+  const std::size_t failing = counts.total() - counts.of(Outcome::reach);
+  if (static_cast<double>(failing) <= most_failing_unwarned * static_cast<double>(counts.total())) {
+    return std::nullopt;
+  }
+  std::string warning = fmt::format(
+      "{} of {} from safe starts with a command do not reach the {} ({}): there is room for a "
+      "turn, "
+      "but commands that bend faster than the vehicle can turn lead it out of it.",
+      sampled_share(failing, counts.total()).share, plural(counts.total(), "random flight"),
+      goal_word(plan), failure_words(counts));
+  const std::optional<double> alpha = alpha_of(plan);
+  if (alpha && *alpha < 2.0) {
+    warning += fmt::format(" plan.alpha is {:g}: below 2 not even a full turn fits.", *alpha);
+  }
+  return warning;
 }
 
 std::vector<std::string> plan_warnings(const ObstacleMap& map, const Plan& plan) {

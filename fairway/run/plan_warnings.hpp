@@ -8,6 +8,7 @@
 
 #include "fairway/map/obstacle_map.hpp"
 #include "fairway/plan/plan.hpp"
+#include "fairway/simulate/flight_statistics.hpp"
 
 namespace fairway {
 
@@ -18,6 +19,13 @@ inline constexpr double most_cut_off_unwarned = 0.1;
 /// vehicle there. `remedy`: whole sentences about why, and what would open a way; or nothing.
 [[nodiscard]] std::optional<std::string> cut_off_warning(const Plan& plan,
                                                          const std::string& remedy = {});
+
+/// Share of the flights from safe starts with a command that may fail before a warning says so.
+inline constexpr double most_failing_unwarned = 0.05;
+
+/// The warning that more of them do. `starts_with_command`: how their flights ended.
+[[nodiscard]] std::optional<std::string> failing_warning(const Plan& plan,
+                                                         const OutcomeCounts& starts_with_command);
 
 /// Those of the map, then those of the plan.
 [[nodiscard]] std::vector<std::string> plan_warnings(const ObstacleMap& map, const Plan& plan);

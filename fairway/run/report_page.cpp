@@ -26,6 +26,23 @@ VerdictMapOptions sampling_of(const Grid& grid) {
   return options;
 }
 
+/// Failures from safe starts with a command first, then the scenario's own flights.
+std::vector<PageFlights> flights_of(const std::vector<FailingFlights>& failing,
+                                    std::span<const Flight> given, std::span<const Flight> random) {
+  std::vector<PageFlights> groups;
+  const auto add_failing = [&](bool from_safe_starts) {
+    for (const FailingFlights& from : failing) {
+      if ((from.ground == StartGround::safe_start) != from_safe_starts) continue;
+      groups.push_back({"failing", from.flights, from.flights.size(), name_of(from.ground)});
+    }
+  };
+  add_failing(true);
+  groups.push_back({"given", given, 100});
+  add_failing(false);
+  groups.push_back({"random", random, 100});
+  return groups;
+}
+
 }  // namespace
 
 std::string write_report_page(const Plan& plan, const Mission& mission,
@@ -41,16 +58,15 @@ std::string write_report_page(const Plan& plan, const Mission& mission,
   }
   const std::span recorded(flown.recorded);
   const std::size_t given = std::min(flown.given, recorded.size());
-  const PageContent content{page.title,
-                            plan,
-                            mission,
-                            {{"given", recorded.first(given), 100},
-                             {"failing", page.failing, page.failing.size()},
-                             {"random", recorded.subspan(given), 100}},
-                            verdicts ? &*verdicts : nullptr,
-                            page.words,
-                            page.summary.dump(-1, ' ', true),
-                            proof_assumptions()};
+  const PageContent content{
+      page.title,
+      plan,
+      mission,
+      flights_of(page.failing, recorded.first(given), recorded.subspan(given)),
+      verdicts ? &*verdicts : nullptr,
+      page.words,
+      page.summary.dump(-1, ' ', true),
+      proof_assumptions()};
   write_whole(folder / product::report_page, Existing::keep, page_html(content));
   return {};
 }

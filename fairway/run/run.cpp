@@ -17,7 +17,9 @@
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/plan/plan_of_field.hpp"
 #include "fairway/run/checker.hpp"
+#include "fairway/run/closing.hpp"
 #include "fairway/run/failing_flights.hpp"
+#include "fairway/run/findings.hpp"
 #include "fairway/run/flight_engine.hpp"
 #include "fairway/run/flight_summary.hpp"
 #include "fairway/run/mission_on_map.hpp"
@@ -38,8 +40,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-constexpr const char* evidence_words = "Flights are evidence, not a proof.";
 
 /// Seconds that the stages after the map will take, from rates seen on one machine with two cores:
 /// no more than what a progress line needs.
@@ -96,19 +96,9 @@ void write_flights(const ScenarioFlights& flown, const Plan& plan, const std::st
   write_whole(place / product::outcomes, Existing::keep, outcomes_csv(flown.starts, flown.results));
 }
 
-/// A proof, and whether another program made it again.
-struct Proved {
-  Verification verification;
-  std::vector<FailingState> failing;
-  bool checked = false;
-};
-
-/// The paper's method, which proves nothing, or a proof.
-using Verified = std::variant<BitmapVerification, Proved>;
-
 /// The verdicts into a certificate, re-proved by the independent program.
-Proved prove_and_check(const Plan& plan, const Scenario& scenario, const fs::path& place,
-                       StageClock& clock) {
+Proved prove_and_check(const Plan& plan, const Scenario& scenario, const ScenarioFlights& flown,
+                       const fs::path& place, StageClock& clock) {
   const fs::path file = place / product::certificate;
   const CertifyOptions options = certify_options(scenario.verify.limits, scenario.simulate.seed);
   Proved proved;
@@ -116,7 +106,8 @@ Proved prove_and_check(const Plan& plan, const Scenario& scenario, const fs::pat
       verify_plan(plan, scenario.file.string(), {}, options, std::nullopt, levels_told_by(clock));
   const Certificate& certificate = proved.verification.certificate;
   write_certificate(certificate, file, Existing::keep);
-  proved.failing = failing_states(certificate, 100, options.seed);
+  proved.failing =
+      failing_states(certificate, 100, options.seed, failing_starts(flown.starts, flown.results));
   write_whole(place / product::failures, Existing::keep, failing_states_csv(proved.failing));
 
   clock.begin("checking the certificate", unknown_time);
@@ -128,34 +119,15 @@ Proved prove_and_check(const Plan& plan, const Scenario& scenario, const fs::pat
   return proved;
 }
 
-Verified verify_and_check(const Plan& plan, const Scenario& scenario, const fs::path& place,
-                          StageClock& clock) {
+Verified verify_and_check(const Plan& plan, const Scenario& scenario, const ScenarioFlights& flown,
+                          const fs::path& place, StageClock& clock) {
   clock.begin("verifying", unknown_time);
   if (scenario.verify.method == VerifyMethod::certified) {
-    return prove_and_check(plan, scenario, place, clock);
+    return prove_and_check(plan, scenario, flown, place, clock);
   }
   constexpr int samples_per_border = 200;
   return write_bitmap(plan, {}, samples_per_border, scenario.simulate.seed, place / product::bitmap,
                       Existing::keep);
-}
-
-std::string words_of(const Verified& verified) {
-  if (const auto* bitmap = std::get_if<BitmapVerification>(&verified)) {
-    return verification_words(*bitmap);
-  }
-  const Proved& proved = std::get<Proved>(verified);
-  return verification_words(proved.verification) +
-         (proved.checked ? " A separate program re-proved the certificate."
-                         : " The certificate was NOT checked: fairway-check could not be run.");
-}
-
-json json_of(const Verified& verified) {
-  const auto* proved = std::get_if<Proved>(&verified);
-  json summary = proved != nullptr ? verification_json(proved->verification)
-                                   : verification_json(std::get<BitmapVerification>(verified));
-  if (proved != nullptr) summary["checked"] = proved->checked;
-  summary["words"] = words_of(verified);
-  return summary;
 }
 
 /// report.html; where this build has none, a warning says why.
@@ -166,11 +138,12 @@ void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights&
   const auto* proved = std::get_if<Proved>(&verified);
   const ReportPage page{
       title,
-      {plan_words(plan), flight_words(flown) + evidence_words, words_of(verified)},
+      {plan_words(plan), flight_words(flown) + "Flights are evidence, not a proof.",
+       words_of(verified)},
       result.summary,
       proved != nullptr ? &proved->verification.certificate : nullptr,
-      proved != nullptr ? longest_failing(flights, proved->failing, failing_of_each)
-                        : std::vector<Flight>{}};
+      proved != nullptr ? failing_flights(flights, proved->failing, failing_of_each)
+                        : std::vector<FailingFlights>{}};
   const std::string absent = write_report_page(plan, mission, flown, page, place);
   if (!absent.empty()) result.warnings.push_back(absent);
 }
@@ -231,7 +204,7 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   const ScenarioFlights flown = fly_scenario(scenario, plan, engine, clock, left.from_pictures());
   write_flights(flown, plan, scenario.file.string(), place);
 
-  const Verified verified = verify_and_check(plan, scenario, place, clock);
+  const Verified verified = verify_and_check(plan, scenario, flown, place, clock);
 
   clock.begin("drawing", left.from_pictures());
   const std::string title = scenario.file.stem().string();
@@ -239,12 +212,16 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   const auto* proved = std::get_if<Proved>(&verified);
   if (proved != nullptr) {
     write_verdict_pictures(plan, proved->verification.certificate,
-                           longest_failing(*engine.exact(), proved->failing, 1),
+                           all_flights(failing_flights(*engine.exact(), proved->failing, 1)),
                            scenario.simulate.seed, title, place);
   }
 
   clock.begin("making the page", left.page_s);
-  RunResult result{false, plan_summary(scenario, map, plan), {}, plan_warnings(map, plan)};
+  const std::vector<Finding> found = findings_of(plan, flown, verified);
+  RunResult result{
+      false, plan_summary(scenario, map, plan), {}, warnings_of(map, plan, flown, verified)};
+  result.summary["findings"] = findings_json(found);
+  result.summary["warnings"] = result.warnings;
   add_flights(result.summary, flown, scenario.simulate.seed);
   result.summary["verify"] = json_of(verified);
   result.summary["products"] = product_digests(place);
@@ -259,10 +236,9 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
     pictures = (folder / product::report_page).string() + ", " + pictures;
   }
   if (proved != nullptr) pictures += ", " + (folder / "verdicts.svg").string();
-  result.paragraph =
-      fmt::format("{} {}{} {} {}\nLook at {} and {}.", plan_words(plan), flight_words(flown),
-                  evidence_words, words_of(verified), cost_words(result.summary), pictures,
-                  (folder / product::summary).string());
+  result.paragraph = fmt::format("{}\n{}{}\nLook at {} and {}.", findings_table(found),
+                                 notes_of(plan, flown, verified), cost_words(result.summary),
+                                 pictures, (folder / product::summary).string());
   return result;
 }
 
@@ -285,8 +261,10 @@ RunResult run_plan_only(const Scenario& scenario, const fs::path& file, Existing
   RunResult result{false, plan_summary(scenario, map, plan), {}, plan_warnings(map, plan)};
   result.summary["products"] = {{file.filename().string(), sha256_file(file)}};
   add_cost(result.summary, clock);
-  result.paragraph = fmt::format("{} {}\nThe plan is {}.", plan_words(plan),
-                                 cost_words(result.summary), file.string());
+  const std::vector<Finding> found = plan_findings(plan);
+  result.summary["findings"] = findings_json(found);
+  result.paragraph = fmt::format("{}{} {}\nThe plan is {}.", findings_table(found),
+                                 grid_words(plan), cost_words(result.summary), file.string());
   return result;
 }
 

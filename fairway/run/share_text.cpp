@@ -70,13 +70,13 @@ std::array<double, 2> wilson_interval(std::size_t hits, std::size_t count) {
   return {hits == 0 ? 0.0 : middle - half, hits == count ? 1.0 : middle + half};
 }
 
-std::string interval_text(std::size_t hits, std::size_t count) {
+SampledShare sampled_share(std::size_t hits, std::size_t count) {
   const auto [low, high] = wilson_interval(hits, count);
   const double half_percent = 50.0 * (high - low);
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(half_percent))), 0, 6);
   const double share = count == 0 ? 0.0 : static_cast<double>(hits) / static_cast<double>(count);
-  return fmt::format("{}, 95 % interval {} to {}", percent_text(share, decimals),
-                     bound_text(low, decimals, -1), bound_text(high, decimals, +1));
+  return {percent_text(share, decimals),
+          fmt::format("{} to {}", bound_text(low, decimals, -1), bound_text(high, decimals, +1))};
 }
 
 }  // namespace fairway

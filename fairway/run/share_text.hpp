@@ -27,8 +27,12 @@ namespace fairway {
 /// Wilson's interval for a share seen `hits` times in `count` draws, 95 %.
 [[nodiscard]] std::array<double, 2> wilson_interval(std::size_t hits, std::size_t count);
 
-/// "99.3 %, 95 % interval 99.2 % to 99.5 %": the last digit is where the interval's half begins.
-/// The interval is rounded outwards, but never up to all or down to nothing.
-[[nodiscard]] std::string interval_text(std::size_t hits, std::size_t count);
+struct SampledShare {
+  std::string share;     ///< "99.3 %"
+  std::string interval;  ///< "99.1 % to 99.5 %", that of 95 %
+};
+/// A share seen in draws. Its last digit is the first that the interval's half has; the interval is
+/// rounded outwards, but never up to all or down to nothing.
+[[nodiscard]] SampledShare sampled_share(std::size_t hits, std::size_t count);
 
 }  // namespace fairway

@@ -74,16 +74,21 @@ TEST(DecimalsOfSample, GoDownWithTheSample) {
   EXPECT_EQ(decimals_of_sample(1'000'000'000), 1);
 }
 
-TEST(IntervalText, ShowsNoMoreDigitsThanTheIntervalBears) {
-  EXPECT_EQ(interval_text(9934, 10'000), "99.3 %, 95 % interval 99.1 % to 99.5 %");
-  EXPECT_EQ(interval_text(1, 2), "50 %, 95 % interval 9 % to 91 %");
-  EXPECT_EQ(interval_text(10'000, 10'000), "100 %, 95 % interval 99.96 % to 100 %");
-  EXPECT_EQ(interval_text(0, 10'000), "0 %, 95 % interval 0 % to 0.04 %");
+std::string text_of(std::size_t hits, std::size_t count) {
+  const SampledShare text = sampled_share(hits, count);
+  return text.share + ", " + text.interval;
 }
 
-TEST(IntervalText, NeverRoundsAMissAway) {
-  EXPECT_EQ(interval_text(9999, 10'000), "99.99 %, 95 % interval 99.94 % to > 99.99 %");
-  EXPECT_EQ(interval_text(99'999, 100'000), "99.999 %, 95 % interval 99.994 % to > 99.999 %");
+TEST(SampledShare, ShowsNoMoreDigitsThanTheIntervalBears) {
+  EXPECT_EQ(text_of(9934, 10'000), "99.3 %, 99.1 % to 99.5 %");
+  EXPECT_EQ(text_of(1, 2), "50 %, 9 % to 91 %");
+  EXPECT_EQ(text_of(10'000, 10'000), "100 %, 99.96 % to 100 %");
+  EXPECT_EQ(text_of(0, 10'000), "0 %, 0 % to 0.04 %");
+}
+
+TEST(SampledShare, NeverRoundsAMissAway) {
+  EXPECT_EQ(text_of(9999, 10'000), "99.99 %, 99.94 % to > 99.99 %");
+  EXPECT_EQ(text_of(99'999, 100'000), "99.999 %, 99.994 % to > 99.999 %");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Steering to poses or along way-points, leg by leg; on request with its track and its picture.
+// Steering to poses or along waypoints, leg by leg; on request with its track and its picture.
 #pragma once
 
 #include <span>

@@ -5,7 +5,7 @@ import { byId } from "./dom";
 import { flightsOf, type ShownFlight } from "./flights";
 import { connect } from "./live";
 import { MapPage } from "./map_page";
-import { showFacts, showNumbers, showTitle, showTrust, showVolumes, showWords } from "./numbers";
+import { showFacts, showNumbers, showTitle, showTrust, showVolumes, showWarnings, showWords } from "./numbers";
 import type { FieldArrays, GridLines } from "./overlay";
 import { recordOfPage, type PageRecord } from "./record";
 import { showSolid } from "./solid";
@@ -28,6 +28,7 @@ async function flightsIn(record: PageRecord, arrays: Arrays): Promise<ShownFligh
 
 async function show(record: PageRecord, arrays: Arrays): Promise<void> {
   showTitle(record);
+  showWarnings(record);
   showFacts(record);
   showWords(record);
   showTrust(record);
