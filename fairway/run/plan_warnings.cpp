@@ -45,9 +45,8 @@ std::optional<std::string> failing_warning(const Plan& plan,
     return std::nullopt;
   }
   std::string warning = fmt::format(
-      "{} of {} from safe starts with a command do not reach the {} ({}): there is room for a "
-      "turn, "
-      "but commands that bend faster than the vehicle can turn lead it out of it.",
+      "{} of {} from safe starts with a command do not reach the {} ({}): such a start has room to "
+      "turn, but where the commands bend faster than the vehicle can, a flight misses its way.",
       sampled_share(failing, counts.total()).share, plural(counts.total(), "random flight"),
       goal_word(plan), failure_words(counts));
   const std::optional<double> alpha = alpha_of(plan);

@@ -226,9 +226,10 @@ std::vector<ScenarioKey> simulate_and_verify_keys() {
           "flights to record and draw, metres and radians"),
       whole("simulate.random", Range{0.0, 1e5}, FAIRWAY_MEMBER(simulate.random),
             "further flights to record and draw, from random safe starts with a command"),
-      whole("simulate.sample", Range{0.0, 1e7}, FAIRWAY_MEMBER(simulate.sample),
-            "random flights, from safe starts with a command, behind the shares in the summary; the "
-            "first of them are those of `simulate.random`"),
+      whole(
+          "simulate.sample", Range{0.0, 1e7}, FAIRWAY_MEMBER(simulate.sample),
+          "random flights, from safe starts with a command, behind the shares in the summary; the "
+          "first of them are those of `simulate.random`"),
       whole("simulate.seed", Range{0.0, 9.0e15}, FAIRWAY_MEMBER(simulate.seed),
             "of all random draws"),
       choice<VerifyMethod>(

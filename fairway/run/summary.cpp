@@ -76,8 +76,8 @@ json outcome_json(const OutcomeCounts& counts) {
 std::string outcome_words(const OutcomeCounts& counts) {
   const std::size_t reach = counts.of(Outcome::reach);
   const SampledShare share = sampled_share(reach, counts.total());
-  std::string words =
-      fmt::format("{} ({}; 95 % interval {})", counted(Outcome::reach, reach), share.share, share.interval);
+  std::string words = fmt::format("{} ({}; 95 % interval {})", counted(Outcome::reach, reach),
+                                  share.share, share.interval);
   for (const Outcome outcome : outcomes_in_order) {
     if (outcome != Outcome::reach) words += ", " + counted(outcome, counts.of(outcome));
   }

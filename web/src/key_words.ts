@@ -30,17 +30,18 @@ export function keyWords(path: string[]): string {
   return path.map((key) => names[key] ?? plainWords(key)).filter((words) => words !== "").join(": ");
 }
 
-function numberText(value: number, is_share: boolean): string {
-  if (is_share) return percent(value, 1);
+function numberText(value: number, share_digits: number): string {
+  if (share_digits > 0) return percent(value, share_digits);
   return Number.isInteger(value) ? grouped(value) : String(Number(value.toPrecision(6)));
 }
 
 /** A value by the keys that lead to it; null is what nobody set. */
 export function valueText(path: string[], value: unknown): string {
-  const is_share = path.some((key) => /share|fraction/.test(key));
+  const interval = path.includes("reach_share_interval_95");
+  const share_digits = interval ? 2 : path.some((key) => /share|fraction/.test(key)) ? 1 : 0;
   if (value === null || value === undefined) return "not set";
-  if (typeof value === "number") return path[path.length - 1] === "seed" ? String(value) : numberText(value, is_share);
-  if (Array.isArray(value)) return value.map((inner) => valueText(path, inner)).join(path.includes("reach_share_interval_95") ? " to " : ", ");
+  if (typeof value === "number") return path[path.length - 1] === "seed" ? String(value) : numberText(value, share_digits);
+  if (Array.isArray(value)) return value.map((inner) => valueText(path, inner)).join(interval ? " to " : ", ");
   return values[String(value)] ?? String(value);
 }
 
