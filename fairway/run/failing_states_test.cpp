@@ -18,7 +18,7 @@ namespace {
 /// Some cells of a random plan lose their command, as if they were cut off.
 Plan plan_with_a_pocket(std::uint64_t seed) {
   Plan plan = random_plan(seed);
-  for (std::size_t i = 0; i < plan.region.size(); i += 7) {
+  for (std::size_t i = 0; i < plan.region.size(); i += 3) {
     if (plan.region[i] != Region::free) continue;
     plan.heading_rad[i] = std::nanf("");
     plan.cost_m[i] = INFINITY;
@@ -39,31 +39,29 @@ bool has_start(const FailingState& state, const State& start) {
 }
 
 TEST(FailingStates, ComeByGroundThenByVerdict) {
-  const Plan plan = plan_with_a_pocket(11);
-  const auto failing = failing_states(certificate_of(plan), 10, 3);
-  std::map<std::pair<int, int>, std::size_t> count;
-  std::pair<int, long> last{0, 0};
-  for (const FailingState& state : failing) {
-    const std::size_t cell = plan.grid.index(plan.grid.cell_of(state.start.position_m));
-    EXPECT_EQ(state.ground == StartGround::cut_off, std::isnan(plan.heading_rad[cell]));
-    EXPECT_TRUE(state.ground == StartGround::cut_off ||
-                plan.region[cell] ==
-                    (state.ground == StartGround::buffer ? Region::buffer : Region::free));
-    EXPECT_NE(state.verdict, Verdict::reach);
-    const auto rank = std::find(verdicts_in_order.begin(), verdicts_in_order.end(), state.verdict) -
-                      verdicts_in_order.begin();
-    const std::pair<int, long> here{static_cast<int>(state.ground), rank};
-    EXPECT_LE(last, here);
-    last = here;
-    ++count[{static_cast<int>(state.ground), static_cast<int>(state.verdict)}];
+  std::map<StartGround, std::size_t> on_ground;
+  for (std::uint64_t seed = 11; seed < 15; ++seed) {
+    const Plan plan = plan_with_a_pocket(seed);
+    std::map<std::pair<int, long>, std::size_t> count;
+    std::pair<int, long> last{0, 0};
+    for (const FailingState& state : failing_states(certificate_of(plan), 10, 3)) {
+      const std::size_t cell = plan.grid.index(plan.grid.cell_of(state.start.position_m));
+      EXPECT_EQ(state.ground == StartGround::cut_off, std::isnan(plan.heading_rad[cell]));
+      EXPECT_TRUE(state.ground == StartGround::cut_off ||
+                  (state.ground == StartGround::buffer) == (plan.region[cell] == Region::buffer));
+      EXPECT_NE(state.verdict, Verdict::reach);
+      const auto* rank =
+          std::find(verdicts_in_order.begin(), verdicts_in_order.end(), state.verdict);
+      const std::pair<int, long> here{static_cast<int>(state.ground),
+                                      rank - verdicts_in_order.begin()};
+      EXPECT_LE(last, here);
+      last = here;
+      EXPECT_LE(++count[here], 10U);
+      ++on_ground[state.ground];
+    }
   }
-  std::map<int, std::size_t> on_ground;
-  for (const auto& [kind, n] : count) {
-    EXPECT_LE(n, 10U);
-    on_ground[kind.first] += n;
-  }
-  EXPECT_GT(on_ground[static_cast<int>(StartGround::safe_start)], 0U);
-  EXPECT_GT(on_ground[static_cast<int>(StartGround::cut_off)], 0U);
+  EXPECT_GT(on_ground[StartGround::safe_start], 0U);
+  EXPECT_GT(on_ground[StartGround::cut_off], 0U);
 }
 
 TEST(FailingStates, BeginWithTheStartsOfFlightsThatFailed) {
