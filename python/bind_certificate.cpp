@@ -21,7 +21,7 @@
 #include "fairway/report/draw_verdicts.hpp"
 #include "fairway/run/ask_certificate.hpp"
 #include "fairway/run/checker.hpp"
-#include "fairway/run/verification.hpp"
+#include "fairway/run/failing_states.hpp"
 #include "fairway/verify/sample_verdicts.hpp"
 #include "fairway/verify/verdict.hpp"
 
@@ -183,15 +183,17 @@ which a state that reaches does, else +inf.)")
 Returns int8 [ny, nx], the lowest row first, codes of Verdict; collide in an obstacle, reach in
 the goal. The states are cell_m / 37 and cell_m / 53 beside the middle and 0.0005 rad beside the
 heading: exactly in the middle, flights meet ties that have no volume.)")
-      .def("failing_states", &failing, "of_each"_a = 100, "seed"_a = 1,
-           R"(Sampled states that do not reach: at most `of_each` of every other verdict.
+      .def(
+          "failing_states", &failing, "of_each"_a = 100, "seed"_a = 1,
+          R"(Sampled states that do not reach: from safe starts with a command first, then from buffer
+cells, last from cells that are cut off, each with at most `of_each` of every other verdict.
 
-Returns (states float64 [n, 3], verdict int8 [n]), failures first, undecided states
-last: for Plan.fly and a look at its tracks.)")
+Returns (states float64 [n, 3], verdict int8 [n]); of each kind of cell failures first, undecided
+states last: for Plan.fly and a look at its tracks.)")
       .def_property_readonly(
           "volume_fraction",
           [](const HeldCertificate& held) { return member_of(held, "volume_fraction"); },
-          "Shares of the volume of all states outside obstacles and target, a dict by verdict.")
+          "Shares of the volume of all states outside obstacles and goal, a dict by verdict.")
       .def_property_readonly(
           "volume_fraction_free",
           [](const HeldCertificate& held) { return member_of(held, "volume_fraction_free"); },

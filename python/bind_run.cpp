@@ -110,7 +110,8 @@ void bind_run(py::module_& m) {
           "paragraph", [](const RunResult& r) { return r.paragraph; }, "What came out, in words.")
       .def_property_readonly(
           "warnings", [](const RunResult& r) { return r.warnings; },
-          "What the map's reader wants the user to know.")
+          "What should not be missed: of the map, of free cells that are cut off, of flights that "
+          "fail, of a proof that a limit ended.")
       .def("__repr__", [](const RunResult& r) { return r.paragraph; });
 
   m.def("plan", &plan, "scenario"_a, "progress"_a = py::none(),

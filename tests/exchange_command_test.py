@@ -119,7 +119,7 @@ class Exchange(unittest.TestCase):
                                                             "resolution_m = 10.0\n[vehicle]"))
         self.expect(0, "plan", "flat.toml", "-o", "flat.safetensors")
         done = self.expect(65, "simulate", "flat.safetensors", "--random", 1, "--qgc", "m.plan")
-        self.assertIn("no place on Earth", done.stderr)
+        self.assertIn("not georeferenced", done.stderr)
         self.assertFalse((self.folder / "m.plan").exists())
         report = json.loads(self.expect(0, "--json", "export", "flat.safetensors", "-o",
                                         "flat.tif").stdout)

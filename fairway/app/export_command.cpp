@@ -50,7 +50,7 @@ std::string place_words(const Frame& frame) {
     return fmt::format("in the tangent plane about latitude {}, longitude {}",
                        frame.geo->latitude_deg, frame.geo->longitude_deg);
   }
-  return "in metres of the map, which has no place on Earth";
+  return "in metres of the map, which is not georeferenced";
 }
 
 /// What was written, in words, and where it lies.

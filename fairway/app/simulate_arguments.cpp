@@ -17,7 +17,7 @@ void declare_starts(CLI::App& options, SimulateArguments& a) {
       ->capture_default_str();
   options
       .add_option("--random-in", a.random_in,
-                  "safe_start: free cells that can reach the goal; flyable: free and buffer; "
+                  "safe_start: free cells with a command; flyable: free and buffer; "
                   "not_obstacle: goal cells too")
       ->check(CLI::IsMember({"safe_start", "flyable", "not_obstacle"}))
       ->type_name("WHERE")

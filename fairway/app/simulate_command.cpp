@@ -24,6 +24,7 @@
 #include "fairway/run/fly_many.hpp"
 #include "fairway/run/plan_record.hpp"
 #include "fairway/run/qgc_site.hpp"
+#include "fairway/run/share_text.hpp"
 #include "fairway/run/stage_clock.hpp"
 #include "fairway/run/start_warnings.hpp"
 #include "fairway/simulate/start_states.hpp"
@@ -63,6 +64,18 @@ ManyFlights flights_asked_for(const SimulateArguments& arguments, const Plan& pl
   return fly_many(engine, starts, options);
 }
 
+/// Where random starts were drawn from, and how many when not all of them were.
+std::string drawn_words(const SimulateArguments& arguments, std::size_t starts) {
+  if (arguments.random == 0) return {};
+  const StartRegion region = arguments.start_region();
+  const std::string from = region == StartRegion::safe_start ? "random safe starts with a command"
+                           : region == StartRegion::flyable
+                               ? "random states in free and buffer cells"
+                               : "random states outside obstacles";
+  if (arguments.random == starts) return " from " + from;
+  return fmt::format(" ({} of them from {})", grouped(arguments.random), from);
+}
+
 /// To a file, or to stdout for "-". True when stdout was used.
 bool put(const fs::path& path, const Session& session, const std::string& text) {
   if (path == "-") {
@@ -100,7 +113,7 @@ std::string mission_text(const SimulateArguments& arguments, const Plan& plan,
   const LonLatOf lon_lat = lon_lat_of(frame_in(plan.record), file);
   if (!lon_lat) {
     throw InputError(file,
-                     "its map has no place on Earth, so that there is no latitude and longitude to "
+                     "its map is not georeferenced: there is no latitude and longitude to "
                      "fly to; a mission needs a plan on a map in degrees or in a projected system");
   }
   QgcMissionOptions mission = arguments.mission;
@@ -152,7 +165,8 @@ int simulate_command(const SimulateArguments& arguments, const Session& session)
     const EarthFrame* degrees = earth ? &*earth : nullptr;
     nlohmann::json report = flight_json(starts, flown, degrees);
     report["plan"] = arguments.plan.string();
-    session.tell(report, flight_words(starts, flown, degrees));
+    session.tell(report,
+                 flight_words(starts, flown, drawn_words(arguments, starts.size()), degrees));
   }
   return exit_done;
 }

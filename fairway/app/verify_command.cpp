@@ -18,6 +18,9 @@
 #include "fairway/run/bitmap_pictures.hpp"
 #include "fairway/run/bitmap_verification.hpp"
 #include "fairway/run/failing_flights.hpp"
+#include "fairway/run/failing_states.hpp"
+#include "fairway/run/findings.hpp"
+#include "fairway/run/plan_warnings.hpp"
 #include "fairway/run/region_request.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/run/verdict_pictures.hpp"
@@ -92,7 +95,9 @@ int verify_command(const VerifyArguments& a, const Session& session) {
   const Plan plan = read_plan(a.plan);
   const RegionOfInterest region = region_on_plan(asked, plan);
   json summary;
-  std::string words;
+  std::vector<Finding> found;
+  std::vector<std::string> warnings;
+  std::string notes;
   if (a.method == "bitmap") {
     clock.begin("verifying", unknown_time);
     const BitmapVerification made =
@@ -106,7 +111,7 @@ int verify_command(const VerifyArguments& a, const Session& session) {
     }
     clock.end();
     summary = verification_json(made);
-    words = verification_words(made);
+    found = findings(plan, made);
   } else {
     std::optional<EarlierProof> earlier;
     if (!a.resume.empty()) earlier = EarlierProof{read_certificate(a.resume), a.resume.string()};
@@ -126,28 +131,36 @@ int verify_command(const VerifyArguments& a, const Session& session) {
       clock.begin("drawing", unknown_time);
       const Plan flown = as_verified(plan, made.certificate);
       write_verdict_pictures(flown, made.certificate,
-                             longest_failing(ExactFlights(flown), failing, 1), a.seed,
+                             all_flights(failing_flights(ExactFlights(flown), failing, 1)), a.seed,
                              a.plan.stem().string(), pictures->temporary_path());
       pictures->commit();
     }
     clock.end();
     summary = verification_json(made);
-    words = verification_words(made);
+    found = findings(plan, made);
+    notes = proof_notes(made) + "\n";
     if (made.resumed) {
       summary["resumed"] = resumed_json(*made.resumed);
-      words += " " + resumed_words(*made.resumed);
+      notes += resumed_words(*made.resumed) + "\n";
     }
+    if (auto warning = limit_warning(made)) warnings.push_back(std::move(*warning));
+  }
+  if (auto warning = cut_off_warning(plan); warning && a.region == "goal") {
+    warnings.insert(warnings.begin(), std::move(*warning));
   }
   terminal.reset();
   summary["plan"] = a.plan.string();
   const char* product = a.method == "bitmap" ? "bitmap" : "certificate";
   summary[product] = a.output.string();
   summary["region"] = a.region;
+  summary["findings"] = findings_json(found);
+  summary["warnings"] = warnings;
   add_cost(summary, clock);
   write_whole(summary_file, session.existing(), summary.dump(2) + "\n");
+  for (const std::string& warning : warnings) session.warn(warning);
   session.tell(summary,
-               fmt::format("{} {}\nThe {} is {}, in numbers {}.", words, cost_words(summary),
-                           product, a.output.string(), summary_file.string()));
+               fmt::format("{}\n{}{}\nThe {} is {}, in numbers {}.", findings_table(found), notes,
+                           cost_words(summary), product, a.output.string(), summary_file.string()));
   return exit_done;
 }
 

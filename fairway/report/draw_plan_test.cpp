@@ -67,7 +67,7 @@ TEST(DrawPlan, EveryPartIsANamedLayer) {
                             "axes", "color-bar", "legend", "scale-bar", "title"})
     EXPECT_TRUE(has_layer(picture.svg, layer)) << layer;
   for (const char* text : {"All of it", "x (m)", "y (m)", "cost to go (m)", "buffer", "obstacle",
-                           "goal cells", "goal point", "streamline", "command"})
+                           "goal", "goal point", "streamline", "command"})
     EXPECT_TRUE(has_text(picture.svg, text)) << text;
   EXPECT_FALSE(has_text(picture.svg, "path to follow"));
 }
@@ -86,7 +86,7 @@ TEST(DrawPlan, UnreachableCellsAreCountedNamedAndHatched) {
     for (int ix = 2; ix < 6; ++ix)
       p.cost_m[grid.index({ix, iy})] = std::numeric_limits<float>::infinity();
   const Picture after = draw_plan(p, {.streamlines = false});
-  EXPECT_TRUE(has_text(after.svg, "unreachable (16 cells)"));
+  EXPECT_TRUE(has_text(after.svg, "cut off (16 cells)"));
   EXPECT_EQ(testing::elements_of_layer(after.svg, "patterns").size(),
             testing::elements_of_layer(before.svg, "patterns").size() + 2);
 }

@@ -115,7 +115,7 @@ TEST(DrawVerdicts, HasAPanelForEachHeadingAndNamesAll) {
   EXPECT_FALSE(has_layer(picture.svg, "panel-9"));
   for (const char* text :
        {"A plan & its <verdicts>", "proved: reach", "proved: collide", "proved: leave",
-        "proved: trapped", "undecided", "obstacle", "to be reached", "20 m"}) {
+        "proved: trapped", "undecided", "obstacle", "goal", "20 m"}) {
     EXPECT_TRUE(has_text(picture.svg, text)) << text;
   }
   EXPECT_TRUE(has_layer(picture.svg, "legend"));

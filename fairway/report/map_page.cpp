@@ -60,11 +60,11 @@ std::vector<LegendEntry> region_entries(const Plan& plan, bool cost) {
     entries.push_back(hatched_entry("buffer", palette::buffer, buffer_pen, false, true));
   if (has(Region::obstacle)) entries.push_back(area_entry("obstacle", palette::obstacle));
   if (has(Region::goal))
-    entries.push_back(hatched_entry("goal cells", palette::goal, goal_pen, true, false));
+    entries.push_back(hatched_entry("goal", palette::goal, goal_pen, true, false));
   if (const auto cells =
           count_if_cell(plan, [&](std::size_t i) { return is_unreachable(plan, i); }))
     entries.push_back(
-        hatched_entry(fmt::format("unreachable ({} cell{})", cells, cells == 1 ? "" : "s"),
+        hatched_entry(fmt::format("cut off ({} cell{})", cells, cells == 1 ? "" : "s"),
                       palette::unreachable, unreachable_pen, true, true));
   return entries;
 }

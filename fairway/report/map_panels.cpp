@@ -59,7 +59,7 @@ MapPanels::MapPanels(const VerdictMap& map, const MapPanelsOptions& options,
   };
   if (has(CellKind::obstacle)) entries_.push_back(area_entry("obstacle", palette::obstacle));
   if (has(CellKind::target))
-    entries_.push_back(hatched_entry("to be reached", palette::goal, goal_pen, true, false));
+    entries_.push_back(hatched_entry("goal", palette::goal, goal_pen, true, false));
 
   frame_world(world_, map.grid);
   size_pt_ = size_of_world_pt(world_, options.panel_pt);

@@ -37,7 +37,7 @@ json styles_json() {
     const auto verdict = static_cast<Verdict>(v);
     const VerdictStyle style = style_of(verdict);
     verdicts.push_back({{"name", name_of(verdict)},
-                        {"words", words_of(verdict)},
+                        {"words", name_of(verdict)},
                         {"ground", hex(style.ground)},
                         {"pen", hex(style.pen.color)},
                         {"pen_pt", style.pen.width_pt},
@@ -101,6 +101,7 @@ json flights_json(const std::vector<PageFlights>& groups) {
            {"length_m", ends ? json(f.result.length_m) : json()},
            {"start", {f.start.position_m.x, f.start.position_m.y, f.start.heading.rad()}},
            {"pieces", {begin, begin + f.segments.size()}}});
+      if (!group.ground.empty()) shown.back()["ground"] = group.ground;
       begin += f.segments.size();
       const FinalLeg& leg = f.final_leg;
       if (leg.state == FinalLegState::not_asked) continue;

@@ -29,6 +29,7 @@ struct PageFlights {
   std::string group;
   std::span<const Flight> flights;  ///< recorded
   std::size_t most = 100;           ///< so many are shown; the page says when there are more
+  std::string ground = {};          ///< of failing ones: "safe_start", "buffer" or "cut_off"
 };
 
 struct PageContent {
@@ -37,8 +38,8 @@ struct PageContent {
   const Mission& mission;
   std::vector<PageFlights> flights;
   const VerdictMap* verdicts = nullptr;       ///< none: nothing was proved
-  std::vector<std::string> words = {};        ///< the honest paragraph, by sentence groups
-  std::string summary_json = "{}";            ///< an object, shown as numbers and digests
+  std::vector<std::string> words = {};        ///< what was found, in prose, by groups
+  std::string summary_json = "{}";            ///< an object: findings and warnings head the page
   std::vector<std::string> assumptions = {};  ///< what a proof rests on
   LonLatOf lon_lat = {};                      ///< none: the map has no place on Earth
 };

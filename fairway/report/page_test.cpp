@@ -290,6 +290,10 @@ TEST(Page, FlightsComeWithTheirPiecesAndLegsAndSayHowManyAreLeftOut) {
   const std::vector<Flight> flights{with_leg, trapped, trapped};
   const std::string page = page_html({"t", plan, goal, {{"given", flights, 2}}}, bare);
   const json record = record_of(page);
+  const auto failing =
+      record_of(page_html({"t", plan, goal, {{"failing", flights, 1, "cut_off"}}}, bare));
+  EXPECT_EQ(failing["flights"][0]["ground"], "cut_off");
+  EXPECT_FALSE(record["flights"][0].contains("ground"));
   ASSERT_EQ(record["flights"].size(), 2U);
   EXPECT_EQ(record["flights_left_out"], json({{"given", 1}}));
   EXPECT_EQ(record["flights"][0]["pieces"], json({0, 2}));

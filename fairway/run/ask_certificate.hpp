@@ -21,7 +21,7 @@ namespace fairway {
 
 /// [iy][ix]: the verdict of the vehicle near each cell's middle with (nearly) this heading. Beside
 /// the middle, as in verify/verdict_map.hpp: exactly in the middle flights meet ties that have no
-/// volume. In an obstacle: collide; in the target: reach.
+/// volume. In an obstacle: collide; in the goal: reach.
 [[nodiscard]] std::vector<Verdict> verdicts_at(const Certificate& certificate, Heading heading);
 
 /// verdicts_at() each of the headings.

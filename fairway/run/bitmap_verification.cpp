@@ -9,6 +9,7 @@
 #include "fairway/bitmap/bitmap_backward.hpp"
 #include "fairway/bitmap/bitmap_volume.hpp"
 #include "fairway/plan/plan_digests.hpp"
+#include "fairway/run/share_text.hpp"
 #include "fairway/run/version.hpp"
 
 namespace fairway {
@@ -57,13 +58,17 @@ json verification_json(const BitmapVerification& v) {
   return summary;
 }
 
+std::string estimated_reach_text(const BitmapVerification& v) {
+  constexpr double two_sided_95 = 1.96;
+  return percent_text(v.estimated_reach, two_sided_95 * v.standard_error < 0.002 ? 1 : 0);
+}
+
 std::string verification_words(const BitmapVerification& v) {
-  const int m = v.bitmap.set.samples;
   return fmt::format(
-      "A picture, not a proof: by {0} places and {0} headings on each border, about {1:.1f} % of "
-      "all states outside obstacles and target reach. Nothing certain is known of the states "
-      "between the samples.",
-      m, 100.0 * v.estimated_reach);
+      "A picture, not a proof: by {0} positions and {0} headings on each border, about {1} of all "
+      "states outside obstacles and goal reach. Nothing certain is known of the states between "
+      "the samples.",
+      v.bitmap.set.samples, estimated_reach_text(v));
 }
 
 }  // namespace fairway

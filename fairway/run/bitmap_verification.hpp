@@ -32,6 +32,9 @@ struct BitmapVerification {
 /// docs/formats.md, summary.json of verify; without times.
 [[nodiscard]] nlohmann::json verification_json(const BitmapVerification& verification);
 
+/// The estimated share, in the digits that its standard error bears.
+[[nodiscard]] std::string estimated_reach_text(const BitmapVerification& verification);
+
 /// What was drawn and what that is worth, in one paragraph.
 [[nodiscard]] std::string verification_words(const BitmapVerification& verification);
 

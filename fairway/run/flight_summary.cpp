@@ -10,6 +10,7 @@
 
 #include "fairway/run/final_legs.hpp"
 #include "fairway/run/following_summary.hpp"
+#include "fairway/run/share_text.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/simulate/flight_statistics.hpp"
 
@@ -18,22 +19,20 @@ namespace {
 
 using nlohmann::json;
 
-std::string plural(std::size_t n, const char* noun) {
-  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
-}
-
 }  // namespace
 
 std::string flight_words(const ScenarioFlights& flown) {
   std::string words;
   if (!flown.random_results().empty()) {
-    words += fmt::format("Of {}, {}. ", plural(flown.random_results().size(), "random safe start"),
+    words += fmt::format("Of {} from safe starts with a command, {}. ",
+                         plural(flown.random_results().size(), "random flight"),
                          outcome_words(count_outcomes(flown.random_results())));
   }
   if (flown.given > 0) {
     const OutcomeCounts counts = count_outcomes(flown.given_results());
-    words += fmt::format("Of {} in the scenario, {} reach. ", plural(flown.given, "state"),
-                         counts.of(Outcome::reach));
+    words += fmt::format("Of {} in the scenario, {}. ", plural(flown.given, "start"),
+                         grouped(counts.of(Outcome::reach)) +
+                             (counts.of(Outcome::reach) == 1 ? " reaches" : " reach"));
   }
   if (const std::string legs = final_legs_words(flown.final_legs); !legs.empty()) {
     words += legs + " ";
@@ -96,7 +95,7 @@ std::string onward_words(const ManyFlights& flown, std::size_t i) {
 }  // namespace
 
 std::string flight_words(std::span<const State> starts, const ManyFlights& flown,
-                         const EarthFrame* earth) {
+                         const std::string& drawn, const EarthFrame* earth) {
   std::string text;
   constexpr std::size_t most_listed = 20;
   for (std::size_t i = 0; i < starts.size() && starts.size() <= most_listed; ++i) {
@@ -111,7 +110,7 @@ std::string flight_words(std::span<const State> starts, const ManyFlights& flown
     text += onward_words(flown, i);
     text += "\n";
   }
-  text += fmt::format("Of {}, {}.", plural(starts.size(), "flight"),
+  text += fmt::format("Of {}{}, {}.", plural(starts.size(), "flight"), drawn,
                       outcome_words(count_outcomes(flown.results)));
   if (const std::string legs = final_legs_words(flown.final_legs); !legs.empty()) {
     text += "\n" + legs;

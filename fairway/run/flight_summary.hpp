@@ -22,8 +22,10 @@ namespace fairway {
 void add_flights(nlohmann::json& summary, const ScenarioFlights& flown, std::uint64_t seed);
 
 /// A line for each flight while there are few of them, then one for all, and one for the last legs.
-/// With `earth`, starts are told in degrees, too.
+/// `drawn`: where the starts were drawn from, " from ..."; empty: nowhere. With `earth`, starts are
+/// told in degrees, too.
 [[nodiscard]] std::string flight_words(std::span<const State> starts, const ManyFlights& flown,
+                                       const std::string& drawn = {},
                                        const EarthFrame* earth = nullptr);
 
 /// Every flight, their counts and the last legs. There are as many starts as results.

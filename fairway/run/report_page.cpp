@@ -35,6 +35,23 @@ std::vector<std::string> nothing_proved() {
                   product::bitmap)};
 }
 
+/// Failures from safe starts with a command first, then the scenario's own flights.
+std::vector<PageFlights> flights_of(const std::vector<FailingFlights>& failing,
+                                    std::span<const Flight> given, std::span<const Flight> random) {
+  std::vector<PageFlights> groups;
+  const auto add_failing = [&](bool from_safe_starts) {
+    for (const FailingFlights& from : failing) {
+      if ((from.ground == StartGround::safe_start) != from_safe_starts) continue;
+      groups.push_back({"failing", from.flights, from.flights.size(), name_of(from.ground)});
+    }
+  };
+  add_failing(true);
+  groups.push_back({"given", given, 100});
+  add_failing(false);
+  groups.push_back({"random", random, 100});
+  return groups;
+}
+
 }  // namespace
 
 std::string write_report_page(const Plan& plan, const Mission& mission,
@@ -50,17 +67,16 @@ std::string write_report_page(const Plan& plan, const Mission& mission,
   }
   const std::span recorded(flown.recorded);
   const std::size_t given = std::min(flown.given, recorded.size());
-  const PageContent content{page.title,
-                            plan,
-                            mission,
-                            {{"given", recorded.first(given), 100},
-                             {"failing", page.failing, page.failing.size()},
-                             {"random", recorded.subspan(given), 100}},
-                            verdicts ? &*verdicts : nullptr,
-                            page.words,
-                            page.summary.dump(-1, ' ', true),
-                            verdicts ? proof_assumptions() : nothing_proved(),
-                            lon_lat_of(frame_in(plan.record), page.title)};
+  const PageContent content{
+      page.title,
+      plan,
+      mission,
+      flights_of(page.failing, recorded.first(given), recorded.subspan(given)),
+      verdicts ? &*verdicts : nullptr,
+      page.words,
+      page.summary.dump(-1, ' ', true),
+      verdicts ? proof_assumptions() : nothing_proved(),
+      lon_lat_of(frame_in(plan.record), page.title)};
   write_whole(folder / product::report_page, Existing::keep, page_html(content));
   return {};
 }

@@ -10,18 +10,18 @@
 
 #include "fairway/certificate/certificate.hpp"
 #include "fairway/plan/plan.hpp"
+#include "fairway/run/failing_flights.hpp"
 #include "fairway/run/scenario_flights.hpp"
-#include "fairway/simulate/flight.hpp"
 #include "fairway/vehicle/mission.hpp"
 
 namespace fairway {
 
 struct ReportPage {
   std::string title;
-  std::vector<std::string> words;  ///< the honest paragraph
+  std::vector<std::string> words;  ///< what was found, in prose
   nlohmann::json summary;          ///< without what differs from run to run
   const Certificate* certificate = nullptr;
-  std::vector<Flight> failing;  ///< to each kind of failure that was proved
+  std::vector<FailingFlights> failing;
 };
 
 /// Writes `folder`/report.html. Empty when it did; else why this build has no page, one sentence

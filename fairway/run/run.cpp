@@ -1,54 +1,46 @@
 #include "fairway/run/run.hpp"
 
-#include <algorithm>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 #include <variant>
 
 #include <fmt/format.h>
 
 #include "fairway/base/digest.hpp"
-#include "fairway/bitmap/bitmap_file.hpp"
-#include "fairway/certificate/certificate_file.hpp"
 #include "fairway/exchange/flight_files.hpp"
 #include "fairway/field/compute_field.hpp"
 #include "fairway/map/degrees_from_frame.hpp"
 #include "fairway/map/read_map.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/plan/plan_of_field.hpp"
-#include "fairway/run/bitmap_pictures.hpp"
-#include "fairway/run/bitmap_verification.hpp"
-#include "fairway/run/checker.hpp"
+#include "fairway/run/closing.hpp"
 #include "fairway/run/design_warnings.hpp"
 #include "fairway/run/failing_flights.hpp"
+#include "fairway/run/findings.hpp"
 #include "fairway/run/flight_engine.hpp"
 #include "fairway/run/flight_summary.hpp"
 #include "fairway/run/mission_on_map.hpp"
 #include "fairway/run/only_connected.hpp"
 #include "fairway/run/plan_record.hpp"
+#include "fairway/run/plan_warnings.hpp"
 #include "fairway/run/product_picture.hpp"
 #include "fairway/run/products.hpp"
+#include "fairway/run/region_request.hpp"
 #include "fairway/run/report_page.hpp"
+#include "fairway/run/run_estimate.hpp"
 #include "fairway/run/run_inputs.hpp"
 #include "fairway/run/run_pictures.hpp"
 #include "fairway/run/scenario_flights.hpp"
 #include "fairway/run/scenario_overrides.hpp"
 #include "fairway/run/stage_clock.hpp"
-#include "fairway/run/start_warnings.hpp"
 #include "fairway/run/summary.hpp"
-#include "fairway/run/verdict_pictures.hpp"
-#include "fairway/run/verification.hpp"
-#include "fairway/run/verification_summary.hpp"
-#include "fairway/run/verify_progress.hpp"
+#include "fairway/run/verify_and_check.hpp"
 
 namespace fairway {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-constexpr const char* evidence_words = "Flights are evidence, not a proof.";
 
 RunResult unreachable(const Scenario& scenario, const MissionRefusal& refusal) {
   const char* key = place_key(scenario);
@@ -72,8 +64,9 @@ std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& scenario, St
   clock.begin("computing the field", estimate(scenario, map.grid).from_field());
   FieldOrRefusal answer = compute_field(map, scenario.vehicle, mission, scenario.plan);
   if (auto* refusal = std::get_if<MissionRefusal>(&answer)) {
-    if (refusal->reason != MissionRefusal::Reason::unreachable)
+    if (refusal->reason != MissionRefusal::Reason::unreachable) {
       throw_refusal(scenario, map.frame, *refusal);
+    }
     return std::move(*refusal);
   }
   Plan plan = plan_of_field(std::move(std::get<Field>(answer)), scenario.vehicle,
@@ -95,96 +88,6 @@ void write_flights(const ScenarioFlights& flown, const Plan& plan, const std::st
       outcomes_csv(flown.starts, flown.results, flown.measures, flown.followed.has_value()));
 }
 
-/// A proof, and whether another program made it again.
-struct Proved {
-  Verification verification;
-  std::vector<FailingState> failing;
-  bool checked = false;
-};
-
-struct NotVerified {};
-
-/// Nothing, the paper's method, which proves nothing, or a proof.
-using Verified = std::variant<NotVerified, BitmapVerification, Proved>;
-
-/// The verdicts into a certificate, re-proved by the independent program.
-Proved prove_and_check(const Plan& plan, const Scenario& scenario, const RegionOfInterest& region,
-                       const fs::path& place, StageClock& clock) {
-  const fs::path file = place / product::certificate;
-  const CertifyOptions options = certify_options(scenario.verify.limits, scenario.simulate.seed);
-  Proved proved;
-  proved.verification = verify_plan(plan, scenario.file.string(), region, options, std::nullopt,
-                                    levels_told_by(clock));
-  const Certificate& certificate = proved.verification.certificate;
-  write_certificate(certificate, file, Existing::keep);
-  proved.failing = failing_states(certificate, 100, options.seed);
-  write_whole(place / product::failures, Existing::keep, failing_states_csv(proved.failing));
-
-  clock.begin("checking the certificate", unknown_time);
-  const CheckRun check = run_checker({file.string(), "--quiet"}, true);
-  if (check.exit_code == 1) {
-    throw std::runtime_error("the certificate was refused by fairway-check: " + check.output);
-  }
-  proved.checked = check.exit_code == 0;
-  return proved;
-}
-
-Verified verify_and_check(const Plan& plan, const Scenario& scenario,
-                          const RegionOfInterest& region, const fs::path& place,
-                          StageClock& clock) {
-  clock.begin("verifying", unknown_time);
-  if (scenario.verify.method == VerifyMethod::certified) {
-    return prove_and_check(plan, scenario, region, place, clock);
-  }
-  BitmapVerification drawn =
-      draw_bitmap(plan, scenario.file.string(), region,
-                  static_cast<int>(scenario.verify.border_samples), scenario.simulate.seed);
-  write_bitmap(drawn.bitmap, place / product::bitmap, Existing::keep);
-  return drawn;
-}
-
-/// The plan with what was to be reached as its goal: what verdicts and their flights are about.
-Plan as_verified(const Plan& plan, const Verified& verified) {
-  const auto* proved = std::get_if<Proved>(&verified);
-  return proved != nullptr ? as_verified(plan, proved->verification.certificate) : plan;
-}
-
-/// `flown` and `flights`: as verified.
-void write_verified_pictures(const Plan& flown, const ExactFlights& flights,
-                             const Verified& verified, std::uint64_t seed, const std::string& title,
-                             const fs::path& place) {
-  if (const auto* drawn = std::get_if<BitmapVerification>(&verified)) {
-    write_bitmap_pictures(drawn->bitmap, title, place);
-    return;
-  }
-  const Proved& proved = std::get<Proved>(verified);
-  write_verdict_pictures(flown, proved.verification.certificate,
-                         longest_failing(flights, proved.failing, 1), seed, title, place);
-}
-
-std::string words_of(const Verified& verified) {
-  if (std::holds_alternative<NotVerified>(verified)) return "Nothing was verified.";
-  if (const auto* bitmap = std::get_if<BitmapVerification>(&verified)) {
-    return verification_words(*bitmap);
-  }
-  const Proved& proved = std::get<Proved>(verified);
-  return verification_words(proved.verification) +
-         (proved.checked ? " A separate program re-proved the certificate."
-                         : " The certificate was NOT checked: fairway-check could not be run.");
-}
-
-json json_of(const Verified& verified) {
-  if (std::holds_alternative<NotVerified>(verified)) {
-    return {{"method", "none"}, {"proved", false}, {"words", words_of(verified)}};
-  }
-  const auto* proved = std::get_if<Proved>(&verified);
-  json summary = proved != nullptr ? verification_json(proved->verification)
-                                   : verification_json(std::get<BitmapVerification>(verified));
-  if (proved != nullptr) summary["checked"] = proved->checked;
-  summary["words"] = words_of(verified);
-  return summary;
-}
-
 /// report.html; where this build has none, a warning says why.
 void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights& flown,
                 const Verified& verified, const ExactFlights& flights, const std::string& title,
@@ -193,11 +96,12 @@ void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights&
   const auto* proved = std::get_if<Proved>(&verified);
   const ReportPage page{
       title,
-      {plan_words(plan), flight_words(flown) + evidence_words, words_of(verified)},
+      {plan_words(plan), flight_words(flown) + "Flights are evidence, not a proof.",
+       words_of(verified)},
       result.summary,
       proved != nullptr ? &proved->verification.certificate : nullptr,
-      proved != nullptr ? longest_failing(flights, proved->failing, failing_of_each)
-                        : std::vector<Flight>{}};
+      proved != nullptr ? failing_flights(flights, proved->failing, failing_of_each)
+                        : std::vector<FailingFlights>{}};
   const std::string absent = write_report_page(plan, mission, flown, page, place);
   if (!absent.empty()) result.warnings.push_back(absent);
 }
@@ -208,6 +112,17 @@ json product_digests(const fs::path& folder) {
     digests[entry.path().filename().string()] = sha256_file(entry.path());
   }
   return digests;
+}
+
+/// "DIR/report.html, DIR/plan.svg, ...": those that a first look goes to.
+std::string to_look_at(const fs::path& folder, const json& products) {
+  std::string files;
+  for (const char* name :
+       {product::report_page, "plan.svg", "flights.svg", "verdicts.svg", "slices.svg"}) {
+    if (!products.contains(name)) continue;
+    files += (files.empty() ? "" : ", ") + (folder / name).string();
+  }
+  return files;
 }
 
 }  // namespace
@@ -237,7 +152,8 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   const ScenarioFlights flown = fly_scenario(scenario, plan, engine, clock, left.from_pictures());
   write_flights(flown, plan, scenario.file.string(), place);
 
-  const Verified verified = verify_and_check(plan, scenario, region, place, clock);
+  const Verified verified =
+      verify_and_check(plan, scenario, region, flown, place, clock, left.from_pictures());
   const Plan as_asked = as_verified(plan, verified);
   const ExactFlights flights(as_asked);
 
@@ -247,12 +163,14 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   write_verified_pictures(as_asked, flights, verified, scenario.simulate.seed, title, place);
 
   clock.begin("making the page", left.page_s);
-  RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
+  const std::vector<Finding> found = findings_of(plan, flown, verified);
+  RunResult result{false,
+                   plan_summary(scenario, map, plan),
+                   {},
+                   warnings_of(scenario, map, plan, flown, verified)};
   add_overrides(result.summary, scenario);
-  for (const std::string& warning : start_warnings(flown.given_starts(), plan)) {
-    result.warnings.push_back(warning);
-    result.summary["warnings"].push_back(warning);
-  }
+  result.summary["findings"] = findings_json(found);
+  result.summary["warnings"] = result.warnings;
   add_flights(result.summary, flown, scenario.simulate.seed);
   result.summary["verify"] = json_of(verified);
   result.summary["products"] = product_digests(place);
@@ -262,16 +180,10 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   add_cost(result.summary, clock);
   write_whole(place / product::summary, Existing::keep, result.summary.dump(2) + "\n");
   products.commit();
-  std::string pictures = (folder / "plan.svg").string() + ", " + (folder / "flights.svg").string();
-  if (result.summary["products"].contains(product::report_page)) {
-    pictures = (folder / product::report_page).string() + ", " + pictures;
-  }
-  const bool proved = std::holds_alternative<Proved>(verified);
-  pictures += ", " + (folder / (proved ? "verdicts.svg" : "slices.svg")).string();
-  result.paragraph =
-      fmt::format("{} {}{} {} {}\nLook at {} and {}.", plan_words(plan), flight_words(flown),
-                  evidence_words, words_of(verified), cost_words(result.summary), pictures,
-                  (folder / product::summary).string());
+  result.paragraph = fmt::format("{}\n{}{}\nLook at {} and {}.", findings_table(found),
+                                 notes_of(plan, flown, verified), cost_words(result.summary),
+                                 to_look_at(folder, result.summary["products"]),
+                                 (folder / product::summary).string());
   return result;
 }
 
@@ -297,14 +209,19 @@ RunResult run_plan_only(const Scenario& scenario, const fs::path& file, Existing
   }
   clock.end();
 
-  RunResult result{false, plan_summary(scenario, map, plan), {}, map.warnings};
+  RunResult result{
+      false, plan_summary(scenario, map, plan), {}, plan_warnings(scenario, map, plan)};
   add_overrides(result.summary, scenario);
   for (const fs::path& place : places) {
     result.summary["products"][place.filename().string()] = sha256_file(place);
   }
   add_cost(result.summary, clock);
+  const std::vector<Finding> found = plan_findings(plan);
+  result.summary["findings"] = findings_json(found);
+  result.summary["warnings"] = result.warnings;
   result.paragraph =
-      fmt::format("{} {}\nThe plan is {}.", plan_words(plan), cost_words(result.summary),
+      fmt::format("{}{} {}\nThe plan is {}.", findings_table(found), grid_words(plan),
+                  cost_words(result.summary),
                   file.string() + (picture.empty() ? "" : ", drawn in " + picture.string()));
   return result;
 }

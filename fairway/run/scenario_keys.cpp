@@ -203,10 +203,11 @@ std::vector<ScenarioKey> simulate_and_verify_keys() {
           FAIRWAY_MEMBER(simulate.states_deg),
           "further ones on georeferenced maps; the course is in degrees clockwise from north"),
       whole("simulate.random", Range{0.0, 1e5}, FAIRWAY_MEMBER(simulate.random),
-            "further flights to record and draw, from random safe-start states"),
-      whole("simulate.sample", Range{0.0, 1e7}, FAIRWAY_MEMBER(simulate.sample),
-            "random safe-start flights behind the shares in the summary; the first of them are "
-            "those of `simulate.random`"),
+            "further flights to record and draw, from random safe starts with a command"),
+      whole(
+          "simulate.sample", Range{0.0, 1e7}, FAIRWAY_MEMBER(simulate.sample),
+          "random flights, from safe starts with a command, behind the shares in the summary; the "
+          "first of them are those of `simulate.random`"),
       whole("simulate.seed", Range{0.0, 9.0e15}, FAIRWAY_MEMBER(simulate.seed),
             "of all random draws"),
       choice<VerifyMethod>(

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <tbb/global_control.h>
 
+#include "fairway/run/findings.hpp"
+#include "fairway/run/plan_warnings.hpp"
 #include "fairway/run/scenario_keys.hpp"
+#include "fairway/run/share_text.hpp"
 #include "fairway/run/version.hpp"
 
 namespace fairway {
@@ -19,10 +23,13 @@ double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// Down, never up: 99.996 % is not 100 %.
-std::string percent(double value) {
-  const double hundredths = std::floor(value * 1e4 + 1e-9) / 100.0;
-  return fmt::format("{:.2f} %", hundredths);
+/// "66 collide", "1 is trapped".
+std::string counted(Outcome outcome, std::size_t n) {
+  static constexpr std::array<const char*, outcome_codes> one{"", "reaches", "collides", "leaves",
+                                                              "is trapped"};
+  static constexpr std::array<const char*, outcome_codes> many{"", "reach", "collide", "leave",
+                                                               "are trapped"};
+  return grouped(n) + " " + (n == 1 ? one : many)[static_cast<std::size_t>(outcome)];
 }
 
 }  // namespace
@@ -49,14 +56,9 @@ RegionCells count_regions(const Plan& plan) {
   return counts;
 }
 
-std::array<double, 2> wilson_interval(std::size_t hits, std::size_t count) {
-  if (count == 0) return {0.0, 1.0};
-  constexpr double z = 1.959963984540054;  // 97.5 % of the normal distribution
-  const auto n = static_cast<double>(count);
-  const double p = static_cast<double>(hits) / n;
-  const double middle = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
-  const double half = z / (1.0 + z * z / n) * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
-  return {hits == 0 ? 0.0 : middle - half, hits == count ? 1.0 : middle + half};
+const char* goal_word(const Plan& plan) {
+  const auto& mission = plan.record.mission;
+  return mission && std::holds_alternative<PathMission>(*mission) ? "path" : "goal";
 }
 
 json outcome_json(const OutcomeCounts& counts) {
@@ -73,11 +75,22 @@ json outcome_json(const OutcomeCounts& counts) {
 
 std::string outcome_words(const OutcomeCounts& counts) {
   const std::size_t reach = counts.of(Outcome::reach);
-  const auto [low, high] = wilson_interval(reach, counts.total());
-  return fmt::format("{} reach ({}; 95 % interval {} to {}), {} collide, {} leave, {} are trapped",
-                     reach, percent(counts.share(Outcome::reach)), percent(low), percent(high),
-                     counts.of(Outcome::collide), counts.of(Outcome::leave),
-                     counts.of(Outcome::trapped));
+  const SampledShare share = sampled_share(reach, counts.total());
+  std::string words = fmt::format("{} ({}; 95 % interval {})", counted(Outcome::reach, reach),
+                                  share.share, share.interval);
+  for (const Outcome outcome : outcomes_in_order) {
+    if (outcome != Outcome::reach) words += ", " + counted(outcome, counts.of(outcome));
+  }
+  return words;
+}
+
+std::string failure_words(const OutcomeCounts& counts) {
+  std::string words;
+  for (const Outcome outcome : outcomes_in_order) {
+    if (outcome == Outcome::reach || counts.of(outcome) == 0) continue;
+    words += (words.empty() ? "" : ", ") + counted(outcome, counts.of(outcome));
+  }
+  return words;
 }
 
 json plan_summary(const Scenario& scenario, const ObstacleMap& map, const Plan& plan) {
@@ -102,22 +115,24 @@ json plan_summary(const Scenario& scenario, const ObstacleMap& map, const Plan& 
       {"unreachable_share_of_free", share(regions.unreachable, regions.free)},
       {"inputs", json::parse(json_text(plan.record)).value("inputs", json::array())},
       {"options", options},
-      {"warnings", map.warnings},
+      {"warnings", plan_warnings(map, plan)},
   };
   return summary;
 }
 
-std::string plan_words(const Plan& plan) {
+std::string grid_words(const Plan& plan) {
   const RegionCells regions = count_regions(plan);
   const std::size_t n = plan.grid.size();
-  std::string words = fmt::format(
-      "A plan of {} x {} cells of {:g} m: {} safe start, {} buffer, {} obstacle, {} goal cells.",
-      plan.grid.nx, plan.grid.ny, plan.grid.cell_m, percent(share(regions.free, n)),
-      percent(share(regions.buffer, n)), percent(share(regions.obstacle, n)), regions.goal);
-  if (regions.unreachable > 0) {
-    words +=
-        fmt::format(" {} safe-start cells ({} of them) cannot reach the goal and have no command.",
-                    regions.unreachable, percent(share(regions.unreachable, regions.free)));
+  return fmt::format("A plan of {} x {} cells of {:g} m: {} free, {} buffer, {} obstacle, {}.",
+                     plan.grid.nx, plan.grid.ny, plan.grid.cell_m, percent_text(regions.free, n),
+                     percent_text(regions.buffer, n), percent_text(regions.obstacle, n),
+                     plural(regions.goal, "goal cell"));
+}
+
+std::string plan_words(const Plan& plan) {
+  std::string words = grid_words(plan);
+  for (const Finding& finding : plan_findings(plan)) {
+    words += fmt::format(" {} of {} {}.", finding.share, finding.of, finding.what);
   }
   return words;
 }

@@ -29,15 +29,21 @@ struct RegionCells {
 
 [[nodiscard]] nlohmann::json outcome_json(const OutcomeCounts& counts);
 
-/// "9998 reach (99.98 %; 95 % interval 99.92 % to 99.99 %), 2 collide, 0 leave, 0 are trapped".
+/// "9,934 reach (99.3 %; 95 % interval 99.1 % to 99.5 %), 66 collide, 0 leave, 0 are trapped".
 [[nodiscard]] std::string outcome_words(const OutcomeCounts& counts);
 
-/// Wilson's interval for a share seen `hits` times in `count` draws, 95 %.
-[[nodiscard]] std::array<double, 2> wilson_interval(std::size_t hits, std::size_t count);
+/// "66 collide, 1 is trapped": those that do not reach; empty when all do.
+[[nodiscard]] std::string failure_words(const OutcomeCounts& counts);
+
+/// What is to be reached: "goal", or "path".
+[[nodiscard]] const char* goal_word(const Plan& plan);
 
 /// Cells, regions, inputs, options, warnings: what plan and run have in common.
 [[nodiscard]] nlohmann::json plan_summary(const Scenario& scenario, const ObstacleMap& map,
                                           const Plan& plan);
+/// "A plan of 127 x 102 cells of 8 m: 46.9 % free, ...".
+[[nodiscard]] std::string grid_words(const Plan& plan);
+/// The same, and how many free cells are cut off.
 [[nodiscard]] std::string plan_words(const Plan& plan);
 
 /// Times, threads, memory: the part of a summary that differs from run to run.

@@ -1,51 +1,11 @@
 #include "fairway/run/summary.hpp"
 
-#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "fairway/base/random.hpp"
-
 namespace fairway {
 namespace {
-
-TEST(WilsonInterval, AgreesWithThePublishedExample) {
-  // Newcombe 1998, Table I, method 3: 81 of 263 gives 0.2553 to 0.3662; 0 of 20 gives 0 to 0.1611.
-  const auto [low, high] = wilson_interval(81, 263);
-  EXPECT_NEAR(low, 0.2553, 5e-5);
-  EXPECT_NEAR(high, 0.3662, 5e-5);
-  EXPECT_EQ(wilson_interval(0, 20)[0], 0.0);
-  EXPECT_NEAR(wilson_interval(0, 20)[1], 0.1611, 5e-5);
-}
-
-TEST(WilsonInterval, StaysInZeroToOneAndHoldsTheShare) {
-  for (const std::size_t n : {1U, 2U, 7U, 10000U}) {
-    for (const std::size_t hits : {std::size_t{0}, n / 2, n - 1, n}) {
-      const auto [low, high] = wilson_interval(hits, n);
-      const double share = static_cast<double>(hits) / static_cast<double>(n);
-      EXPECT_LE(0.0, low);
-      EXPECT_LE(low, share);
-      EXPECT_LE(share, high);
-      EXPECT_LE(high, 1.0);
-    }
-  }
-  EXPECT_EQ(wilson_interval(0, 0), (std::array<double, 2>{0.0, 1.0}));
-}
-
-TEST(WilsonInterval, HoldsTheTruthNineteenTimesInTwenty) {
-  Random random(5);
-  constexpr int trials = 2000;
-  constexpr std::size_t n = 300;
-  int held = 0;
-  for (int t = 0; t < trials; ++t) {
-    std::size_t hits = 0;
-    for (std::size_t i = 0; i < n; ++i) hits += random.unit() < 0.97 ? 1 : 0;
-    const auto [low, high] = wilson_interval(hits, n);
-    held += low <= 0.97 && 0.97 <= high ? 1 : 0;
-  }
-  EXPECT_NEAR(held / static_cast<double>(trials), 0.95, 0.02);
-}
 
 OutcomeCounts counts(std::size_t reach, std::size_t collide, std::size_t leave,
                      std::size_t trapped) {
@@ -53,8 +13,15 @@ OutcomeCounts counts(std::size_t reach, std::size_t collide, std::size_t leave,
 }
 
 TEST(OutcomeWords, NeverRoundAMissAway) {
-  EXPECT_EQ(outcome_words(counts(99999, 1, 0, 0)).substr(0, 21), "99999 reach (99.99 %;");
-  EXPECT_EQ(outcome_words(counts(10, 0, 0, 0)).substr(0, 19), "10 reach (100.00 %;");
+  EXPECT_EQ(outcome_words(counts(99999, 1, 0, 0)),
+            "99,999 reach (99.999 %; 95 % interval 99.994 % to > 99.999 %), 1 collides, 0 leave, "
+            "0 are trapped");
+  EXPECT_EQ(outcome_words(counts(10, 0, 0, 0)).substr(0, 18), "10 reach (100 %; 9");
+}
+
+TEST(FailureWords, CountWhatDoesNotReach) {
+  EXPECT_EQ(failure_words(counts(5, 0, 0, 0)), "");
+  EXPECT_EQ(failure_words(counts(5, 1, 0, 1200)), "1 collides, 1,200 are trapped");
 }
 
 TEST(OutcomeJson, CountsEveryOutcomeByName) {

@@ -81,6 +81,7 @@ Verification verify_plan(const Plan& plan, const std::string& where, const Regio
                     length_text(plan.grid.cell_m), length_text(plan.vehicle.turn_radius_m)));
   }
   Verification made;
+  made.options = options;
   Certificate& c = made.certificate;
   c.grid = plan.grid;
   c.vehicle = plan.vehicle;
@@ -112,48 +113,6 @@ Verification verify_plan(const Plan& plan, const std::string& where, const Regio
   return made;
 }
 
-std::vector<FailingState> failing_states(const Certificate& certificate, std::size_t of_each,
-                                         std::uint64_t seed) {
-  const Flow flow = certificate.flow();
-  std::vector<std::size_t> cells;
-  for (std::size_t i = 0; i < flow.grid.size(); ++i) {
-    if (flow.kind[i] == CellKind::ordinary) cells.push_back(i);
-  }
-  if (cells.empty()) return {};
-  constexpr std::size_t draws = 200'000;
-  std::vector<Place> states(draws);
-  for (std::size_t k = 0; k < draws; ++k) {
-    Random random = Random::stream(seed, k);
-    const Cell cell = certificate.grid.cell_at(cells[random.below(cells.size())]);
-    const Vec2 corner = certificate.grid.corner(cell);
-    states[k] = {corner.x + random.unit() * flow.grid.cell_m,
-                 corner.y + random.unit() * flow.grid.cell_m, random.uniform(-pi, pi)};
-  }
-  const ImageStore images = state_images(flow, states, usual_most_crossings, [] { return true; });
-  std::array<std::vector<FailingState>, verdict_count> found;
-  for (std::size_t k = 0; k < draws; ++k) {
-    const Verdict verdict = verdicts_of(images[k], certificate.sections.view()).only();
-    auto& alike = found[static_cast<std::size_t>(verdict)];
-    if (verdict == Verdict::reach || alike.size() == of_each) continue;
-    const Place& p = states[k];
-    alike.push_back({{{p.x_m, p.y_m}, Heading::from_rad(p.heading_rad)}, verdict});
-  }
-  std::vector<FailingState> failing;
-  for (const Verdict verdict : verdicts_in_order) {
-    const auto& alike = found[static_cast<std::size_t>(verdict)];
-    failing.insert(failing.end(), alike.begin(), alike.end());
-  }
-  return failing;
-}
-
-std::string failing_states_csv(const std::vector<FailingState>& states) {
-  std::string text = "x_m,y_m,heading_rad,verdict\n";
-  for (const FailingState& state : states) {
-    const Vec2 p = state.start.position_m;
-    text +=
-        fmt::format("{},{},{},{}\n", p.x, p.y, state.start.heading.rad(), name_of(state.verdict));
-  }
-  return text;
 }
 
 }  // namespace fairway

@@ -20,6 +20,7 @@ struct Verification {
   Certificate certificate;
   Certified outcome;               ///< but for its sections, which the certificate has
   std::optional<Resumed> resumed;  ///< when it went on from an earlier one
+  CertifyOptions options = {};
 };
 
 /// Proves what flights under `plan` do. `earlier`: a certificate of the same proof
@@ -31,18 +32,5 @@ struct Verification {
                                        const CertifyOptions& options,
                                        std::optional<EarlierProof> earlier = {},
                                        const CertifyProgress& progress = {});
-
-/// A state whose verdict is not `reach`.
-struct FailingState {
-  State start;
-  Verdict verdict = Verdict::undecided;
-};
-
-/// At most so many of each verdict, sampled, in the order of verdicts_in_order.
-[[nodiscard]] std::vector<FailingState> failing_states(const Certificate& certificate,
-                                                       std::size_t of_each, std::uint64_t seed);
-
-/// The same for `fairway simulate --states`: CSV x_m,y_m,heading_rad,verdict.
-[[nodiscard]] std::string failing_states_csv(const std::vector<FailingState>& states);
 
 }  // namespace fairway

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/run/share_text.hpp"
 #include "fairway/run/version.hpp"
 
 namespace fairway {
@@ -10,48 +11,43 @@ namespace {
 
 using nlohmann::json;
 
-/// The assumptions of proof_assumptions() that a reader of results needs.
-constexpr const char* assumed =
-    "Assumed: the exact kinematic model, without wind or delay, and a map that does not change.";
-
-std::string percent(double share) { return fmt::format("{:.3f} %", 100.0 * share); }
-
 double share_of(const std::array<double, verdict_count>& volume, Verdict verdict) {
   return volume[static_cast<std::size_t>(verdict)];
 }
 
-/// Places that the goal cannot be reached from count against no plan.
-std::string commanded_words(const VolumeFractions& volume) {
-  const double reach = share_of(volume.commanded, Verdict::reach);
-  if (percent(reach) == percent(share_of(volume.free, Verdict::reach))) return "";
-  return fmt::format(" ({} of those in cells from which the goal can be reached)", percent(reach));
+const char* goal_or_region(const Verification& v) {
+  const bool is_goal = v.certificate.region_of_interest.kind == RegionOfInterest::Kind::goal;
+  return is_goal ? "goal" : "region";
 }
 
-/// "90.000 % reach, 5.000 % collide, ...; 0.200 % are undecided".
-std::string shares_words(const std::array<double, verdict_count>& volume) {
-  std::string words;
-  for (const Verdict verdict : verdicts_in_order) {
-    if (verdict == Verdict::undecided) continue;
-    words += fmt::format("{}{} {}", words.empty() ? "" : ", ", percent(share_of(volume, verdict)),
-                         words_of(verdict));
-  }
-  return words + fmt::format("; {} are undecided", percent(share_of(volume, Verdict::undecided)));
-}
-
-const char* words_of(StoppedBy reason) {
-  switch (reason) {
+/// What ended the work before its aim was met; empty when it was.
+std::string end_of_work(const Verification& v) {
+  switch (v.outcome.stopped_by) {
     case StoppedBy::time_limit:
-      return " The time limit ended the work.";
+      return fmt::format("the time limit of {:g} s ended the proof", v.options.time_limit_s);
     case StoppedBy::memory_limit:
-      return " The memory limit ended the work.";
+      return fmt::format("the memory limit of {:g} MB ended the proof",
+                         static_cast<double>(v.options.memory_limit_bytes) / 1e6);
     case StoppedBy::last_level:
-      return " The finest leaves ended the work.";
+      return "the finest leaves ended the proof";
     case StoppedBy::stalled:
-      return " Smaller leaves had stopped deciding more.";
+      return "the proof ended when smaller leaves decided no more";
     case StoppedBy::undecided_max:
       break;
   }
   return "";
+}
+
+/// "91.0 % reach, 8.7 % collide, 0 % leave, 0 % are trapped, 0.3 % are undecided".
+std::string shares_words(const std::array<double, verdict_count>& volume, int decimals) {
+  std::string words;
+  for (const Verdict verdict : verdicts_in_order) {
+    const bool is_state = verdict == Verdict::trapped || verdict == Verdict::undecided;
+    words += fmt::format("{}{} {}{}", words.empty() ? "" : ", ",
+                         percent_text(share_of(volume, verdict), decimals), is_state ? "are " : "",
+                         name_of(verdict));
+  }
+  return words;
 }
 
 }  // namespace
@@ -74,18 +70,59 @@ json verification_json(const Verification& v) {
   return summary;
 }
 
+std::string stopped_words(const Verification& v) {
+  const std::string end = end_of_work(v);
+  if (end.empty()) return end;
+  const double undecided = share_of(v.outcome.volume.all, Verdict::undecided);
+  return fmt::format("{} with {} undecided (wanted: at most {:g} %)", end,
+                     percent_text(undecided, decimals_of_sample(v.outcome.volume.samples)),
+                     100.0 * v.options.undecided_max);
+}
+
+std::optional<std::string> limit_warning(const Verification& v) {
+  const StoppedBy by = v.outcome.stopped_by;
+  if (by != StoppedBy::time_limit && by != StoppedBy::memory_limit) return std::nullopt;
+  std::string words = stopped_words(v);
+  words.front() = 'T';
+  return words + "; a higher limit, or `fairway verify --resume`, goes on.";
+}
+
+std::string proof_notes(const Verification& v) {
+  std::string words = fmt::format(
+      "All states: every heading at every place outside obstacles and {}; shares of {} sampled, "
+      "each "
+      "proved.\nAssumed: the exact model, without wind or delay, and a map that does not change.",
+      goal_or_region(v), grouped(v.outcome.volume.samples));
+  if (v.outcome.volume.worst_time_s > 0.0) {
+    words += fmt::format("\nNo sampled state that reaches takes longer than {:.1f} s.",
+                         v.outcome.volume.worst_time_s);
+  }
+  return words;
+}
+
 std::string verification_words(const Verification& v) {
   const VolumeFractions& volume = v.outcome.volume;
+  const int decimals = decimals_of_sample(volume.samples);
   std::string words = fmt::format(
-      "Proved for every heading and place: of the safe-start states {} reach{}, of all states "
-      "outside obstacles and target {} (shares of volume, from {} sampled states, each proved).",
-      percent(share_of(volume.free, Verdict::reach)), commanded_words(volume),
-      shares_words(volume.all), volume.samples);
+      "Proved for every heading and place: of all states outside obstacles and {} {}; of safe "
+      "starts {} reach, of safe starts with a command {} (shares of volume, from {} sampled "
+      "states, "
+      "each proved).",
+      goal_or_region(v), shares_words(volume.all, decimals),
+      percent_text(share_of(volume.free, Verdict::reach), decimals),
+      percent_text(share_of(volume.commanded, Verdict::reach), decimals), grouped(volume.samples));
   if (volume.worst_time_s > 0.0) {
     words += fmt::format(" No sampled state that reaches takes longer than {:.1f} s.",
                          volume.worst_time_s);
   }
-  return words + words_of(v.outcome.stopped_by) + " " + assumed;
+  std::string stopped = stopped_words(v);
+  if (!stopped.empty()) {
+    stopped.front() = 'T';
+    words += " " + stopped + ".";
+  }
+  return words +
+         " Assumed: the exact kinematic model, without wind or delay, and a map that does not "
+         "change.";
 }
 
 const std::vector<std::string>& proof_assumptions() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,16 @@ namespace fairway {
 
 /// What was proved and what was assumed, in one paragraph.
 [[nodiscard]] std::string verification_words(const Verification& verification);
+
+/// "the time limit of 20 s ended the proof with 6.3 % undecided (wanted: at most 0.5 %)"; empty
+/// when the work ended because so little was undecided.
+[[nodiscard]] std::string stopped_words(const Verification& verification);
+
+/// A warning when a limit of time or memory ended the work before that.
+[[nodiscard]] std::optional<std::string> limit_warning(const Verification& verification);
+
+/// What the lines of findings.hpp mean and assume: lines of up to 100 characters.
+[[nodiscard]] std::string proof_notes(const Verification& verification);
 
 /// What every proof rests on, a sentence or two each; verification_words says it in one.
 [[nodiscard]] const std::vector<std::string>& proof_assumptions();

@@ -22,11 +22,6 @@ constexpr const char* name_of(Verdict verdict) {
   return names[static_cast<int>(verdict)];
 }
 
-/// What states of this verdict do, or are: "12 % circle forever".
-constexpr const char* words_of(Verdict verdict) {
-  return verdict == Verdict::trapped ? "circle forever" : name_of(verdict);
-}
-
 /// Proved not to reach.
 constexpr bool fails(Verdict verdict) {
   return verdict != Verdict::reach && verdict != Verdict::undecided;

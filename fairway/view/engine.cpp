@@ -73,8 +73,8 @@ json state_json(const FlightEngine& flights, const Grid& grid,
     answer["verdict"] = name_of(found.verdict);
     answer["time_bound_s"] = finite_or_null(found.time_bound_s);
   }
-  const Flight flight = is_on(grid, start.position_m) ? flights.record(start, 0, one_lap)
-                                                      : left_at_once(start);
+  const Flight flight =
+      is_on(grid, start.position_m) ? flights.record(start, 0, one_lap) : left_at_once(start);
   answer["flight"] = {{"outcome", name_of(flight.result.outcome)},
                       {"time_s", finite_or_null(flight.result.time_s)},
                       {"length_m", finite_or_null(flight.result.length_m)},

@@ -100,7 +100,7 @@ def test_rasters_of_verdicts(certificate, command, tmp_path):
 
 def test_what_has_no_place_on_earth_is_no_mission(small_plan, placed, tmp_path):
     flights = small_plan.fly(small_plan.random_starts(2))
-    with pytest.raises(ValueError, match="no place on Earth"):
+    with pytest.raises(ValueError, match="not georeferenced"):
         flights.save_mission(0, tmp_path / "m.plan")
     flights = placed.fly(placed.random_starts(2))
     with pytest.raises(ValueError, match=".plan, .waypoints"):

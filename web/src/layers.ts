@@ -111,7 +111,7 @@ export function costLayer(record: PageRecord, region: Numbers, cost: Numbers): C
   return { codes, nx: record.values.nx, ny: record.values.ny, cells: record.values.cells_per_value };
 }
 
-// Regions: those of the plan, and what is free but has no way to the goal.
+// Regions: those of the plan, and what is free but cut off from the goal.
 export function regionLooks(record: PageRecord): Look[] {
   return [bufferLook(record), { ground: record.styles.free }, obstacleLook(record), goalLook(record),
     unreachableLook(record)];
@@ -128,7 +128,7 @@ export function regionLayer(record: PageRecord, region: Numbers, cost: Numbers):
 export const share_kinds = ["proved to reach", "proved to fail", "undecided"] as const;
 export const share_classes = ["none", "up to 1/8", "up to 1/2", "up to 7/8", "not quite all", "all"];
 
-// Shares: six classes, then obstacle and target.
+// Shares: six classes, then obstacle and goal.
 export function shareLooks(record: PageRecord, kind: number): Look[] {
   return [...record.styles.share[kind].map((ground) => ({ ground })), obstacleLook(record), goalLook(record)];
 }

@@ -21,7 +21,7 @@ export function showVerdictLegend(record: PageRecord, tiles: Tiles, heading: num
   const { order, undecided, obstacle, target } = record.codes;
   const { list, paint } = entries([
     ...order.map((code) => ({ code, name: (code === undecided ? "" : "proved: ") + record.styles.verdict[code].words, number: percent(count[code] / all) })),
-    { code: obstacle, name: "obstacle" }, { code: target, name: "target" }], tiles);
+    { code: obstacle, name: "obstacle" }, { code: target, name: "goal" }], tiles);
   const per = info.cells_per_sample;
   const each = per === 1 ? "each cell" : `one cell in each block of ${per} × ${per}`;
   byId("legend").replaceChildren(list, el("p", {},
@@ -41,7 +41,7 @@ export function updateVerdictLegend(record: PageRecord, heading: number): void {
 export function showShareLegend(record: PageRecord, tiles: Tiles, kind: number): void {
   const { list, paint } = entries([
     ...share_classes.map((name, code) => ({ code, name })).reverse(),
-    { code: 6, name: "obstacle" }, { code: 7, name: "target" }], tiles);
+    { code: 6, name: "obstacle" }, { code: 7, name: "goal" }], tiles);
   byId("legend").replaceChildren(list, el("p", {},
     `Of ${record.verdicts!.heading_rad.length} headings at the sampled place of each cell, the share that is ${share_kinds[kind]}.`));
   paint();
@@ -52,7 +52,7 @@ export function showCostLegend(record: PageRecord, tiles: Tiles): void {
   const ramp = el("canvas", { class: "ramp", "aria-hidden": "true" });
   const { list, paint } = entries([
     { code: steps + (steps >> 2), name: "buffer" }, { code: 2 * steps, name: "obstacle" },
-    { code: 2 * steps + 1, name: "target" }, { code: 2 * steps + 2, name: "no way to the target" }], tiles);
+    { code: 2 * steps + 1, name: "goal" }, { code: 2 * steps + 2, name: "cut off: no way to the goal" }], tiles);
   byId("legend").replaceChildren(ramp, el("div", { class: "ends" }, el("span", {}, "0 m"), el("span", {}, "cost to go"),
     el("span", {}, `${short(record.cost_step_m * (no_value - 1))} m`)), list);
   ramp.width = steps;
@@ -64,8 +64,8 @@ export function showCostLegend(record: PageRecord, tiles: Tiles): void {
 
 export function showRegionLegend(tiles: Tiles): void {
   const { list, paint } = entries([
-    { code: 1, name: "safe start: both turning circles fit" }, { code: 0, name: "buffer about obstacles" },
-    { code: 2, name: "obstacle" }, { code: 3, name: "target" }, { code: 4, name: "no way to the target" }], tiles);
+    { code: 1, name: "safe start: farther than the buffer from obstacles" }, { code: 0, name: "buffer about obstacles" },
+    { code: 2, name: "obstacle" }, { code: 3, name: "goal" }, { code: 4, name: "cut off: no way to the goal, no command" }], tiles);
   byId("legend").replaceChildren(list);
   paint();
 }

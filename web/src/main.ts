@@ -6,7 +6,7 @@ import { fieldOf } from "./field_arrays";
 import { flightsOf, type ShownFlight } from "./flights";
 import { connect } from "./live";
 import { MapPage } from "./map_page";
-import { showFacts, showNumbers, showTitle, showTrust, showVolumes, showWords } from "./numbers";
+import { showFacts, showNumbers, showTitle, showTrust, showVolumes, showWarnings, showWords } from "./numbers";
 import { preparePrinting } from "./print";
 import { recordOfPage, type PageRecord } from "./record";
 import { showSolid } from "./solid";
@@ -20,6 +20,7 @@ async function flightsIn(record: PageRecord, arrays: Arrays): Promise<ShownFligh
 
 async function show(record: PageRecord, arrays: Arrays): Promise<void> {
   showTitle(record);
+  showWarnings(record);
   showFacts(record);
   showWords(record);
   showTrust(record);

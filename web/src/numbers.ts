@@ -1,7 +1,8 @@
 // What was found, in words and figures: facts, volumes, assumptions, digests.
 import { byId, el, fitted, grouped, percent, short, term } from "./dom";
+import { wordRows } from "./key_words";
 import type { Tiles } from "./layers";
-import type { PageRecord } from "./record";
+import type { Finding, PageRecord } from "./record";
 
 function missionWords(record: PageRecord): string {
   const { mission } = record;
@@ -16,26 +17,21 @@ export function showTitle(record: PageRecord): void {
     `turning radius ${short(vehicle.turn_radius_m)} m · ${missionWords(record)}`;
 }
 
+/** What the user must not miss, before anything else. */
+export function showWarnings(record: PageRecord): void {
+  const warnings: string[] = record.summary.warnings ?? [];
+  byId("warnings").replaceChildren(...warnings.map((warning) => el("li", {}, warning)));
+  byId("warnings").hidden = warnings.length === 0;
+}
+
+/** The findings that closed the run, in their order: first of all states, then what stands in the way. */
 export function showFacts(record: PageRecord): void {
-  const { summary } = record;
-  const verify = summary.verify ?? {};
-  const facts: HTMLElement[] = [];
-  const fact = (name: string, ...value: (Node | string)[]) => facts.push(term(name, ...value));
-  if (verify.volume_fraction) {
-    const { reach, failing, undecided } = record.codes;
-    const share = (shares: Record<string, number>, ...codes: number[]) =>
-      percent(codes.reduce((sum, code) => sum + shares[record.styles.verdict[code].name], 0), 2);
-    fact("of safe-start states with a command proved to reach", share(verify.volume_fraction_free_commanded, reach));
-    fact("of all states proved to reach", share(verify.volume_fraction, reach));
-    fact("of all states proved to fail", share(verify.volume_fraction, ...failing));
-    fact("undecided", share(verify.volume_fraction, undecided));
-    if (verify.worst_time_s > 0) fact("longest bound to reach, sampled", verify.worst_time_s.toFixed(1), el("small", {}, " s"));
-  }
-  const random = summary.random_flights;
-  if (random?.count > 0) {
-    fact("random safe starts reach (flown, evidence only)", `${grouped(random.outcomes.reach)}`, el("small", {}, ` of ${grouped(random.count)}`));
-  }
-  if (facts.length < 5) fact("cells", grouped(record.grid.nx * record.grid.ny));
+  const findings: Finding[] = record.summary.findings ?? [];
+  const facts = findings.map(({ share, of, what }) =>
+    share ? term(`of ${of} ${what}`, share) : term("what ended the proof", el("small", {}, what)));
+  const bound_s = record.summary.verify?.worst_time_s ?? 0;
+  if (bound_s > 0) facts.push(term("longest bound of the time to reach, sampled", bound_s.toFixed(1), el("small", {}, " s")));
+  facts.push(term("cells", grouped(record.grid.nx * record.grid.ny)));
   byId("facts").replaceChildren(...facts);
 }
 
@@ -54,7 +50,7 @@ export function showVolumes(record: PageRecord, tiles: Tiles): void {
   const { order, undecided } = record.codes;
   const paints: (() => void)[] = [];
   byId("volumes").replaceChildren(...rows.map(([name, share]) => {
-    const canvas = el("canvas", { role: "img", "aria-label": `${name}: ` + order.map((v) => `${percent(share[record.styles.verdict[v].name], 2)} ${record.styles.verdict[v].name}`).join(", ") });
+    const canvas = el("canvas", { role: "img", "aria-label": `${name}: ` + order.map((v) => `${percent(share[record.styles.verdict[v].name])} ${record.styles.verdict[v].name}`).join(", ") });
     paints.push(() => {
       fitted(canvas);
       const image = new ImageData(canvas.width, canvas.height);
@@ -72,7 +68,7 @@ export function showVolumes(record: PageRecord, tiles: Tiles): void {
       canvas.getContext("2d")!.putImageData(image, 0, 0);
     });
     const words = order.filter((v) => share[record.styles.verdict[v].name] > 0)
-      .map((v) => `${percent(share[record.styles.verdict[v].name], 2)} ${record.styles.verdict[v].name}`).join(" · ");
+      .map((v) => `${percent(share[record.styles.verdict[v].name])} ${record.styles.verdict[v].name}`).join(" · ");
     return el("div", { class: "volume" }, el("b", {}, name), canvas, el("span", {}, words));
   }));
   paints.forEach((paint) => paint());
@@ -102,10 +98,10 @@ function digestTable(head: string, rows: [string, string][]): HTMLElement {
     el("tbody", {}, ...rows.map(([name, digest]) => el("tr", {}, el("td", {}, name), el("td", { class: "digest" }, digest)))));
 }
 
-function flatRows(value: any, prefix = ""): [string, string][] {
-  if (value === null || typeof value !== "object") return [[prefix, value === null ? "not set" : String(value)]];
-  if (Array.isArray(value)) return [[prefix, JSON.stringify(value)]];
-  return Object.entries(value).flatMap(([key, inner]) => flatRows(inner, prefix ? `${prefix}.${key}` : key));
+/** Options keep the keys that a scenario sets them by. */
+function optionRows(options: Record<string, Record<string, unknown>>): [string, string][] {
+  return Object.entries(options).flatMap(([table, keys]) => Object.entries(keys).map(([key, value]): [string, string] =>
+    [`${table}.${key}`, value === null ? "not set" : typeof value === "string" ? value : JSON.stringify(value)]));
 }
 
 function valueTable(rows: [string, string][]): HTMLElement {
@@ -119,17 +115,17 @@ export function showNumbers(record: PageRecord): void {
   const regions = summary.region_cells ?? {};
   const verify = { ...(summary.verify ?? {}) };
   for (const key of ["words", "levels", "plan_sha256", "options"]) delete verify[key];
-  parts.push(fold("Cells and regions", valueTable([...flatRows({ cells: summary.cells, cell_m: summary.cell_m, origin_m: summary.origin_m, ...regions,
-    unreachable_free_cells: summary.unreachable_free_cells })])));
-  if (summary.random_flights) parts.push(fold("Flights", valueTable([...flatRows(summary.random_flights, "random"), ...flatRows(summary.given_flights, "given")])));
+  parts.push(fold("Cells and regions", valueTable(wordRows({ cells: summary.cells, cell_m: summary.cell_m, origin_m: summary.origin_m, ...regions,
+    unreachable_free_cells: summary.unreachable_free_cells }))));
+  if (summary.random_flights) parts.push(fold("Flights", valueTable(wordRows({ random: summary.random_flights, given: summary.given_flights }))));
   if (Object.keys(verify).length > 0) {
     const levels: any[] = summary.verify.levels ?? [];
-    parts.push(fold("Proof", valueTable(flatRows(verify)), ...(levels.length > 0 ? [el("table", {},
+    parts.push(fold("Proof", valueTable(wordRows(verify)), ...(levels.length > 0 ? [el("table", {},
       el("thead", {}, el("tr", {}, ...["level", "leaves", "undecided leaves", "undecided volume"].map((name) => el("th", { class: "num" }, name)))),
       el("tbody", {}, ...levels.map((l) => el("tr", {}, ...[l.level, grouped(l.leaves), grouped(l.undecided_leaves), percent(l.undecided_volume, 2)]
         .map((text) => el("td", { class: "num" }, String(text)))))))] : [])));
   }
-  parts.push(fold("Every option", valueTable(flatRows(summary.options ?? {}))));
+  parts.push(fold("Every option, by its key in the scenario", valueTable(optionRows(summary.options ?? {}))));
   const digests: HTMLElement[] = [];
   if (summary.inputs) digests.push(digestTable("Input", summary.inputs.map((i: any) => [i.path, i.sha256])));
   if (summary.products) digests.push(digestTable("Product", Object.entries(summary.products)));

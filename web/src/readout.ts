@@ -4,7 +4,7 @@ import { bearingWords, earthWords } from "./earth";
 import { headingOfCode, type FieldArrays } from "./overlay";
 import { no_value, RegionCode, valueIndex, type PageRecord } from "./record";
 
-const region_names = ["buffer", "safe start", "obstacle", "target"];
+const region_names = ["buffer", "safe start", "obstacle", "goal"];
 
 /** The layer that is shown, its heading, and of how many headings a sample reaches once that is known. */
 export interface ShownVerdicts { codes: Uint8Array; heading_rad: number; reaching: Uint16Array | null }
@@ -43,11 +43,15 @@ export function showReadout(record: PageRecord, field: FieldArrays, place: [numb
   const i = valueIndex(record, ...cell);
   const per = record.values.cells_per_value;
   const earth = earthWords(record, place);
+  const open = region[i] === RegionCode.free || region[i] === RegionCode.buffer;
+  const cut_off = open && cost[i] === no_value;
+  const commanded = heading[i] !== no_value && region[i] !== RegionCode.obstacle;
   byId("readout").replaceChildren(
     term("x, y", `${short(place[0])}, ${short(place[1])} m`),
-    ...(earth ? [wide(term("latitude, longitude", earth))] : []), term("cell", cell.join(", ")), term("region", region_names[region[i]]),
-    term("cost to go", cost[i] === no_value ? "no way" : `${short(cost[i] * record.cost_step_m)} m`),
-    term("commanded heading", heading[i] === no_value || region[i] === RegionCode.obstacle ? "none" : bearingWords(record, headingOfCode(heading[i]))),
+    ...(earth ? [wide(term("latitude, longitude", earth))] : []), term("cell", cell.join(", ")),
+    term("region", cut_off ? `${region[i] === RegionCode.free ? "free" : "buffer"}, but cut off from the goal: no command` : region_names[region[i]]),
+    term("cost to go", cost[i] === no_value ? "none" : `${short(cost[i] * record.cost_step_m)} m`),
+    term("commanded heading", commanded ? bearingWords(record, headingOfCode(heading[i])) : open ? "none: straight on" : "none"),
     ...(verdicts ? verdictTerms(record, cell, verdicts) : []),
     ...(per > 1 ? [term("values", `of one cell in ${per} × ${per}`)] : []));
 }

@@ -18,8 +18,12 @@ export interface Codes {
   target: number;
 }
 
+/** A line of what was found: "97.0 %" of "free cells" "are cut off"; without a share, a sentence. */
+export interface Finding { share: string; of: string; what: string }
+
 export interface FlightRecord {
   group: string;
+  ground?: "safe_start" | "buffer" | "cut_off";  // of failing ones: what their start is
   outcome: string;
   time_s: number | null;
   length_m: number | null;

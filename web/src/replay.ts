@@ -6,6 +6,7 @@ import type { PageRecord } from "./record";
 import type { Viewport } from "./viewport";
 
 const groups: Record<string, string> = { given: "given", random: "random", failing: "fails" };
+const grounds: Record<string, string> = { safe_start: "from a safe start with a command", buffer: "from the buffer", cut_off: "from a cut-off cell" };
 const place = (m: number): string => Math.abs(m) < 100 ? short(m) : String(Math.round(m));
 const lines_in_charts = 5;
 
@@ -61,7 +62,7 @@ export class Replay {
       const mark = el("span", { class: "mark" });
       mark.style.background = line.color;
       const [x, y, h] = flight.start;
-      this.rows.push(row(k, el("span", {}, mark, flight.outcome, " ", el("small", {}, groups[flight.group] ?? flight.group)),
+      this.rows.push(row(k, el("span", {}, mark, flight.outcome, " ", el("small", {}, (flight.ground && grounds[flight.ground]) ?? groups[flight.group] ?? flight.group)),
         `${place(x)}, ${place(y)}, ${Math.round(degrees(h)) % 360}°`,
         flight.time_s === null ? "–" : `${flight.time_s.toFixed(1)} s`, flight.length_m === null ? "–" : `${Math.round(flight.length_m)} m`));
     }

@@ -32,6 +32,36 @@ test("opens from a disk, fetches nothing, and has nothing to complain about", as
   assert.ok(await page.locator("#live").isHidden(), "from a disk there is nobody to ask");
 });
 
+test("what must not be missed stands first: cut-off cells, then the share of all states", async (t) => {
+  const image = rocks(120, []);
+  for (let y = 0; y < 120; ++y) image.fill(0, image.length - 14400 + y * 120 + 70, image.length - 14400 + y * 120 + 73);  // a wall
+  const walled = run("walled", scenario({ map: "walled.pgm", scale_m: 1, cell_m: 2, goal: [30, 60], undecided: 0.1 }), { "walled.pgm": image });
+  const { page, trouble } = await openedFile(t, walled);
+  assert.match(await page.locator("#warnings li").first().innerText(), /of the free cells .* are cut off from the goal/);
+  const [warnings, facts] = await Promise.all(["#warnings", "#facts"].map((id) => page.locator(id).boundingBox()));
+  assert.ok(warnings.y < facts.y, "the warnings stand above the figures");
+  assert.match(await page.locator("#facts > div").first().innerText(), /^(of all states are proved to reach the goal\s+[\d.]+ %|[\d.]+ %\s+of all states are proved to reach the goal)$/);
+  assert.match(await page.locator("#facts").innerText(), /of free cells are cut off from the goal/);
+  const box = await page.locator("#map").boundingBox();
+  await page.mouse.move(box.x + 0.8 * box.width, box.y + 0.5 * box.height);
+  await frames(page);
+  assert.match(await readout(page), /free, but cut off from the goal: no command/);
+  assert.doesNotMatch(await readout(page), /safe start/);
+  assert.match(await page.locator("#flight-table").innerText(), /from a cut-off cell/);
+  assert.deepEqual(trouble, []);
+  const quiet = await openedFile(t, small);
+  assert.ok(await quiet.page.locator("#warnings").isHidden(), "nothing to warn of");
+});
+
+test("numbers are told in words", async (t) => {
+  const { page } = await openedFile(t, small);
+  const told = await page.locator("#numbers").evaluate((box) => box.textContent);
+  for (const words of ["free cells cut off from the goal", "share that reach, 95 % interval", "of safe starts with a command: reach"]) {
+    assert.ok(told.includes(words), `${words} in: ${told.slice(0, 400)}`);
+  }
+  assert.doesNotMatch(told, /reach_share_interval|volume_fraction|unreachable_free_cells/);
+});
+
 test("every verdict that is read off the map is the certificate's", async (t) => {
   const { page } = await openedFile(t, small);
   const { grid, verdicts } = recordOf(small);
@@ -45,7 +75,7 @@ test("every verdict that is read off the map is the certificate's", async (t) =>
       await frames(page);
       const words = await readout(page);
       const verdict = /verdict at [^\n]*\n(?:proved: )?(\w+)/.exec(words)?.[1];
-      if (!verdict) continue;  // an obstacle or the target
+      if (!verdict) continue;  // an obstacle or the goal
       const [ix, iy] = /cell\n(\d+), (\d+)/.exec(words).slice(1).map(Number);
       states.push([grid.x0_m + (ix + 0.5) * grid.cell_m + verdicts.offset_m[0], grid.y0_m + (iy + 0.5) * grid.cell_m + verdicts.offset_m[1], verdicts.heading_rad[k]]);
       shown.push(verdict);

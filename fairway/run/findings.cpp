@@ -1,0 +1,141 @@
+#include "fairway/run/findings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fairway/run/share_text.hpp"
+#include "fairway/run/summary.hpp"
+#include "fairway/run/verification_summary.hpp"
+#include "fairway/simulate/flight_statistics.hpp"
+
+namespace fairway {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* all_states = "all states";
+constexpr const char* commanded_starts = "safe starts with a command";
+
+double share_of(const std::array<double, verdict_count>& volume, Verdict verdict) {
+  return volume[static_cast<std::size_t>(verdict)];
+}
+
+/// What is said of states of this verdict.
+std::string done_by_states(Verdict verdict, const std::string& goal) {
+  switch (verdict) {
+    case Verdict::reach:
+      return "are proved to reach the " + goal;
+    case Verdict::leave:
+      return "are proved to leave the map";
+    case Verdict::trapped:
+      return "are proved to be trapped: they circle for ever";
+    case Verdict::undecided:
+      return "are undecided";
+    case Verdict::collide:
+      break;
+  }
+  return "are proved to collide";
+}
+
+std::string goal_of(const Plan& plan, const Verification& v) {
+  const bool is_goal = v.certificate.region_of_interest.kind == RegionOfInterest::Kind::goal;
+  return is_goal ? goal_word(plan) : "region";
+}
+
+std::string after(const char* mark, const std::string& words) {
+  return words.empty() ? words : mark + words;
+}
+
+Finding random_finding(const OutcomeCounts& counts) {
+  const SampledShare range = sampled_share(counts.of(Outcome::reach), counts.total());
+  return {range.share, commanded_starts,
+          fmt::format("reach in {} ({}){}", plural(counts.total(), "random flight"), range.interval,
+                      after("; ", failure_words(counts)))};
+}
+
+Finding given_finding(const OutcomeCounts& counts, const std::string& goal) {
+  const std::size_t reach = counts.of(Outcome::reach);
+  return {grouped(reach), plural(counts.total(), "given start"),
+          fmt::format("reach{} the {}{}", reach == 1 ? "es" : "", goal,
+                      after(": ", failure_words(counts)))};
+}
+
+}  // namespace
+
+std::vector<Finding> plan_findings(const Plan& plan) {
+  const RegionCells cells = count_regions(plan);
+  if (cells.unreachable == 0) return {};
+  return {{percent_text(cells.unreachable, cells.free), "free cells",
+           fmt::format("are cut off from the {}, without a command ({} of {})", goal_word(plan),
+                       grouped(cells.unreachable), grouped(cells.free))}};
+}
+
+std::vector<Finding> findings(const Plan& plan, const Verification& v) {
+  const VolumeFractions& volume = v.outcome.volume;
+  const int decimals = decimals_of_sample(volume.samples);
+  const std::string goal = goal_of(plan, v);
+  const auto line = [&](const auto& shares, Verdict verdict, const char* of) {
+    return Finding{percent_text(share_of(shares, verdict), decimals), of,
+                   done_by_states(verdict, goal)};
+  };
+  std::vector<Finding> found{line(volume.all, Verdict::reach, all_states)};
+  if (v.certificate.region_of_interest.kind == RegionOfInterest::Kind::goal) {
+    for (Finding& finding : plan_findings(plan)) found.push_back(std::move(finding));
+  }
+  for (const Verdict verdict : verdicts_in_order) {
+    if (verdict == Verdict::reach || share_of(volume.all, verdict) <= 0.0) continue;
+    found.push_back(line(volume.all, verdict, all_states));
+  }
+  if (const std::string words = stopped_words(v); !words.empty()) found.push_back({"", "", words});
+  const auto some = [](double share) { return share > 0.0; };
+  if (std::any_of(volume.commanded.begin(), volume.commanded.end(), some)) {
+    found.push_back(line(volume.commanded, Verdict::reach, commanded_starts));
+  }
+  return found;
+}
+
+std::vector<Finding> findings(const Plan& plan, const BitmapVerification& v) {
+  std::vector<Finding> found{{estimated_reach_text(v), all_states,
+                              "reach, estimated from border samples: nothing is proved"}};
+  for (Finding& finding : plan_findings(plan)) found.push_back(std::move(finding));
+  return found;
+}
+
+std::vector<Finding> findings(const Plan& plan, const ScenarioFlights& flown) {
+  std::vector<Finding> found;
+  const OutcomeCounts random = count_outcomes(flown.random_results());
+  const OutcomeCounts given = count_outcomes(flown.given_results());
+  if (random.total() > 0) found.push_back(random_finding(random));
+  if (given.total() > 0) found.push_back(given_finding(given, goal_word(plan)));
+  return found;
+}
+
+json findings_json(const std::vector<Finding>& findings) {
+  json lines = json::array();
+  for (const Finding& finding : findings) {
+    lines.push_back({{"share", finding.share}, {"of", finding.of}, {"what", finding.what}});
+  }
+  return lines;
+}
+
+std::string findings_table(const std::vector<Finding>& findings) {
+  std::size_t share_width = 0;
+  std::size_t of_width = 0;
+  for (const Finding& finding : findings) {
+    share_width = std::max(share_width, finding.share.size());
+    of_width = std::max(of_width, finding.of.size());
+  }
+  std::string text;
+  for (const Finding& finding : findings) {
+    text += finding.of.empty()
+                ? fmt::format("{:>{}}  {}\n", finding.share, share_width, finding.what)
+                : fmt::format("{:>{}}  of {:<{}}  {}\n", finding.share, share_width, finding.of,
+                              of_width, finding.what);
+  }
+  return text;
+}
+
+}  // namespace fairway

@@ -1,0 +1,46 @@
+// What was found, a line for each finding: how much, of what, and what becomes of it. The same
+// lines close a command, stand in its summary, and head the page.
+//
+// The first says how many of all states reach. Then comes what stands in the way, bad news first,
+// and only then the shares of states that begin well. A line has one denominator and names it; what
+// there is nothing of has no line.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "fairway/plan/plan.hpp"
+#include "fairway/run/bitmap_verification.hpp"
+#include "fairway/run/scenario_flights.hpp"
+#include "fairway/run/verification.hpp"
+
+namespace fairway {
+
+/// "97.0 %" of "free cells" "are cut off from the goal". Without a share: a sentence by itself.
+struct Finding {
+  std::string share;
+  std::string of;
+  std::string what;
+};
+
+/// Of the plan alone: how many free cells are cut off.
+[[nodiscard]] std::vector<Finding> plan_findings(const Plan& plan);
+
+/// Of all states, of the plan's cells, what ended the work, and of the safe starts with a command.
+[[nodiscard]] std::vector<Finding> findings(const Plan& plan, const Verification& verification);
+[[nodiscard]] std::vector<Finding> findings(const Plan& plan,
+                                            const BitmapVerification& verification);
+
+/// Of random flights, which start in safe starts with a command, and of the scenario's own starts.
+[[nodiscard]] std::vector<Finding> findings(const Plan& plan, const ScenarioFlights& flown);
+
+/// An array of {"share", "of", "what"}.
+[[nodiscard]] nlohmann::json findings_json(const std::vector<Finding>& findings);
+
+/// Lines in columns, each ending with a newline.
+[[nodiscard]] std::string findings_table(const std::vector<Finding>& findings);
+
+}  // namespace fairway
