@@ -51,7 +51,7 @@ std::vector<std::int8_t> codes_of(const std::vector<Sampled>& answers) {
 }
 
 py::array query(const HeldBitmap& held, const py::object& rows) {
-  const std::vector<State> states = starts_of(rows, "states");
+  const std::vector<State> states = states_of(rows, "states");
   std::vector<std::int8_t> codes;
   {
     const py::gil_scoped_release unlocked;

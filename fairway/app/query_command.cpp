@@ -106,7 +106,7 @@ int query_command(const QueryArguments& a, const Session& session) {
   if (kind_of_bytes(file.bytes()) == FileKind::bitmap) {
     const Bitmap bitmap = read_bitmap(a.certificate);
     const Frame frame = bitmap.frame.value_or(Frame{});
-    const std::vector<State> states = states_of(a, bitmap.grid, frame, session);
+    const std::vector<State> states = states_of(a, bitmap.grid(), frame, session);
     tell(a, "bitmap", frame, states, answers_of(bitmap, states), session);
     return exit_done;
   }

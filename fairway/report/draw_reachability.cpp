@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "fairway/base/share_text.hpp"
 #include "fairway/report/legend.hpp"
 #include "fairway/report/map_panels.hpp"
 #include "fairway/report/share_panels.hpp"

@@ -8,6 +8,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/heading.hpp"
+#include "fairway/base/share_text.hpp"
 #include "fairway/report/map_panels.hpp"
 #include "fairway/report/verdict_style.hpp"
 
@@ -35,13 +36,6 @@ LegendEntry class_entry(std::string name, int rank) {
 }
 
 }  // namespace
-
-std::string percent_text(std::size_t part, std::size_t of) {
-  const double tenths = std::round(1000.0 * static_cast<double>(part) / static_cast<double>(of));
-  if (part < of && tenths >= 1000.0) return "> 99.9 %";
-  if (part > 0 && tenths < 1.0) return "< 0.1 %";
-  return fmt::format("{:.1f} %", 0.1 * tenths);
-}
 
 std::string heading_text(double heading_rad) {
   const double deg = std::round(10.0 * heading_rad * 180.0 / pi) / 10.0;

@@ -12,9 +12,6 @@
 
 namespace fairway {
 
-/// "97.2 %", never rounded up to all or down to nothing.
-[[nodiscard]] std::string percent_text(std::size_t part, std::size_t of);
-
 /// "heading 45°", from 0 to 360.
 [[nodiscard]] std::string heading_text(double heading_rad);
 

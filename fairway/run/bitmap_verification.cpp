@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/share_text.hpp"
 #include "fairway/bitmap/bitmap_backward.hpp"
 #include "fairway/bitmap/bitmap_volume.hpp"
 #include "fairway/plan/plan_digests.hpp"
-#include "fairway/run/share_text.hpp"
 #include "fairway/run/version.hpp"
 
 namespace fairway {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "fairway/run/share_text.hpp"
+#include "fairway/base/share_text.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/run/verification_summary.hpp"
 #include "fairway/simulate/flight_statistics.hpp"

@@ -8,9 +8,9 @@
 
 #include "fairway/base/number_text.hpp"
 
+#include "fairway/base/share_text.hpp"
 #include "fairway/run/final_legs.hpp"
 #include "fairway/run/following_summary.hpp"
-#include "fairway/run/share_text.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/simulate/flight_statistics.hpp"
 

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "fairway/base/share_text.hpp"
 #include "fairway/run/passage_words.hpp"
-#include "fairway/run/share_text.hpp"
 #include "fairway/run/summary.hpp"
 
 namespace fairway {

@@ -49,10 +49,14 @@ TEST(CutOffWarning, NamesThePathThatIsNotReached) {
 }
 
 TEST(PlanWarnings, AreThoseOfTheMapAndThenThoseOfThePlan) {
+  Plan plan = row_of_cells(10, 5);
+  plan.record.mission = GoalMission{};
   ObstacleMap map;
+  map.grid = plan.grid;
+  map.obstacle.assign(plan.grid.size(), 0);
   map.warnings = {"The map is odd."};
-  EXPECT_EQ(plan_warnings(map, row_of_cells(10, 0)), map.warnings);
-  const auto warnings = plan_warnings(map, row_of_cells(10, 5));
+  EXPECT_EQ(plan_warnings({}, map, row_of_cells(10, 0)), map.warnings);
+  const auto warnings = plan_warnings({}, map, plan);
   ASSERT_EQ(warnings.size(), 2U);
   EXPECT_EQ(warnings[0], map.warnings[0]);
 }

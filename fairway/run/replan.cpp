@@ -22,7 +22,7 @@ using nlohmann::json;
 /// texts and flags are spelt alike in JSON and TOML.
 void take(const ScenarioKey& key, const json& value, const std::string& where, Scenario& scenario) {
   const toml::table table = toml::parse("value = " + value.dump());
-  key.take(TomlValue(*table.get("value"), where, "options." + key.name, key.range), scenario);
+  key.take(TomlValue(*table.get("value"), {where}, "options." + key.name, key.range), scenario);
 }
 
 }  // namespace

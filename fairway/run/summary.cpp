@@ -8,10 +8,10 @@
 #include <sys/resource.h>
 #include <tbb/global_control.h>
 
+#include "fairway/base/share_text.hpp"
 #include "fairway/run/findings.hpp"
 #include "fairway/run/plan_warnings.hpp"
 #include "fairway/run/scenario_keys.hpp"
-#include "fairway/run/share_text.hpp"
 #include "fairway/run/version.hpp"
 
 namespace fairway {
@@ -115,7 +115,7 @@ json plan_summary(const Scenario& scenario, const ObstacleMap& map, const Plan& 
       {"unreachable_share_of_free", share(regions.unreachable, regions.free)},
       {"inputs", json::parse(json_text(plan.record)).value("inputs", json::array())},
       {"options", options},
-      {"warnings", plan_warnings(map, plan)},
+      {"warnings", plan_warnings(scenario, map, plan)},
   };
   return summary;
 }

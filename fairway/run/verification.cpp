@@ -113,6 +113,4 @@ Verification verify_plan(const Plan& plan, const std::string& where, const Regio
   return made;
 }
 
-}
-
 }  // namespace fairway

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "fairway/base/share_text.hpp"
 #include "fairway/certificate/certificate_file.hpp"
-#include "fairway/run/share_text.hpp"
 #include "fairway/run/version.hpp"
 
 namespace fairway {

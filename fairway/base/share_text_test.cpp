@@ -1,4 +1,4 @@
-#include "fairway/run/share_text.hpp"
+#include "fairway/base/share_text.hpp"
 
 #include <gtest/gtest.h>
 

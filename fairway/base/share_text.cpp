@@ -1,4 +1,4 @@
-#include "fairway/run/share_text.hpp"
+#include "fairway/base/share_text.hpp"
 
 #include <algorithm>
 #include <cmath>
