@@ -35,14 +35,14 @@ Claims claims_of(const nlohmann::json& record) {
     double sum = 0.0;
     for (std::size_t v = 0; v < verdict_count; ++v) {
       sum += claims.shares[p][v] = record.at(portion_name[p]).at(verdict_name[v]);
-      require(claims.shares[p][v] >= 0.0, "volume_fraction: a share is less than nothing");
+      require(claims.shares[p][v] >= 0.0, "volume_fraction: negative share");
     }
     require(sum == 0.0 || std::abs(sum - 1.0) < 1e-9,
             "volume_fraction: the shares do not sum to 1");
     require(sum == 0.0 || claims.samples >= least_samples,
             "samples: the shares rest on too few, expected at least 1000");
   }
-  require(claims.worst_time_s >= 0.0, "worst_time_s: less than nothing");
+  require(claims.worst_time_s >= 0.0, "worst_time_s: is negative");
   return claims;
 }
 
@@ -99,7 +99,7 @@ std::string defect_of_claims(const Certificate& c, std::size_t samples,
       const double error = std::sqrt(both * (1.0 - both) * (1.0 / here + 1.0 / there));
       // A share that is almost none is not known better than to a few states, of either sample.
       if (std::abs(claimed - found) <= 5.0 * error + 5.0 / here + 5.0 / there) continue;
-      return fmt::format("{}: {} is claimed to be {:.6f}, measured {:.6f} +- {:.6f}",
+      return fmt::format("{}: {} is claimed as {:.6f}, measured as {:.6f} +- {:.6f}",
                          portion_name[p], verdict_name[v], claimed, found, error);
     }
   }

@@ -201,7 +201,7 @@ TEST_F(CheckMutation, EveryOtherVerdictOfALeafIsRefused) {
   }
   Parts changed = good;
   changed.put<std::uint8_t>("leaf_verdict", 0, 5);
-  expect_refused(changed, "its verdict, rank and time cannot be");
+  expect_refused(changed, "has an invalid verdict, rank or time");
 }
 
 TEST_F(CheckMutation, UndecidedLeavesCannotBeClaimed) {
@@ -247,16 +247,16 @@ TEST_F(CheckMutation, RanksMustFallAndTimesMustBound) {
   expect_refused(changed, "its rank is 7");
   changed = good;
   changed.put("leaf_time_s", leaf, 0.9F * time_s);
-  expect_refused(changed, "it takes up to");
+  expect_refused(changed, "takes up to");
   changed = good;
   changed.put("leaf_time_s", leaf, 10.0F * time_s);  // no lie itself, but others build on it
   changed.sign();
-  EXPECT_THAT(refusal(changed.file()), testing::AnyOf("", testing::HasSubstr("it takes up to")));
+  EXPECT_THAT(refusal(changed.file()), testing::AnyOf("", testing::HasSubstr("takes up to")));
   for (const float bad :
        {-1.0F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     changed = good;
     changed.put("leaf_time_s", leaf, bad);
-    expect_refused(changed, "its verdict, rank and time cannot be");
+    expect_refused(changed, "has an invalid verdict, rank or time");
   }
 }
 
@@ -306,7 +306,7 @@ TEST_F(CheckMutation, ChangedCommandsCellsAndGeometryAreRefused) {
   changed = good;  // a new obstacle, where flights pass and leaves are
   changed.put<std::int8_t>("region", 4 * 12 + 10, 1);
   changed.put<std::uint8_t>("cell_kind", 4 * 12 + 10, obstacle);
-  expect_refused(changed, "a section has leaves that cannot");
+  expect_refused(changed, "a section has leaves where it cannot");
   changed = good;
   changed.record["region_of_interest"] = "obstacle";
   expect_refused(changed, "command, region or cell_kind");
@@ -424,12 +424,12 @@ TEST_F(CheckMutation, DamagedFilesAreNotJudgedOrRefused) {
   for (std::size_t i = 0; i < good.arrays.at("leaf_begin").size(); i += 4001) {
     Parts changed = good;
     changed.arrays["leaf_begin"][i] = static_cast<char>(changed.arrays["leaf_begin"][i] ^ 1);
-    EXPECT_THAT(refusal(changed.file()), testing::HasSubstr("leaf_begin: its digest"));
+    EXPECT_THAT(refusal(changed.file()), testing::HasSubstr("leaf_begin: digest mismatch"));
   }
   for (const std::size_t size : {0UL, 5UL, 100UL, good_.size() / 2, good_.size() - 1}) {
     EXPECT_THAT(refusal(good_.substr(0, size)), testing::StartsWith("unreadable: ")) << size;
   }
-  EXPECT_THAT(refusal(good_ + "x"), testing::HasSubstr("goes on after its last array"));
+  EXPECT_THAT(refusal(good_ + "x"), testing::HasSubstr("has bytes after its last array"));
   Parts changed = good;
   changed.record["plan_sha256"]["region"] = changed.record["plan_sha256"]["heading_rad"];
   EXPECT_THAT(refusal(changed.file()), testing::HasSubstr("not those of the plan"));

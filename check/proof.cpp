@@ -85,19 +85,19 @@ std::string defect_of_leaf(const Certificate& c, std::size_t section, std::size_
   const double worst_s = (outcome.worst_s + hops * outcome.hop_s).upper();
   const Verdict verdict = static_cast<Verdict>(c.verdict[leaf]);
   if (outcome.verdict() != verdict) {
-    std::string told = "what is told of its states is:";
+    std::string told = "re-proved outcomes:";
     for (unsigned v = 0; v < verdict_count; ++v)
       told += (outcome.told >> v & 1U) != 0 ? fmt::format(" {}", verdict_name[v]) : "";
     return told;
   }
   if (verdict == trapped) return {};
   if (outcome.least_rank > c.rank[leaf]) {
-    return fmt::format("its rank is {}, its states come to one of rank {}", c.rank[leaf],
+    return fmt::format("its rank is {}, but its states come to a leaf of rank {}", c.rank[leaf],
                        outcome.least_rank - 1);
   }
   const double claimed_s = c.time_s[leaf];
   if (worst_s <= claimed_s) return {};
-  return fmt::format("it takes up to {:.9g} s, claimed are {:.9g} s", worst_s, claimed_s);
+  return fmt::format("takes up to {:.9g} s, but {:.9g} s is claimed", worst_s, claimed_s);
 }
 
 /// Which leaves are decided and fail, 1 or 0.

@@ -28,7 +28,7 @@ using unfinished::register_temporary;
 }
 
 [[noreturn]] void refuse_existing(const fs::path& path) {
-  throw InputError(path.string(), "exists already and is kept; --force replaces it");
+  throw InputError(path.string(), "already exists; use --force to overwrite it");
 }
 
 void flush_to_disk(const fs::path& path) {  // best effort: some file systems refuse
@@ -77,7 +77,7 @@ void require_writable_place(const fs::path& path, Existing existing) {
   if (fs::exists(status) && existing == Existing::keep) refuse_existing(path);
   const fs::path folder = folder_of(path);
   if (!fs::is_directory(folder, error)) {
-    throw InputError(path.string(), "cannot be written: there is no folder " + folder.string());
+    throw InputError(path.string(), "cannot be written: no such folder: " + folder.string());
   }
 }
 
@@ -86,8 +86,7 @@ void require_no_input(const fs::path& path, std::span<const fs::path> inputs) {
     std::error_code error;
     if (!fs::equivalent(path, input, error) || error) continue;
     const std::string also = path == input ? "" : ", under the name " + input.string();
-    throw InputError(path.string(),
-                     "is an input" + also + "; what is made of it must go to another place");
+    throw InputError(path.string(), "is an input" + also + "; write the output to another file");
   }
 }
 
@@ -173,13 +172,13 @@ void AtomicFolder::require_room(const std::vector<std::string>& names) const {
     if (fs::is_empty(path_, error) && !error) return;
     if (error) fail(path_, "cannot be read", error.value());
     throw InputError(path_.string(),
-                     "is a folder with files in it, and they are kept; --force replaces the "
+                     "is a folder that is not empty; use --force to replace the "
                      "products of an earlier run");
   }
   for (const std::string& name : names) {
     if (fs::is_directory(fs::symlink_status(path_ / name, error))) {
       throw InputError((path_ / name).string(),
-                       "is a folder in the place of a product; nothing was replaced");
+                       "is a folder where a product belongs; nothing was replaced");
     }
   }
 }
@@ -208,7 +207,7 @@ void AtomicFolder::commit() {
 /// other, each whole; what does not know the lock is seen by the look, or by the renames.
 void AtomicFolder::move_products() {
   if (!fs::is_directory(path_)) {
-    throw InputError(path_.string(), "is a file by now, expected a folder for the products");
+    throw InputError(path_.string(), "is now a file, expected a folder for the products");
   }
   const Lock one_at_a_time(path_, true);
   std::error_code error;

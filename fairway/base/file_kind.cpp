@@ -109,12 +109,12 @@ std::string other_kind_words(FileKind found, FileKind wanted) {
   const std::string is = std::string("is ") + name_of(found);
   switch (found) {
     case FileKind::scenario:
-      return is + ": `fairway plan` makes a plan of it";
+      return is + ": `fairway plan` makes a plan from it";
     case FileKind::plan:
       if (wanted == FileKind::certificate) return is + ": `fairway verify` makes its certificate";
-      return is + ", expected " + name_of(wanted) + ": `fairway simulate` flies it";
+      return is + ", expected " + name_of(wanted) + ": use it with `fairway simulate`";
     case FileKind::certificate:
-      return is + ", expected " + name_of(wanted) + ": `fairway query` asks it";
+      return is + ", expected " + name_of(wanted) + ": use it with `fairway query`";
     default:
       return is + ": name it in a scenario, as map.file";
   }

@@ -26,7 +26,7 @@ enum class FileKind : std::uint8_t {
 
 [[nodiscard]] FileKind kind_of_bytes(std::span<const std::byte> bytes);
 
-/// "is a scenario: `fairway plan` makes a plan of it"; empty when the kind is unknown, or the one
+/// "is a scenario: `fairway plan` makes a plan from it"; empty when the kind is unknown, or the one
 /// that was wanted. Where a map was wanted, `wanted` is unknown.
 [[nodiscard]] std::string other_kind_words(FileKind found, FileKind wanted);
 

@@ -41,13 +41,13 @@ TEST(FileKind, IsToldByContent) {
 
 TEST(FileKind, WordsSayWhatToDoWithTheOtherKind) {
   EXPECT_EQ(other_kind_words(FileKind::scenario, FileKind::plan),
-            "is a scenario: `fairway plan` makes a plan of it");
+            "is a scenario: `fairway plan` makes a plan from it");
   EXPECT_EQ(other_kind_words(FileKind::plan, FileKind::certificate),
             "is a plan: `fairway verify` makes its certificate");
   EXPECT_EQ(other_kind_words(FileKind::ros_map, FileKind::scenario),
             "is a ROS map: name it in a scenario, as map.file");
   EXPECT_EQ(other_kind_words(FileKind::certificate, FileKind::plan),
-            "is a certificate, expected a plan: `fairway query` asks it");
+            "is a certificate, expected a plan: use it with `fairway query`");
   EXPECT_EQ(other_kind_words(FileKind::plan, FileKind::plan), "");
   EXPECT_EQ(other_kind_words(FileKind::unknown, FileKind::plan), "");
 }

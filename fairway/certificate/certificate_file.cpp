@@ -108,10 +108,9 @@ std::vector<T> array_of(const Safetensors& file, const char* name, const char* d
     for (std::size_t i = 0; fits && i < shape.size(); ++i) {
       fits = shape[i] == 0 ? tensor.shape[i] <= 0x7fffffff : tensor.shape[i] == shape[i];
     }
-    if (!fits) throw InputError(place + ".shape", "does not fit the other arrays");
+    if (!fits) throw InputError(place + ".shape", "does not match the other arrays");
     if (reinterpret_cast<std::uintptr_t>(tensor.data.data()) % sizeof(T) != 0) {
-      throw InputError(place + ".data_offsets",
-                       "begin at no multiple of the element's size in the file");
+      throw InputError(place + ".data_offsets", "are not aligned to the element size in the file");
     }
     std::vector<T> values(tensor.data.size() / sizeof(T));
     std::memcpy(values.data(), tensor.data.data(), values.size() * sizeof(T));
@@ -142,7 +141,7 @@ void take_cells(const Safetensors& file, const std::string& where, Certificate& 
   if (!g.is_valid()) {
     throw InputError(
         where + ": \"geometry\"",
-        "expected sizes in the range of docs/formats.md, cells smaller than the turning "
+        "expected sizes in the ranges of docs/formats.md, cells smaller than the turning "
         "radius, and 2^32 units");
   }
   g.put_into(c.grid, c.vehicle);
@@ -213,13 +212,14 @@ Certificate certificate_of_bytes(std::span<const std::byte> bytes, const std::st
   take_sections(file, where, c);
   c.region_of_interest =
       region_of(member(record, "region_of_interest", place), place + ".region_of_interest");
-  if (file.tensors.size() != 9) throw InputError(where, "has arrays that no certificate has");
+  if (file.tensors.size() != 9)
+    throw InputError(where, "has arrays that do not belong in a certificate");
   const json claimed = member(record, "sha256", place);
   const json found = digests_of(file.tensors);
   for (const auto& [name, digest] : found.items()) {
     if (!claimed.is_object() || claimed.value(name, json()) != digest) {
       throw InputError(fmt::format("{}.sha256.{}", place, name),
-                       "is not the digest of the array: the file was damaged or altered");
+                       "does not match the array: the file was damaged or altered");
     }
   }
   if (cell_kinds(c.grid, c.region, c.region_of_interest) != c.kind) {

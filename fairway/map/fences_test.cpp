@@ -159,8 +159,7 @@ TEST_F(Fences, HeightsThatCannotBeStayObstacles) {
     const ObstacleMap map = read_map(request);
     EXPECT_TRUE(blocked(map, {-30, 0})) << none;
     EXPECT_FALSE(blocked(map, {30, 0}));
-    EXPECT_THAT(map.warnings,
-                ::testing::Contains(HasSubstr("1 features have heights that cannot")));
+    EXPECT_THAT(map.warnings, ::testing::Contains(HasSubstr("1 features have impossible heights")));
   }
 }
 
@@ -277,17 +276,17 @@ TEST_F(Fences, GeoJsonThatIsWrongIsNamedWithItsPlace) {
   EXPECT_THAT(ring_error("[[8,47],[12,47],[12,47.1],[8,47]]"), HasSubstr("km from the reference"));
   EXPECT_THAT(ring_error("[[-179,47],[179,47],[179,47.1],[-179,47]]"), HasSubstr("antimeridian"));
   EXPECT_EQ(error("a.geojson", collection("")),
-            "a.geojson: has neither fence, obstacle nor mission item");
+            "a.geojson: has no fence, obstacle or mission item");
   EXPECT_EQ(error("a.geojson", R"({"type":"Blob"})"),
             "a.geojson: type: is \"Blob\", expected a GeoJSON geometry");
-  EXPECT_EQ(error("a.geojson", "{}"), "a.geojson: is no GeoJSON, the key \"type\" is missing");
+  EXPECT_EQ(error("a.geojson", "{}"), "a.geojson: is not GeoJSON, the key \"type\" is missing");
   EXPECT_THAT(error("a.geojson", "{\n\"type\": \"Polygon\",\n oops}"),
-              StartsWith("a.geojson:3: is no JSON: syntax error"));
+              StartsWith("a.geojson:3: is not JSON: syntax error"));
   EXPECT_EQ(error("a.geojson", R"({"type":"Polygon","type":"Point"})"),
             "a.geojson: the key \"type\" occurs twice in one object");
   EXPECT_THAT(error("a.geojson", std::string(100000, '[')), HasSubstr("nested deeper than 64"));
   EXPECT_THAT(error("a.geojson", R"({"type":"Point","coordinates":[1e999,0]})"),
-              HasSubstr("is no JSON: "));
+              HasSubstr("is not JSON: "));
   EXPECT_THAT(
       error(
           "a.geojson",
@@ -315,7 +314,7 @@ TEST_F(Fences, APlanThatIsWrongIsNamedWithItsPlace) {
       error("a.plan", plan("", "", R"({"type":"ComplexItem","complexItemType":"StructureScan"})")),
       "a.plan: mission.items[0]: is a complex item of kind \"StructureScan\" without plain "
       "waypoints");
-  EXPECT_EQ(error("a.plan", plan("")), "a.plan: has neither fence, obstacle nor mission item");
+  EXPECT_EQ(error("a.plan", plan("")), "a.plan: has no fence, obstacle or mission item");
 }
 
 TEST_F(Fences, AnArduPilotFenceIsAKeepInRingAboutItsReturnPoint) {
@@ -335,12 +334,13 @@ TEST_F(Fences, AnArduPilotFenceIsAKeepInRingAboutItsReturnPoint) {
   EXPECT_EQ(error("a.txt", line(0, 0) + ring),
             "a.txt:5: the ring is not closed: the last point differs from the first corner in line "
             "2");
-  EXPECT_EQ(error("a.txt", line(0, 0) + line(1, 1)),
-            "a.txt: has 2 points, expected a return point and a closed ring of at least 3 corners "
-            "(5 lines)");
+  EXPECT_EQ(
+      error("a.txt", line(0, 0) + line(1, 1)),
+      "a.txt: has 2 points, expected a return point and a closed ring with at least 3 corners "
+      "(5 lines)");
   EXPECT_EQ(error("a.txt", "47.0 8.0\n47.0\n"),
             "a.txt:2: \"47.0\" has 1 values, expected latitude and longitude");
-  EXPECT_EQ(error("a.txt", "47.0 east\n"), "a.txt:1: \"east\" is no number");
+  EXPECT_EQ(error("a.txt", "47.0 east\n"), "a.txt:1: \"east\" is not a number");
   EXPECT_EQ(error("a.txt", "147.0 8.0\n"),
             "a.txt:1: latitude 147 is out of range, expected degrees from -90 to 90");
   EXPECT_EQ(error("a.txt", "nan 8.0\n"),
@@ -361,11 +361,11 @@ TEST_F(Fences, AWaypointFileMayHoldFences) {
   EXPECT_FALSE(blocked(map, {-20, 0}));
   EXPECT_TRUE(blocked(map, {25, 0}));
   EXPECT_EQ(error("a.txt", head + row(1, 5001, 4, 0, 0) + row(2, 16, 0, 1, 1)),
-            "a.txt:4: the polygon that begins at a.txt:3 has 1 corners, expected 4");
+            "a.txt:4: the polygon that starts at a.txt:3 has 1 corners, expected 4");
   EXPECT_EQ(error("a.txt", head + row(1, 5002, 2, 0, 0)),
             "a.txt:3: the polygon has 2 corners, expected at least 3");
   EXPECT_EQ(error("a.txt", "QGC WPL 120\n"),
-            "a.txt:1: \"QGC WPL 120\" is no waypoint file, expected \"QGC WPL 110\"");
+            "a.txt:1: \"QGC WPL 120\" is not a waypoint file, expected \"QGC WPL 110\"");
   EXPECT_EQ(error("a.txt", "QGC WPL 110\n1 2 3\n"), "a.txt:2: has 3 fields, expected 12");
   EXPECT_EQ(error("a.txt", "QGC WPL 110\n0 0 x 16 0 0 0 0 47 8 0 1\n"),
             "a.txt:2: field 3 is \"x\", expected a number");
@@ -413,7 +413,7 @@ TEST_F(Fences, ErrorsSayTheScenariosLineToo) {
   request.file = folder_.file("gone.geojson");
   EXPECT_EQ(error(), "gone.geojson: no such file (map.file of s.toml:2)");
   request.file = folder_.write("a.geojson", "{\n]");
-  EXPECT_THAT(error(), AllOf(StartsWith("a.geojson:2: is no JSON"), HasSubstr("of s.toml:2)")));
+  EXPECT_THAT(error(), AllOf(StartsWith("a.geojson:2: is not JSON"), HasSubstr("of s.toml:2)")));
   request.file = folder_.write("b.geojson", feature(polygon(square(0, 0, 5000))));
   request.cell_m = 1e-3;
   EXPECT_THAT(error(), StartsWith("s.toml:3: map.cell_m: 0.001 m cells on a map of 1"));
@@ -423,13 +423,14 @@ TEST_F(Fences, OtherFilesOfOursAreToldByName) {
   MapRequest request;
   request.file = folder_.write("s.toml", "[map]\nfile = \"a\"\n[mission]\nkind = \"goal\"\n");
   EXPECT_EQ(input_error_of([&] { (void)read_map(request); }),
-            "s.toml: is a scenario: `fairway plan` makes a plan of it");
+            "s.toml: is a scenario: `fairway plan` makes a plan from it");
 }
 
 TEST_F(Fences, FilesOfNoKnownKindAreRefused) {
   EXPECT_THAT(
       error("a.xyz", "hello"),
-      StartsWith("a.xyz: is of no known kind, expected ROS map_server .yaml, QGC waypoints, "));
+      StartsWith(
+          "a.xyz: has an unrecognised format; expected ROS map_server .yaml, QGC waypoints, "));
 }
 
 }  // namespace

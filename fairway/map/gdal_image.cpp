@@ -89,8 +89,8 @@ void apply_palette(const Layout& layout, std::span<const std::uint16_t> indices,
   std::size_t out = 0;
   for (const std::uint16_t index : indices) {
     if (index >= layout.palette.size())
-      throw InputError(file.string(), fmt::format("a pixel names colour {} of a palette of {}",
-                                                  index, layout.palette.size()));
+      throw InputError(file.string(), fmt::format("a pixel has colour {} of a palette of {}", index,
+                                                  layout.palette.size()));
     const GDALColorEntry& colour = layout.palette[index];
     for (const short c : {colour.c1, colour.c2, colour.c3})
       samples[out++] = static_cast<std::uint16_t>(std::clamp<short>(c, 0, 255));

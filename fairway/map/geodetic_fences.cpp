@@ -133,7 +133,7 @@ TangentPlane choose_plane(const GeodeticFences& fences, std::optional<GeodeticPo
     const TangentPlane at_home(*fences.home);
     if (farthest_m(fences, at_home) <= tangent_plane_limit_m) return at_home;
     result.warnings.push_back(fmt::format(
-        "The home position ({}) is farther than {} km from the map; the middle of the map is the "
+        "The home position ({}) is more than {} km from the map; the centre of the map is the "
         "origin instead.",
         shown_point(*fences.home), tangent_plane_limit_m / 1e3));
   }

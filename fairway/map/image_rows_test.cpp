@@ -102,8 +102,8 @@ TEST(Pnm, BytesLeftOverAreWarnedAbout) {
   // By the letter the comment is the first pixels, as other readers have it.
   EXPECT_THAT(warnings("P5 2 1 255 # x\nab"),
               ::testing::ElementsAre(::testing::AllOf(
-                  HasSubstr("a.pgm: 4 bytes behind the last pixel are ignored"),
-                  HasSubstr("a comment behind the maximum value is taken for pixels"))));
+                  HasSubstr("a.pgm: 4 bytes after the last pixel are ignored"),
+                  HasSubstr("a comment after the maximum value is read as pixels"))));
   EXPECT_THAT(warnings("P5 2 1 255\r\nab"),
               ::testing::ElementsAre(HasSubstr("1 byte behind the last pixel is ignored")));
   EXPECT_THAT(warnings("P2 2 1 255 1 2 3"), ::testing::ElementsAre(HasSubstr("1 byte")));
@@ -116,8 +116,8 @@ TEST(Pnm, AFileThatBeginsOtherwiseIsToldHowAPgmBegins) {
                                      {"\nP5 1 1 255\na", "\"\""},
                                      {"<html>", "\"<html>\""}})
     EXPECT_EQ(input_error_of([&] { (void)load(folder.write("a.PGM", begin)); }),
-              std::string("a.PGM:1: begins with ") + shown +
-                  ", a PGM begins with P5 or P2 and a PPM with P6 or P3, before any comment");
+              std::string("a.PGM:1: starts with ") + shown +
+                  "; a PGM starts with P5 or P2 and a PPM with P6 or P3, before any comment");
   EXPECT_THAT(input_error_of([&] { (void)load(folder.write("map.png", "# x\nP5 1 1 255\na")); }),
               StartsWith("map.png:1: begins with \"# x\", a PGM begins with"));
 }
@@ -131,7 +131,7 @@ TEST(Pnm, WhatIsWrongIsNamed) {
             "a.pgm:1: is truncated: 3 bytes of pixels, expected 4 for 2 by 2 pixels");
   EXPECT_EQ(error("P5\n2 2\n255"), "a.pgm:3: ends before the pixels");
   EXPECT_EQ(error("P5\n2\n"), "a.pgm:3: ends before the height");
-  EXPECT_EQ(error("P5\n-2 2\n255\n"), "a.pgm:2: the width is no whole number");
+  EXPECT_EQ(error("P5\n-2 2\n255\n"), "a.pgm:2: the width is not a whole number");
   EXPECT_EQ(error("P5\n0 2\n255\n"), "a.pgm: the image is empty (0 by 2 pixels)");
   EXPECT_EQ(error("P5\n1 1\n0\na"), "a.pgm:3: the maximum value is 0, expected 1 to 65535");
   EXPECT_EQ(error("P5\n1 1\n70000\na"),

@@ -17,7 +17,7 @@ constexpr int max_depth = 64;
 
 std::string kind_of(const nlohmann::json& value) {
   if (value.is_null()) return "null";
-  if (value.is_string()) return "a text";
+  if (value.is_string()) return "a string";
   if (value.is_number()) return "a number";
   if (value.is_boolean()) return "true or false";
   return value.is_array() ? "a list" : "an object";
@@ -48,9 +48,9 @@ nlohmann::json parse_json(const SourceText& source) {
     std::string what = e.what();
     const std::size_t from = what.find("syntax error");
     if (from != std::string::npos) what = what.substr(from);
-    throw InputError(at_line(source.file, static_cast<std::size_t>(line)), "is no JSON: " + what);
+    throw InputError(at_line(source.file, static_cast<std::size_t>(line)), "is not JSON: " + what);
   } catch (const nlohmann::json::exception& e) {
-    throw InputError(source.file.string(), std::string("is no JSON: ") + e.what());
+    throw InputError(source.file.string(), std::string("is not JSON: ") + e.what());
   }
 }
 
@@ -69,12 +69,12 @@ std::size_t JsonPlace::size() const {
 }
 
 JsonPlace JsonPlace::at(std::size_t index) const {
-  if (index >= size()) fail(fmt::format("has {} elements, expected more", size()));
+  if (index >= size()) fail(fmt::format("has only {} elements", size()));
   return {(*value_)[index], fmt::format("{}[{}]", where_, index)};
 }
 
 std::string JsonPlace::text() const {
-  if (!value_->is_string()) fail(fmt::format("is {}, expected a text", kind_of(*value_)));
+  if (!value_->is_string()) fail(fmt::format("is {}, expected a string", kind_of(*value_)));
   return value_->get<std::string>();
 }
 

@@ -46,7 +46,7 @@ class OccupancyTable {
                      std::vector<std::string>& warnings) const {
     if (transparent_ > 0)
       warnings.push_back(fmt::format(
-          "{}: by its alpha channel {} pixels are not opaque; they count as unknown in mode scale.",
+          "{}: {} pixels are not opaque (alpha channel); they count as unknown in mode scale.",
           image, transparent_));
     std::string made;
     for (const auto& [pixel, name] : {std::pair(Pixel::obstacle, "obstacles"),
@@ -57,7 +57,7 @@ class OccupancyTable {
     }
     if (made.empty()) return;
     warnings.push_back(
-        fmt::format("{}: the alpha channel, which mode trinary averages in as one more colour{}, "
+        fmt::format("{}: the alpha channel, which mode trinary averages in like a colour{}, "
                     "makes {} where "
                     "the colours alone would not; save the image without alpha.",
                     image, rule.negate ? " (with negate, opaque is occupied)" : "", made));
@@ -79,10 +79,10 @@ class OccupancyTable {
     for (std::size_t sum = 0; sum < counts_.size(); ++sum)
       if (classes_[sum] == Pixel::unknown) graded += counts_[sum];
     if (graded > 0)
-      warnings.push_back(fmt::format(
-          "{}: {} pixels are neither surely free nor surely occupied in mode {}; they count as "
-          "unknown.",
-          image, graded, rule.mode == OccupancyRule::Mode::raw ? "raw" : "scale"));
+      warnings.push_back(
+          fmt::format("{}: {} pixels are neither certainly free nor certainly occupied in mode {}; "
+                      "they count as unknown.",
+                      image, graded, rule.mode == OccupancyRule::Mode::raw ? "raw" : "scale"));
   }
 
  private:

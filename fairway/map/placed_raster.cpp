@@ -90,7 +90,7 @@ void warn_of_mercator(const std::string& file, const OGRSpatialReference& system
   const double scale = 1.0 / std::cos(there->latitude_deg * (pi / 180.0));
   if (scale < 1.01) return;
   place.warnings.push_back(
-      fmt::format("{}: is in Mercator's projection, where a metre on the ground is {:.2f} m of the "
+      fmt::format("{}: is in Mercator projection, where a metre on the ground is {:.2f} m on the "
                   "map; {}.",
                   file, scale, gdalwarp_advice(there)));
 }
@@ -130,10 +130,9 @@ void require_no_degrees_in_disguise(const MapRequest& request, const SourceRaste
   if (pixel < (request.altitude_m ? 0.3 : 1e-3) && is_on_earth(centre) && is_on_earth({t[3], t[0]}))
     throw InputError(
         request.file.string(),
-        fmt::format(
-            "has pixels of {} units at ({}, {}): degrees where metres belong; {} (or say by "
-            "map.resolution_m that they are metres)",
-            t[1], t[0], t[3], gdalwarp_advice(centre, "-s_srs EPSG:4326 ")));
+        fmt::format("has pixels of {} units at ({}, {}): degrees instead of metres; {} (or set "
+                    "map.resolution_m if they are metres)",
+                    t[1], t[0], t[3], gdalwarp_advice(centre, "-s_srs EPSG:4326 ")));
 }
 
 Place find_place(const MapRequest& request, GdalRaster* raster) {
@@ -178,7 +177,7 @@ void put_in_place(SourceRaster& raster, const Place& place, const MapRequest& re
       throw InputError(request.file.string(), "has a geotransform that is not finite");
   if (t[2] != 0.0 || t[4] != 0.0)
     throw InputError(request.file.string(),
-                     "is turned or sheared, expected rows along x; straighten "
+                     "is rotated or sheared, expected rows along x; straighten "
                      "it with gdalwarp");
   if (t[1] == 0.0 || t[5] == 0.0)
     throw InputError(request.file.string(), "has a geotransform with pixels of size 0");
@@ -215,8 +214,8 @@ class Voids {
   void warn(std::vector<std::string>& warnings) const {
     if (untagged_ == 0) return;
     warnings.push_back(
-        fmt::format("{}: {} pixels have heights that cannot be ground ({}) and that no nodata tag "
-                    "names; they are unknown. To tag them: gdal_edit.py -a_nodata {} {}",
+        fmt::format("{}: {} pixels have heights that cannot be ground ({}), without a nodata tag "
+                    "for them; they count as unknown. To tag them: gdal_edit.py -a_nodata {} {}",
                     file_, untagged_, fmt::join(values_, ", "), values_.front(), file_));
   }
 
@@ -230,8 +229,8 @@ class Voids {
 
 GDALRasterBand& band_of_heights(GDALDataset& dataset, const std::string& file) {
   if (dataset.GetRasterCount() != 1)
-    throw InputError(
-        file, fmt::format("has {} bands, an elevation raster has one", dataset.GetRasterCount()));
+    throw InputError(file, fmt::format("has {} bands, expected one in an elevation raster",
+                                       dataset.GetRasterCount()));
   GDALRasterBand& band = *dataset.GetRasterBand(1);
   if (GDALDataTypeIsComplex(band.GetRasterDataType()))
     throw InputError(file, "has complex samples, expected heights");
@@ -280,7 +279,8 @@ SourceRaster read_placed_raster(const MapRequest& request) {
   const Place place = find_place(request, gdal ? &*gdal : nullptr);
   SourceRaster raster;
   if (request.altitude_m) {
-    if (!gdal) throw InputError(request.file.string(), "is no elevation raster (map.altitude_m)");
+    if (!gdal)
+      throw InputError(request.file.string(), "is not an elevation raster (map.altitude_m)");
     raster = read_elevation(request, *gdal);
   } else {
     raster = read_occupancy(request.file, OccupancyRule{}, request.max_pixels);

@@ -176,10 +176,9 @@ TEST_F(PlacedRaster, HeightsThatCannotBeGroundAreUnknownWithAWord) {
     MapRequest request = at_altitude(1e9);  // above every number
     const ObstacleMap map = read_map(request);
     EXPECT_EQ(map.obstacle, (std::vector<std::uint8_t>{0, 0, 0, 1, 0, 1})) << none;
-    EXPECT_THAT(map.warnings,
-                ::testing::ElementsAre(AllOf(HasSubstr("a.tif: 2 pixels have heights that cannot "
-                                                       "be ground ("),
-                                             HasSubstr("gdal_edit.py -a_nodata"))))
+    EXPECT_THAT(map.warnings, ::testing::ElementsAre(AllOf(
+                                  HasSubstr("a.tif: 2 pixels have heights that cannot be ground ("),
+                                  HasSubstr("gdal_edit.py -a_nodata"))))
         << none;
     request.unknown_is_obstacle = false;
     EXPECT_EQ(read_map(request).obstacle, std::vector<std::uint8_t>(6, 0));
@@ -217,7 +216,7 @@ TEST_F(PlacedRaster, DegreesAreRefusedWithAdvice) {
   tiff.epsg = 0;
   write_tiff(folder_.file("a.tif"), tiff);
   EXPECT_THAT(error(at_altitude(45.0)),
-              AllOf(HasSubstr("degrees where metres belong"),
+              AllOf(HasSubstr("degrees instead of metres"),
                     HasSubstr("gdalwarp -s_srs EPSG:4326 -t_srs EPSG:32719 IN OUT")));
   // Half a minute of arc to a pixel; far north there are no zones.
   tiff.transform = {20.0, 0.5 / 60.0, 0.0, 85.0, 0.0, -0.5 / 60.0};
@@ -240,7 +239,7 @@ TEST_F(PlacedRaster, OtherUnitsTurnedRastersAndFloatsWithoutAltitudeAreRefused) 
   tiff.transform = {600000.0, 2.0, 0.1, 5200000.0, 0.1, -2.0};
   write_tiff(folder_.file("a.tif"), tiff);
   EXPECT_EQ(error(at_altitude(45.0)),
-            "a.tif: is turned or sheared, expected rows along x; straighten it with gdalwarp");
+            "a.tif: is rotated or sheared, expected rows along x; straighten it with gdalwarp");
   write_tiff(folder_.file("a.tif"), {});
   EXPECT_EQ(error(request("a.tif")),
             "a.tif: has samples of type Float32, expected 8 or 16 bits; elevations need a flight "
@@ -283,14 +282,14 @@ TEST_F(PlacedRaster, AWorldFilePlacesABareImage) {
     std::filesystem::remove(file);
   }
   folder_.write("a.pmw", "2.0\n0\nnorth\n-2.0\n11.0\n21.0\n");
-  EXPECT_EQ(error(request("a.pgm")), "a.pmw:3: \"north\" is no finite number");
+  EXPECT_EQ(error(request("a.pgm")), "a.pmw:3: \"north\" is not a finite number");
   folder_.write("a.pmw", "2.0\n0\n0\n");
-  EXPECT_EQ(error(request("a.pgm")), "a.pmw: has 3 numbers, a world file has six");
+  EXPECT_EQ(error(request("a.pgm")), "a.pmw: has 3 numbers, expected six in a world file");
   folder_.write("a.pmw", "2.0\n1\n1\n-2.0\n11.0\n21.0\n");
-  EXPECT_THAT(error(request("a.pgm")), HasSubstr("is turned or sheared"));
+  EXPECT_THAT(error(request("a.pgm")), HasSubstr("is rotated or sheared"));
   folder_.write("a.pmw", "0.00002\n0\n0\n-0.00002\n8.5\n47.3\n");
   EXPECT_THAT(error(request("a.pgm")),
-              AllOf(HasSubstr("degrees where metres belong"), HasSubstr("EPSG:32632")));
+              AllOf(HasSubstr("degrees instead of metres"), HasSubstr("EPSG:32632")));
 }
 
 TEST_F(PlacedRaster, ABareImageNeedsAResolutionAndLiesAtTheOrigin) {

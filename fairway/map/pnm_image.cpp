@@ -24,7 +24,7 @@ class PnmReader {
     while (at_ < source_.text.size() && is_digit(source_.text[at_]))
       value = std::min(value * 10 + (source_.text[at_++] - '0'), std::int64_t{1} << 40);
     if (at_ == begin || (at_ < source_.text.size() && !is_blank_or_comment(source_.text[at_])))
-      fail(fmt::format("the {} is no whole number", what));
+      fail(fmt::format("the {} is not a whole number", what));
     if (value > max)
       fail(fmt::format("the {} is {}, expected at most {}", what,
                        std::string_view(source_.text).substr(begin, at_ - begin), max));
@@ -133,11 +133,11 @@ std::size_t take_binary_rows(PnmReader& reader, const ImageFormat& format,
 // Readers of the format agree that the pixels begin one blank behind the maximum value, so that a
 // comment there, or a line end of two bytes, moves the image and leaves as many bytes over.
 std::string left_over_words(const SourceText& source, std::size_t bytes, bool comment) {
-  return fmt::format("{}: {} byte{} behind the last pixel {} ignored; {}", source.file.string(),
+  return fmt::format("{}: {} byte{} after the last pixel {} ignored; {}", source.file.string(),
                      bytes, bytes == 1 ? "" : "s", bytes == 1 ? "is" : "are",
-                     comment ? "a comment behind the maximum value is taken for pixels and moves "
+                     comment ? "a comment after the maximum value is read as pixels and shifts "
                                "the image: put it before that line."
-                             : "is the image moved by as much, or has it another size?");
+                             : "is the image shifted by as much, or is its size wrong?");
 }
 
 std::string shown_begin(std::string_view text) {
@@ -172,7 +172,7 @@ std::vector<std::string> read_pnm(const SourceText& source, std::uint64_t max_pi
                                   const TakeRow& take_row) {
   if (!is_pnm(source.text))
     throw InputError(at_line(source.file, 1),
-                     fmt::format("begins with {}, a PGM begins with P5 or P2 and a PPM with P6 or "
+                     fmt::format("starts with {}; a PGM starts with P5 or P2 and a PPM with P6 or "
                                  "P3, before any comment",
                                  shown_begin(source.text)));
   PnmReader reader(source);

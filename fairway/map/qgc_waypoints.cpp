@@ -47,7 +47,7 @@ std::vector<Item> read_items(const SourceText& source) {
   const std::vector<Line> lines = lines_of(source.text);
   if (lines.empty() || trimmed(lines.front().text) != magic)
     throw InputError(at_line(source.file, 1),
-                     fmt::format("{} is no waypoint file, expected \"{}\"",
+                     fmt::format("{} is not a waypoint file, expected \"{}\"",
                                  shown(lines.empty() ? "" : lines.front().text), magic));
   std::vector<Item> items;
   for (std::size_t i = 1; i < lines.size(); ++i) {
@@ -85,7 +85,7 @@ std::size_t read_fence_polygon(const std::vector<Item>& items, std::size_t first
   for (std::size_t i = first; i < first + corners; ++i) {
     if (i >= items.size() || items[i].command != head.command)
       throw InputError(i < items.size() ? items[i].where : items.back().where,
-                       fmt::format("the polygon that begins at {} has {} corners, expected {}",
+                       fmt::format("the polygon that starts at {} has {} corners, expected {}",
                                    head.where, i - first, corners));
     require_geodetic(items[i].where, items[i].point);
     ring.points.push_back(items[i].point);
@@ -101,8 +101,8 @@ std::vector<MissionPlace> mission_of(const std::vector<Item>& items) {
     if (is_home(item) || !visits_a_place(item.command)) continue;
     if (is_current_place(item.point.latitude_deg, item.point.longitude_deg)) continue;
     if (!is_global_frame(item.frame))
-      throw InputError(item.where, fmt::format("frame {} is no global frame, expected latitude and "
-                                               "longitude",
+      throw InputError(item.where, fmt::format("frame {} is not a global frame, "
+                                               "expected latitude and longitude",
                                                item.frame));
     require_geodetic(item.where, item.point);
     places.push_back({item.where, item.point});

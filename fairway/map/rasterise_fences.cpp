@@ -70,7 +70,7 @@ MapExtent world_of(const FenceSet& fences, const RasteriseOptions& options, Incl
   for (const auto& circle : fences.keep_out_circles) world.hold(circle.center_m, circle.radius_m);
   for (const Vec2 p : fences.places_m) world.hold(p);
   if (world.holds_nothing())
-    throw InputError(name_of_map(fences), "has neither fence, obstacle nor mission item");
+    throw InputError(name_of_map(fences), "has no fence, obstacle or mission item");
   const double longer_m = std::max(world.x_high - world.x_low, world.y_high - world.y_low);
   const double margin_m =
       options.growth_m + world_margin_m.value_or(std::max({0.1 * longer_m, 10.0 * options.cell_m,

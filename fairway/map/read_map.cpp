@@ -97,8 +97,8 @@ ObstacleMap rasterise_fences(const GeodeticFences& fences, const MapRequest& req
 
 void require_no_altitude(const MapRequest& request) {
   if (request.altitude_m)
-    throw InputError("map.altitude_m", "has no meaning for " + request.file.string() +
-                                           ", only for elevation rasters and GeoJSON heights");
+    throw InputError("map.altitude_m", "does not apply to " + request.file.string() +
+                                           ", only to elevation rasters and GeoJSON heights");
 }
 
 GeodeticFences read_json_fences(const MapRequest& request) {
@@ -186,7 +186,7 @@ const MapKind& kind_of(const std::filesystem::path& file) {
   for (const MapKind& kind : map_kinds)
     if (kind.recognises(head)) return kind;
   refuse_other_kind(MappedFile(file).bytes(), FileKind::unknown, file.string());
-  throw InputError(file.string(), "is of no known kind, expected " + map_kinds_text());
+  throw InputError(file.string(), "has an unrecognised format; expected " + map_kinds_text());
 }
 
 ObstacleMap read_kind(const MapRequest& request) {

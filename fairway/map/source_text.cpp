@@ -25,7 +25,7 @@ void require_regular_file(const std::filesystem::path& file) {
   const auto status = std::filesystem::status(file, error);
   if (status.type() == std::filesystem::file_type::not_found)
     throw InputError(name, name.find("://") != std::string::npos || name.starts_with("/vsi")
-                               ? "is no local file; download it first, nothing is fetched"
+                               ? "is not a local file; download it first, nothing is fetched"
                                : "no such file");
   if (error) throw InputError(name, "cannot be opened: " + error.message());
   if (status.type() == std::filesystem::file_type::directory)

@@ -52,7 +52,7 @@ struct Line {
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 
 /// The whole of `text` as a decimal number in the C locale; inf and nan are numbers here, so that
-/// the caller can name them. Nothing when it is no number.
+/// the caller can name them. Nothing when it is not a number.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
 /// Lower-case copy, ASCII only.

@@ -109,7 +109,7 @@ TEST(TextInputs, AMapsSizeHasItsRangeInTheMessage) {
     request.file = folder.write("a.map", std::string("type octile\nheight ") + size + "\n");
     EXPECT_EQ(input_error_of([&] { (void)read_map(request); }),
               std::string("a.map:2: \"") + size +
-                  "\" is no size, expected a whole number from 1 to 1000000000");
+                  "\" is not a size, expected a whole number from 1 to 1000000000");
   }
 }
 

@@ -39,13 +39,14 @@ WorldFile read_world_file(const std::filesystem::path& file) {
     const auto number = parse_number(text);
     if (!number || !std::isfinite(*number))
       throw InputError(at_line(file, line.number),
-                       fmt::format("{} is no finite number", shown(text)));
+                       fmt::format("{} is not a finite number", shown(text)));
     if (count == 6)
       throw InputError(at_line(file, line.number), "has more than the six numbers of a world file");
     values[count++] = *number;
   }
   if (count != 6)
-    throw InputError(file.string(), fmt::format("has {} numbers, a world file has six", count));
+    throw InputError(file.string(),
+                     fmt::format("has {} numbers, expected six in a world file", count));
   // Lines are A, D, B, E, C, F; C and F name the centre of the upper-left pixel.
   const auto [a, d, b, e, c, f] = values;
   return {{c - 0.5 * a - 0.5 * b, a, b, f - 0.5 * d - 0.5 * e, d, e}, source.input};

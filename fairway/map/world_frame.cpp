@@ -45,11 +45,9 @@ Grid grid_over(const MapExtent& extent, const RasteriseOptions& options) {
             length_text(columns + ring), length_text(rows + ring), options.max_cells));
   for (const double corner_m : {extent.lower_left_m.x, extent.lower_left_m.y})
     if (!(std::abs(corner_m) <= 1e12 * options.cell_m))
-      throw InputError(
-          "map.cell_m",
-          fmt::format("the map's corner is at {} m: too far from 0 to tell cells of {} "
-                      "m apart",
-                      corner_m, options.cell_m));
+      throw InputError("map.cell_m", fmt::format("the map's corner is at {} m: too far from 0 to "
+                                                 "distinguish cells of {} m",
+                                                 corner_m, options.cell_m));
   return {static_cast<int>(columns), static_cast<int>(rows), extent.lower_left_m.x,
           extent.lower_left_m.y, options.cell_m};
 }

@@ -159,7 +159,7 @@ void require_digest(const json& digests, const Tensor& tensor, const std::string
   const std::string place = where + ".sha256";
   if (text_member(digests, tensor.name.c_str(), place) != found) {
     throw InputError(place + "." + tensor.name,
-                     "is not the digest of the array: the file was damaged or altered");
+                     "does not match the array: the file was damaged or altered");
   }
 }
 
@@ -188,7 +188,7 @@ std::string plan_defect(const Plan& plan) {
   }
   const std::size_t n = plan.grid.size();
   if (plan.heading_rad.size() != n || plan.region.size() != n || plan.cost_m.size() != n) {
-    return "an array has not one entry per cell";
+    return "an array does not have one entry per cell";
   }
   std::atomic<std::size_t> first{n};  // the lowest, whichever thread sees it
   for_ranges(n, 1 << 16, [&](std::size_t begin, std::size_t end) {
@@ -224,7 +224,7 @@ Plan plan_of_bytes(std::span<const std::byte> bytes, const std::string& where) {
   const std::string place = where + ": fairway";
   json record = parse_strict_json(text->second, place);
   if (file.tensors.size() > 3) {
-    throw InputError(where, "has arrays beside heading_rad, cost_m and region");
+    throw InputError(where, "has arrays other than heading_rad, cost_m and region");
   }
 
   const std::size_t heading = tensor_at(file, "heading_rad", "F32", where);

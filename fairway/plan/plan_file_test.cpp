@@ -190,7 +190,7 @@ TEST(PlanFile, EveryFieldThatIsWrongIsRefusedByName) {
       {"unknown key", header("cost_m", "stride", 4)},
       {"lacks the array \"region\"",
        [](Parts& p) { p.header.erase("region"), p.arrays.resize(160); }},
-      {"arrays beside",
+      {"arrays other than",
        [](Parts& p) {
          p.header["x"] = {{"dtype", "I8"}, {"shape", {0}}, {"data_offsets", {0, 0}}};
        }},

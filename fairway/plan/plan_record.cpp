@@ -58,7 +58,7 @@ PlanRecord plan_record_of(json value, const std::string& where) {
     value.erase(found);
   };
   take("program", [&](const json& found, const std::string& place) {
-    if (!found.is_string()) throw InputError(place, "expected a text, found " + shown(found));
+    if (!found.is_string()) throw InputError(place, "expected a string, found " + shown(found));
     record.program = found.get<std::string>();
   });
   take("mission", [&](const json& found, const std::string& place) {

@@ -90,7 +90,7 @@ bool sections_fit(const Flow& flow, const SectionVerdicts& sections) {
 }
 
 SectionVerdicts reproved(const Flow& flow, SectionVerdicts claimed, int most_crossings) {
-  require(sections_fit(flow, claimed), "the sections with leaves are those of the flow");
+  require(sections_fit(flow, claimed), "the sections with leaves match the flow");
   drop_nonsense(claimed);
   const LeafGraph graph = flown(flow, claimed, most_crossings);
   std::vector<std::uint8_t> holds(graph.ids());
