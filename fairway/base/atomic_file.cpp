@@ -143,7 +143,7 @@ AtomicFolder::AtomicFolder(fs::path path, Existing existing, std::string last,
       products_(std::move(products)) {
   std::error_code error;
   if (!path_.has_filename() || path_.filename() == "." || path_.filename() == "..") {
-    path_ = fs::weakly_canonical(path_, error);  // "-o ." and "-o ..": a real name is needed
+    path_ = fs::weakly_canonical(path_, error);  // "-o ." and "-o ..": need a real name
   }
   const fs::file_status status = fs::status(path_, error);
   if (fs::exists(status) && !fs::is_directory(status)) {
@@ -165,7 +165,7 @@ AtomicFolder::~AtomicFolder() {
   if (lock_ >= 0) ::close(lock_);
 }
 
-/// Throws unless products of these names can take their places in the folder that is there.
+/// Throws unless products of these names can be moved into the existing folder.
 void AtomicFolder::require_room(const std::vector<std::string>& names) const {
   std::error_code error;
   if (existing_ == Existing::keep) {
@@ -193,18 +193,18 @@ void AtomicFolder::commit() {
       move_into_place(temporary_, path_, Existing::keep);
       moved = true;
     } catch (const InputError&) {
-      if (!is_there()) throw;  // else it came meanwhile: it is looked at like any other
+      if (!is_there()) throw;  // else it appeared meanwhile: it is checked like any other
     }
   }
   if (!moved) move_products();
   forget(temporary_);
   temporary_.clear();
-  ::close(std::exchange(lock_, -1));  // by now it may lie on the folder in its place
+  ::close(std::exchange(lock_, -1));  // by now it may lock the folder at its destination
   flush_to_disk(folder_of(path_));
 }
 
-/// One by one, into a folder that is there. Runs that come at the same time come one after the
-/// other, each whole; what does not know the lock is seen by the look, or by the renames.
+/// One by one, into an existing folder. Simultaneous runs commit one after another, each whole;
+/// the check and the renames notice writers that do not take the lock.
 void AtomicFolder::move_products() {
   if (!fs::is_directory(path_)) {
     throw InputError(path_.string(), "is now a file, expected a folder for the products");
@@ -231,7 +231,7 @@ void AtomicFolder::move_products() {
     try {
       move_into_place(temporary_ / names[i], path_ / names[i], existing_);
     } catch (const InputError&) {
-      // Into an empty folder nothing was to be replaced: what is ours goes out again.
+      // Nothing was to be replaced in an empty folder: remove what we moved there.
       for (std::size_t back = 0; back < i && existing_ == Existing::keep; ++back) {
         fs::rename(path_ / names[back], temporary_ / names[back], error);
       }

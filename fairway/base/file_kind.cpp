@@ -31,7 +31,7 @@ FileKind product_kind_of(std::span<const std::byte> bytes) {
   return record["format"] == "fairway-certificate" ? FileKind::certificate : FileKind::unknown;
 }
 
-/// True when some line begins with `word`, whatever stands before it in the line but blanks.
+/// True when some line starts with `word`, after any blanks.
 bool has_line(std::string_view text, std::string_view word) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
@@ -95,7 +95,7 @@ FileKind kind_of_bytes(std::span<const std::byte> bytes) {
   try {
     return product_kind_of(bytes);
   } catch (const InputError&) {
-    // No safetensors file; then perhaps text.
+    // Not a safetensors file; perhaps it is text.
   }
   try {
     return text_kind_of(plain_text(whole.substr(0, most), ""));

@@ -1,4 +1,4 @@
-// Where a grid's frame of metres lies in the world: in the frame of the map's source, and on Earth.
+// Where a grid's metric frame lies in the world: in the frame of the map's source, and on Earth.
 #pragma once
 
 #include <functional>
@@ -39,7 +39,7 @@ struct LonLat {
   double longitude_deg = 0.0;
   double latitude_deg = 0.0;
 };
-/// The place on Earth of a point of a frame; empty: the frame has none.
+/// The place on Earth of a point of a frame; empty when the frame is not georeferenced.
 using LonLatOf = std::function<LonLat(Vec2 position_m)>;
 
 }  // namespace fairway

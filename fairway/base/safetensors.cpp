@@ -16,7 +16,8 @@ namespace {
 
 using nlohmann::json;
 
-static_assert(std::endian::native == std::endian::little, "arrays are written as they lie");
+static_assert(std::endian::native == std::endian::little,
+              "arrays are written as they are in memory");
 
 constexpr std::array<std::pair<std::string_view, std::uint64_t>, 11> widths{{{"F64", 8},
                                                                              {"I64", 8},
@@ -158,7 +159,7 @@ Safetensors parse_safetensors(std::span<const std::byte> bytes, const std::strin
 }
 
 std::string safetensors_header(const Safetensors& content) {
-  // Written by hand: the arrays stand in the header in the order in which they lie in the file.
+  // Written by hand: the header lists the arrays in their order in the file.
   std::string text = "{\"__metadata__\":" + json(content.metadata).dump();
   std::uint64_t offset = 0;
   for (const Tensor& tensor : content.tensors) {
