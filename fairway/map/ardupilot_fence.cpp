@@ -1,5 +1,5 @@
 // ArduPilot fence text: "latitude longitude" per line, first the return point, then a ring whose
-// last line repeats its first. Lines that begin with '#' are comments.
+// last line repeats its first. Lines that start with '#' are comments.
 
 #include <fmt/format.h>
 

@@ -32,9 +32,9 @@ int max_value_of(GDALRasterBand& band) {
 }
 
 struct Layout {
-  ImageFormat format;                   // as the rows are handed on
+  ImageFormat format;                   // of the rows passed on
   std::vector<GDALColorEntry> palette;  // not empty: one band of indices
-  int bands = 1;                        // as the file has them
+  int bands = 1;                        // in the file
   bool white_is_zero = false;
 };
 
@@ -99,7 +99,7 @@ void apply_palette(const Layout& layout, std::span<const std::uint16_t> indices,
   }
 }
 
-// Some files hold larger values than their bit depth promises; and white may be zero.
+// Some files have larger values than their bit depth allows; and white may be zero.
 void tidy_row(const Layout& layout, std::span<std::uint16_t> samples) {
   const auto max = static_cast<std::uint16_t>(layout.format.max_value);
   if (max != 255 && max != 65535)

@@ -55,7 +55,7 @@ class GeoJsonReader {
     fences.circles.resize(circles_before);
   }
 
-  // Heights in metres above what altitude_m is measured from; unknown heights stay obstacles.
+  // Heights in metres above the datum of altitude_m; unknown heights stay obstacles.
   bool is_low(const JsonPlace& properties) {
     if (!request_.altitude_m || !properties.is_object()) return false;
     for (const auto& [key, value] : properties.value().items()) {

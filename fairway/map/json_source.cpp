@@ -26,7 +26,7 @@ std::string kind_of(const nlohmann::json& value) {
 }  // namespace
 
 nlohmann::json parse_json(const SourceText& source) {
-  // One set of keys for each object that is open.
+  // One set of keys for each open object.
   std::vector<std::set<std::string>> open;
   const auto watch = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
     using Event = nlohmann::json::parse_event_t;

@@ -1,4 +1,4 @@
-// JSON files with errors that say where: the line for broken syntax, the path of keys for the rest.
+// JSON files with located errors: the line for broken syntax, the path of keys for the rest.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@
 namespace fairway {
 
 /// Throws InputError{"FILE:LINE"} for broken syntax, a key that occurs twice in one object, numbers
-/// that no double holds, and nesting deeper than 64.
+/// that do not fit a double, and nesting deeper than 64.
 [[nodiscard]] nlohmann::json parse_json(const SourceText& source);
 
-/// A value and where it stands: "FILE: geoFence.polygons[0]". Missing keys and wrong types throw
+/// A value and where it is: "FILE: geoFence.polygons[0]". Missing keys and wrong types throw
 /// InputError that names the path.
 class JsonPlace {
  public:

@@ -9,7 +9,7 @@ namespace fairway {
 
 namespace {
 
-// Classes of all possible sums of a pixel's samples, found once; and how often each occurred.
+// Classes of all possible sums of a pixel's samples, computed once; and how often each occurred.
 class OccupancyTable {
  public:
   OccupancyTable(const ImageFormat& format, const OccupancyRule& rule)
@@ -34,7 +34,7 @@ class OccupancyTable {
     return classes_[sum];
   }
 
-  /// Where alpha is averaged in: what the colours alone would have given.
+  /// Where alpha is averaged in: the class from the colours alone.
   void compare(unsigned colours, Pixel with_alpha) {
     if (without_alpha_.empty() || with_alpha == without_alpha_[colours]) return;
     ++by_alpha_[static_cast<std::size_t>(with_alpha)];
@@ -91,7 +91,7 @@ class OccupancyTable {
       const double percent = std::round(255.0 * sum / top);
       return percent == 0.0 ? Pixel::free : percent == 100.0 ? Pixel::obstacle : Pixel::unknown;
     }
-    // One rounding: grey 205 gives the double nearest to 50 / 255.
+    // A single rounding: grey 205 gives the double nearest to 50 / 255.
     const double occ = static_cast<double>(rule.negate ? sum : top - sum) / top;
     if (occ > rule.occupied) return Pixel::obstacle;
     if (occ < rule.free) return Pixel::free;
@@ -102,7 +102,7 @@ class OccupancyTable {
 
   int averaged_;
   int grey_205_ = -1;
-  std::vector<Pixel> without_alpha_;  // by the sum of the colours; empty: alpha does not count
+  std::vector<Pixel> without_alpha_;  // by the sum of the colours; empty when alpha does not count
   std::array<std::uint64_t, 3> by_alpha_{};
   std::uint64_t transparent_ = 0;
   std::vector<Pixel> classes_;

@@ -67,7 +67,7 @@ class CsvReader {
   void take(const Line& line) {
     std::string_view text = trimmed(line.text);
     if (text.empty()) return;
-    if (text.starts_with('#')) {  // perhaps the header; other comments name no columns
+    if (text.starts_with('#')) {  // may be the header; other comments do not name columns
       if (!rows.empty()) return;
       while (text.starts_with('#')) text.remove_prefix(1);
       if (const auto found = columns_of(trimmed(text))) columns = *found;

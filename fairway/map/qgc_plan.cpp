@@ -1,6 +1,6 @@
 // QGroundControl .plan: JSON with geoFence (polygons, circles), mission and plannedHomePosition.
 // Positions are [latitude, longitude], rings are not closed, null stands for NaN, unknown keys are
-// other people's business.
+// ignored.
 
 #include <fmt/format.h>
 

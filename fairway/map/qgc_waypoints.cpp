@@ -1,4 +1,4 @@
-// QGC WPL 110: a line per item, twelve fields separated by tabs: index, current, frame, command,
+// QGC WPL 110: one line per item, twelve fields separated by tabs: index, current, frame, command,
 // four parameters, latitude, longitude, altitude, autocontinue. Item 0 is the home position.
 // Fence items (MAV_CMD_NAV_FENCE...) are 5000 return point, 5001 and 5002 corners of a keep-in and
 // a keep-out polygon (parameter 1: how many corners), 5003 and 5004 circles (parameter 1: radius).
@@ -68,10 +68,10 @@ std::vector<Item> read_items(const SourceText& source) {
   return items;
 }
 
-// Files of fences alone may begin with a fence item, which is no home.
+// Files with only fences may start with a fence item, which is not a home position.
 bool is_home(const Item& item) { return item.index == 0 && item.command == 16; }
 
-// Corners of one polygon follow each other; each says how many there are.
+// The corners of a polygon are consecutive; each says how many there are.
 std::size_t read_fence_polygon(const std::vector<Item>& items, std::size_t first,
                                GeodeticFences& fences) {
   const Item& head = items[first];

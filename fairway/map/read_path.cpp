@@ -24,7 +24,7 @@ std::vector<PathVertex> from_mission(const SourceText& source, const ObstacleMap
   return vertices;
 }
 
-// The parts of one line: more than one where it was cut at the antimeridian (RFC 7946, 3.1.9).
+// The parts of one line: more than one if it was cut at the antimeridian (RFC 7946, 3.1.9).
 using Parts = std::vector<JsonPlace>;
 
 bool goes_on_beyond_antimeridian(const JsonPlace& part, const JsonPlace& next) {
@@ -105,7 +105,7 @@ void require_on_map(const std::vector<PathVertex>& vertices, const Grid& grid) {
   }
 }
 
-// Degrees taken for metres shrink a path to a dot.
+// Degrees mistaken for metres shrink a path to a dot.
 void require_extent(const std::vector<Vec2>& vertices, const std::filesystem::path& file,
                     double cell_m) {
   const auto [left, right] = std::minmax_element(vertices.begin(), vertices.end(),

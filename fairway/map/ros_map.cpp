@@ -82,7 +82,7 @@ class RosYaml {
     return mark.is_null() ? 1 : static_cast<std::size_t>(mark.line) + 1;
   }
 
-  // YAML says a mapping's keys differ; the parser keeps both and would use the first in silence.
+  // YAML requires distinct keys in a mapping; the parser keeps both and silently uses the first.
   void index_keys() {
     std::map<std::string, std::size_t> first_line;
     for (const auto& entry : root_) {

@@ -13,7 +13,7 @@ namespace fairway {
 
 namespace {
 
-/// The names that a world file of `image` may have, in small letters.
+/// The possible names of the world file of `image`, in lower case.
 std::vector<std::string> candidates(const std::filesystem::path& image) {
   const std::string extension = image.extension().string();  // with its dot
   std::vector<std::string> endings;
@@ -55,8 +55,7 @@ WorldFile read_world_file(const std::filesystem::path& file) {
 }  // namespace
 
 std::optional<WorldFile> find_world_file(const std::filesystem::path& image) {
-  // Names differ in case from system to system; of several the one of the image's own case comes
-  // first.
+  // Systems differ in the case of names; of several files, the one in the image's own case wins.
   const std::vector<std::string> names = candidates(image);
   const std::filesystem::path folder = image.has_parent_path() ? image.parent_path() : ".";
   const std::string stem = image.stem().string();

@@ -12,7 +12,7 @@ namespace fairway {
 
 namespace {
 
-// Columns (or rows) before `first` and from `last` on touch the grown outside.
+// Columns (or rows) before `first`, and those from `last` on, touch the grown outside.
 struct InsideRange {
   int first = 0;
   int last = 0;
@@ -33,7 +33,7 @@ Grid grid_over(const MapExtent& extent, const RasteriseOptions& options) {
   const double columns = std::max(1.0, std::ceil(extent.width_m / options.cell_m - cell_slack));
   const double rows = std::max(1.0, std::ceil(extent.height_m / options.cell_m - cell_slack));
   const double ring = options.outside_is_obstacle ? 2.0 : 0.0;
-  // Written so that NaN is refused too.
+  // Written so that NaN is refused, too.
   if (!((columns + ring) * (rows + ring) <= static_cast<double>(options.max_cells)) ||
       columns + ring > 2147483647.0 || rows + ring > 2147483647.0)
     throw InputError(
