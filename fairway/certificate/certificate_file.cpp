@@ -55,7 +55,7 @@ json digests_of(const std::vector<Tensor>& tensors) {
 
 json record_of(const Certificate& c) {
   json record = json::parse(c.evidence_json, nullptr, false);
-  require(record.is_object(), "evidence_json is one JSON object");
+  require(record.is_object(), "evidence_json is a JSON object");
   record["plan_sha256"] = json::parse(json_text(c.plan));
   record["frame"] = c.frame ? json_of(*c.frame) : json();
   return record;

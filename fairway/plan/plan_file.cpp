@@ -78,8 +78,8 @@ bool is_on(const Grid& grid, Vec2 p) {
          p.y <= grid.y0_m + grid.height_m();
 }
 
-/// Nearer to its axis than that (0 alone: no other axis is so near to a float) a command is neither
-/// on it nor told from it by the arithmetic of the proof.
+/// Closer to its axis than this (only 0: no float is so close to another axis) a command is not on
+/// the axis, but the arithmetic of the proof cannot distinguish it from the axis.
 bool is_beside_axis(double heading_rad) {
   return heading_rad != 0.0 && std::abs(heading_rad) < 0x1p-52;
 }
@@ -190,7 +190,7 @@ std::string plan_defect(const Plan& plan) {
   if (plan.heading_rad.size() != n || plan.region.size() != n || plan.cost_m.size() != n) {
     return "an array does not have one entry per cell";
   }
-  std::atomic<std::size_t> first{n};  // the lowest, whichever thread sees it
+  std::atomic<std::size_t> first{n};  // the lowest, whichever thread finds it
   for_ranges(n, 1 << 16, [&](std::size_t begin, std::size_t end) {
     std::size_t i = begin;
     while (i < end && cell_valid(plan, i)) ++i;
