@@ -26,7 +26,7 @@ struct PlanRecord {
 /// The record as one JSON object with sorted keys, as in the plan's file.
 [[nodiscard]] std::string json_text(const PlanRecord& record);
 
-/// The grid's frame; without one in the record, a frame that places the grid nowhere but itself.
+/// The grid's frame; the default frame, the grid's own, when the record has none.
 [[nodiscard]] inline Frame frame_in(const PlanRecord& record) {
   return record.frame.value_or(Frame{});
 }
