@@ -62,7 +62,7 @@ void require_geometry(const Geometry& g) {
           "geometry: the cells are not smaller than the turning radius, or are far too small");
 }
 
-/// Whether two records place their grids alike; without a frame, a grid lies where it says itself.
+/// Whether two records place their grids alike; without a frame, the grid places itself.
 bool same_frame(const json& a, const json& b) {
   const auto said = [](const json& record, const std::string& place) {
     const json frame = record.value("frame", json());
@@ -78,7 +78,7 @@ bool same_frame(const json& a, const json& b) {
   return true;
 }
 
-/// Digests of what is here.
+/// Digests of the arrays in the file.
 void require_digests(const TensorFile& file) {
   const json& claimed = file.record.at("sha256");
   const json& of_plan = file.record.at("plan_sha256");
@@ -91,7 +91,7 @@ void require_digests(const TensorFile& file) {
           "heading_rad and region are not those of the plan that it names");
 }
 
-/// That it is of this plan: arrays, vehicle, grid and frame.
+/// Requires that it belongs to this plan: arrays, vehicle, grid and frame.
 void require_plan(const TensorFile& file, const Geometry& g, const std::string& plan_path) {
   const json& of_plan = file.record.at("plan_sha256");
   const TensorFile plan = read_tensors(plan_path);
@@ -108,8 +108,8 @@ void require_plan(const TensorFile& file, const Geometry& g, const std::string& 
   require(same, "is not the certificate of the plan " + plan_path);
 }
 
-/// Whether [low, low + cell_m] lies in [from, to], as it is, or, where that is a matter of
-/// rounding, as it is claimed.
+/// Whether [low, low + cell_m] lies in [from, to]; where that depends on rounding, the claim
+/// decides.
 bool lies_within(double low, double cell_m, double from, double to, bool claimed) {
   const double least = std::min(low - from, to - (low + cell_m));
   return std::abs(least) > 0x1p-49 * (std::abs(low) + cell_m) ? least > 0.0 : claimed;

@@ -11,7 +11,7 @@ namespace {
 
 /// Operations whose exact results lie strictly between two doubles.
 void require_outward_rounding() {
-  const volatile double unfolded[3]{1.0, 3.0, 0x1p-80};  // as no compiler can work out beforehand
+  const volatile double unfolded[3]{1.0, 3.0, 0x1p-80};  // that no compiler can compute in advance
   const double one = unfolded[0];
   const double three = unfolded[1];
   const double tiny = unfolded[2];

@@ -1,4 +1,4 @@
-// fairway-check: re-proves a certificate, with no code of the program that made it.
+// fairway-check: re-proves a certificate, without any code of the program that made it.
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -69,7 +69,7 @@ int run(const Request& r) {
 }  // namespace
 }  // namespace fairway_check
 
-/// An answer that could not be written is none: 0 becomes 74.
+/// An answer that could not be written does not count: 0 becomes 74.
 int when_written(int code) {
   std::cout.flush();
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;

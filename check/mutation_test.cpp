@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// A certificate file taken apart, to be changed and put together again.
+/// A certificate file taken apart, to be changed and reassembled.
 struct Parts {
   json header;
   json record;
@@ -57,7 +57,7 @@ struct Parts {
     while (at<std::uint32_t>("section_first", s + 1) <= leaf) ++s;
     return s;
   }
-  /// The last leaf of which `good` holds.
+  /// The last leaf for which `good` holds.
   std::size_t find(const std::function<bool(std::size_t)>& good) const {
     for (std::size_t leaf = leaves(); leaf-- > 0;) {
       if (good(leaf)) return leaf;
@@ -69,7 +69,7 @@ struct Parts {
     return find(
         [&](std::size_t leaf) { return at<std::uint8_t>("leaf_verdict", leaf) == verdict; });
   }
-  /// With digests of what is there now.
+  /// With digests of the current content.
   void sign() {
     for (const auto& [name, bytes] : arrays) record["sha256"][name] = sha256(bytes);
     for (const char* name : {"heading_rad", "region"})
@@ -249,7 +249,7 @@ TEST_F(CheckMutation, RanksMustFallAndTimesMustBound) {
   changed.put("leaf_time_s", leaf, 0.9F * time_s);
   expect_refused(changed, "takes up to");
   changed = good;
-  changed.put("leaf_time_s", leaf, 10.0F * time_s);  // no lie itself, but others build on it
+  changed.put("leaf_time_s", leaf, 10.0F * time_s);  // not false itself, but others build on it
   changed.sign();
   EXPECT_THAT(refusal(changed.file()), testing::AnyOf("", testing::HasSubstr("takes up to")));
   for (const float bad :
@@ -262,7 +262,7 @@ TEST_F(CheckMutation, RanksMustFallAndTimesMustBound) {
 
 TEST_F(CheckMutation, ShiftedLeavesAreRefused) {
   const Parts good(good_);
-  // The last leaf of a verdict is stretched over all that lies between it and another verdict, and
+  // The last leaf of a verdict is stretched over everything between it and another verdict, and
   // over most of that.
   const auto verdict = [&](std::size_t i) { return good.at<std::uint8_t>("leaf_verdict", i); };
   std::size_t other = 0;
@@ -369,7 +369,7 @@ TEST_F(CheckMutation, ThePlanIsComparedWholeWithItsFrameAndVehicle) {
     changes[i](other);
     EXPECT_THAT(judged(other), testing::HasSubstr("is not the certificate of the plan")) << i;
   }
-  // No frame, and that of the grid itself, are the same place.
+  // No frame, and the grid's own frame, are the same place.
   plan.record.frame.reset();
   write_sample(plan, folder_ / "framed");
   EXPECT_EQ(judged(plan), "");

@@ -15,7 +15,7 @@
 
 namespace fairway_check {
 
-static_assert(std::endian::native == std::endian::little, "arrays are read as they lie");
+static_assert(std::endian::native == std::endian::little, "arrays are read in place");
 
 void require(bool good, std::string_view otherwise, int code) {
   if (!good) throw Defect(code, otherwise);
@@ -35,7 +35,7 @@ std::size_t members_in(const json& value) {
   return count;
 }
 
-/// Not deep, and no key twice in an object: the value has as many members as the text has colons.
+/// Not deep, and no repeated keys: the value has as many members as the text has colons.
 json strict_json(std::string_view text) {
   require(text.find('\0') == std::string_view::npos, "holds a zero byte", unreadable);
   std::size_t colons = 0;
@@ -44,7 +44,7 @@ json strict_json(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (c == '"') quoted = !quoted;
-    if (quoted && c == '\\') ++i;  // and what is escaped
+    if (quoted && c == '\\') ++i;  // and the escaped character
     if (quoted) continue;
     colons += c == ':' ? 1 : 0;
     depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
