@@ -105,7 +105,7 @@ Approach draw(Random& random) {
   return a;
 }
 
-TEST(CheckCorner, EveryCellAroundACornerIsToldOfAndTheOneAcrossEntered) {
+TEST(CheckCorner, EveryCellAroundACornerIsReportedAndTheOneAcrossEntered) {
   Random random = Random::stream(11, 1);
   int told_of = 0;
   int entered = 0;
@@ -162,7 +162,7 @@ TEST(CheckCorner, EveryCellAroundACornerIsToldOfAndTheOneAcrossEntered) {
 }
 
 /// Away from a corner nothing is known about the cells beyond it.
-TEST(CheckCorner, NothingIsToldOfTheCellBesideACornerThatIsMissed) {
+TEST(CheckCorner, NothingIsReportedForTheCellNextToACornerThatIsMissed) {
   Random random = Random::stream(11, 2);
   int missed = 0;
   for (int i = 0; i < 10000; ++i) {

@@ -15,7 +15,7 @@ namespace {
 using fairway::Random;
 using fairway::Wide;
 
-TEST(CheckFlight, EveryFlightFromALeafMeetsWhatWasTold) {
+TEST(CheckFlight, EveryFlightFromALeafMeetsWhatWasReported) {
   int flights = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const fairway::Plan plan = fairway::random_plan(seed);

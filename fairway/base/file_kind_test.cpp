@@ -17,7 +17,7 @@ std::string product(const std::string& record) {
   return safetensors_header({{{"fairway", record}}, {}});
 }
 
-TEST(FileKind, IsToldByContent) {
+TEST(FileKind, IsDetectedFromTheContent) {
   const std::pair<std::string, FileKind> files[] = {
       {"# mine\n[map]\nfile = \"a.yaml\"\n[mission]\nkind = \"goal\"\n", FileKind::scenario},
       {"\xef\xbb\xbf[map]\r\nfile = \"a.yaml\"\r\n[mission]\r\n", FileKind::scenario},

@@ -187,7 +187,7 @@ TEST(Eikonal, FromADiscTheErrorHalvesWithTheCell) {
   }
 }
 
-TEST(Eikonal, FromASingleCellTheErrorIsAFewPartsInAHundredBesideItAndGrowsByALogarithm) {
+TEST(Eikonal, FromASingleCellTheErrorIsAFewPartsInAHundredNearItAndGrowsByALogarithm) {
   // Measured: 3.95 % a knight's move from the source; 0.27, 0.33, 0.39, 0.45 cells at the corners
   // of squares of 51, 101, 201, 401 cells: first order except for the logarithm of a point source.
   double before_cells = 0.0;

@@ -231,7 +231,7 @@ TEST_F(Fences, TheReferenceIsTheRequestsElseHomeElseTheMiddle) {
   EXPECT_NEAR(map.frame.geo->longitude_deg, middle.longitude_deg, 1e-7);
 }
 
-TEST_F(Fences, AHomeFarAwayIsNoOrigin) {
+TEST_F(Fences, AHomeFarAwayIsNotTheOrigin) {
   std::string text = plan(plan_square(0, 0, 40, true));
   text.replace(text.find("[47.3977,8.5456,400]"), 20, "[-35.0,149.0,400]");
   MapRequest request = this->request("a.plan", text);
@@ -390,14 +390,14 @@ TEST_F(Fences, WithoutAKeepInFenceTheWorldHoldsTheMission) {
   const ObstacleMap map = read_map(request);
   for (const Vec2 p : {Vec2{600, -20}, Vec2{-30, 700}, Vec2{-900, 10}})
     EXPECT_TRUE(holds(map.grid, p, 30.0)) << p.x << " " << p.y;
-  EXPECT_NEAR(map.frame.geo->latitude_deg, 47.3977, 1e-6) << "the plane stays where the file is";
+  EXPECT_NEAR(map.frame.geo->latitude_deg, 47.3977, 1e-6) << "the plane stays with the file";
   EXPECT_GE(map.frame.geo->worst_error_m, TangentPlane(at(0, 0)).worst_error_m(at(-900, 10)));
-  // What is on another continent, or cannot be read, is told by the one who reads the mission.
+  // Places on another continent, or unreadable ones, are reported by the reader of the mission.
   request.also_hold_m = {{1e7, 0}};
   request.also_hold_deg = {{-33.0, 151.0}};
   request.also_hold_path = folder_.file("none.csv");
   EXPECT_EQ(read_map(request).grid, alone);
-  // A keep-in fence is the world.
+  // A keep-in fence bounds the world.
   folder_.write("in.geojson", feature(polygon(square(0, 0, 200)), R"({"inclusion":true})"));
   request.file = folder_.file("in.geojson");
   request.also_hold_m = {{600, 0}};
@@ -419,7 +419,7 @@ TEST_F(Fences, ErrorsSayTheScenariosLineToo) {
   EXPECT_THAT(error(), StartsWith("s.toml:3: map.cell_m: 0.001 m cells on a map of 1"));
 }
 
-TEST_F(Fences, OtherFilesOfOursAreToldByName) {
+TEST_F(Fences, OtherFairwayFilesAreIdentified) {
   MapRequest request;
   request.file = folder_.write("s.toml", "[map]\nfile = \"a\"\n[mission]\nkind = \"goal\"\n");
   EXPECT_EQ(input_error_of([&] { (void)read_map(request); }),

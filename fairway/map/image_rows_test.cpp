@@ -76,7 +76,7 @@ TEST(Pnm, EveryKindReadsTheSamePixels) {
             expected);
   EXPECT_EQ(load(folder.write("c.pgm", std::string("P5 2 1 1000\n\x00\x07\x03\xe8", 16))).samples,
             (std::vector<int>{7, 1000}))
-      << "above 255 two bytes, the high one first";
+      << "above 255: two bytes, high byte first";
   EXPECT_EQ(load(folder.write("d.ppm", "P3 1 1 9 1 2 3")).samples, (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(load(folder.write("e.ppm", "P6 1 1 255\nabc")).samples,
             (std::vector<int>{'a', 'b', 'c'}));
@@ -99,7 +99,7 @@ TEST(Pnm, BytesLeftOverAreWarnedAbout) {
   };
   for (const char* exact : {"P5 2 1 255\nab", "P2 2 1 255 1 2", "P2 2 1 255 1 2\n\n# end\n"})
     EXPECT_THAT(warnings(exact), ::testing::IsEmpty()) << exact;
-  // By the letter the comment is the first pixels, as other readers have it.
+  // Strictly, the comment is the first pixels, as in other readers.
   EXPECT_THAT(warnings("P5 2 1 255 # x\nab"),
               ::testing::ElementsAre(::testing::AllOf(
                   HasSubstr("a.pgm: 4 bytes after the last pixel are ignored"),
@@ -109,7 +109,7 @@ TEST(Pnm, BytesLeftOverAreWarnedAbout) {
   EXPECT_THAT(warnings("P2 2 1 255 1 2 3"), ::testing::ElementsAre(HasSubstr("1 byte")));
 }
 
-TEST(Pnm, AFileThatBeginsOtherwiseIsToldHowAPgmBegins) {
+TEST(Pnm, AFileThatStartsOtherwiseGivesAnErrorSayingHowAPgmStarts) {
   const ScratchFolder folder;
   for (const auto& [begin, shown] : {std::pair("# by hand\nP5 1 1 255\na", "\"# by hand\""),
                                      {"P4\n8 1\n\xff", "\"P4\""},

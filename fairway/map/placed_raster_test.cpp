@@ -49,7 +49,7 @@ void write_tiff(const std::filesystem::path& file, const Tiff& tiff,
             CE_None);
 }
 
-// A GeoTIFF byte by byte, as GDAL would not write it: three by two heights, its scale as given.
+// A GeoTIFF written byte by byte, as GDAL would not: three by two heights, with the scale given.
 std::string tiff_with_scale(double scale_x, double scale_y, const std::vector<float>& heights) {
   std::string bytes("II*\0\x08\0\0\0", 8);
   const auto append = [&](auto value) {
@@ -218,12 +218,12 @@ TEST_F(PlacedRaster, DegreesAreRefusedWithAdvice) {
   EXPECT_THAT(error(at_altitude(45.0)),
               AllOf(HasSubstr("degrees instead of metres"),
                     HasSubstr("gdalwarp -s_srs EPSG:4326 -t_srs EPSG:32719 IN OUT")));
-  // Half a minute of arc to a pixel; far north there are no zones.
+  // Half a minute of arc per pixel; far north there are no zones.
   tiff.transform = {20.0, 0.5 / 60.0, 0.0, 85.0, 0.0, -0.5 / 60.0};
   write_tiff(folder_.file("a.tif"), tiff);
   EXPECT_THAT(error(at_altitude(45.0)), HasSubstr("EPSG:5041"));
   MapRequest metres = at_altitude(45.0);
-  metres.resolution_m = 0.5 / 60.0;  // the user's word
+  metres.resolution_m = 0.5 / 60.0;  // stated by the user
   metres.cell_m = 0.5 / 60.0;
   EXPECT_EQ(error(metres), "no error");
 }
@@ -254,7 +254,7 @@ TEST_F(PlacedRaster, MercatorsMetresAreWarnedAbout) {
   EXPECT_THAT(read_map(at_altitude(45.0)).warnings,
               ::testing::ElementsAre(AllOf(HasSubstr("is 1.48 m of the map"),
                                            HasSubstr("gdalwarp -t_srs EPSG:32632 IN OUT"))));
-  tiff.transform = {1000000.0, 2.0, 0.0, 100000.0, 0.0, -2.0};  // by the equator
+  tiff.transform = {1000000.0, 2.0, 0.0, 100000.0, 0.0, -2.0};  // near the equator
   write_tiff(folder_.file("a.tif"), tiff);
   EXPECT_THAT(read_map(at_altitude(45.0)).warnings, ::testing::IsEmpty());
 }
@@ -305,7 +305,7 @@ TEST_F(PlacedRaster, ABareImageNeedsAResolutionAndLiesAtTheOrigin) {
 TEST_F(PlacedRaster, APathInDegreesIsLaidOnAProjectedMap) {
   write_tiff(folder_.file("a.tif"), {});
   const ObstacleMap map = read_map(at_altitude(45.0));
-  // Two points of the map, converted to degrees by the projection's own library.
+  // Two points of the map, converted to degrees by PROJ itself.
   OGRSpatialReference utm;
   OGRSpatialReference wgs84;
   utm.importFromEPSG(32632);

@@ -41,7 +41,7 @@ TEST_F(ReadPath, HeadersAndSeparatorsOfTheWildAreUnderstood) {
   for (const char* text : {
            "1.5,2\n30,-4\n",                             // no header
            "x_m,y_m\n1.5,2\n30,-4\n",                    // as documented
-           "\xef\xbb\xbfx_m,y_m\r\n1.5,2\r\n30,-4\r\n",  // a spreadsheet's
+           "\xef\xbb\xbfx_m,y_m\r\n1.5,2\r\n30,-4\r\n",  // from a spreadsheet
            "\"x_m\", \"y_m\"\n1.5, 2\n30, -4",           // quoted
            "y_m,x_m\n2,1.5\n-4,30\n",                    // in any order
            "# x_m, y_m, w_tr_right_m, w_tr_left_m\n1.5, 2, 1, 1\n30, -4, 1, 1\n",
@@ -134,7 +134,7 @@ TEST_F(ReadPath, DegreesAreLaidOnAGeographicMap) {
     wpl += text;
   }
   json += "]}}";
-  wpl += "4\t0\t3\t177\t1\t-1\t0\t0\t0\t0\t0\t1\n";  // a jump has no place
+  wpl += "4\t0\t3\t177\t1\t-1\t0\t0\t0\t0\t0\t1\n";  // a jump has no position
   for (const auto& [name, text] : {std::pair<std::string, std::string>{"a.csv", csv},
                                    {"a.geojson", json},
                                    {"a.waypoints", wpl}}) {

@@ -62,7 +62,7 @@ class RosMap : public ::testing::Test {
     return read_map(request());
   }
 
-  // Which pixels of the row block, with unknown as obstacle (#) and as free: '.', '?', '#'.
+  // Which pixels of the row block, with unknown as obstacle and as free: '.', '?', '#'.
   std::string classes(const std::string& text) {
     folder_.write("map.yaml", text);
     MapRequest strict = request();
@@ -87,7 +87,7 @@ TEST_F(RosMap, TrinaryThresholdsAreStrict) {
   // occ = (255 - grey) / 255; 89 gives 0.65098, 90 gives 0.64706, 205 gives 0.196078.
   write_row({0, 89, 90, 204, 205, 206, 255});
   EXPECT_EQ(classes(yaml()), "##???..");
-  // Exactly at a threshold is neither: occ of 153 is 0.4, of 204 is 0.2.
+  // Exactly at a threshold is neither: occ is 0.4 for 153, 0.2 for 204.
   write_row({152, 153, 154, 203, 204, 205});
   EXPECT_EQ(classes(yaml({{"occupied_thresh", "occupied_thresh: 0.4"},
                           {"free_thresh", "free_thresh: 0.2"}})),
@@ -137,7 +137,7 @@ TEST_F(RosMap, SaverGrey205ReadAsFreeIsWarnedAbout) {
 }
 
 TEST_F(RosMap, TrinaryAveragesAlphaInAndScaleTakesWhatIsNotOpaqueAsUnknown) {
-  // Grey PNGs with alpha are made in image_rows_test; here the arithmetic by PPM without alpha.
+  // Grey PNGs with alpha are in image_rows_test; here the arithmetic, with PPM without alpha.
   std::string image = "P6 2 1 255\n";
   for (const int v : {255, 0, 0, 10, 20, 30}) image += static_cast<char>(v);
   folder_.write("map.pgm", image);
@@ -232,7 +232,7 @@ TEST_F(RosMap, AnUnknownKeyIsWarnedAbout) {
               ::testing::ElementsAre(HasSubstr("the key \"colour\" is unknown")));
 }
 
-TEST_F(RosMap, TextThatIsNoYamlIsRefusedWithItsLine) {
+TEST_F(RosMap, TextThatIsNotYamlIsRefusedWithItsLine) {
   write_row({0});
   EXPECT_THAT(error("image: [map.pgm\nresolution: 1\n"), StartsWith("map.yaml:2: is not YAML: "));
   EXPECT_THAT(error("- a\n- b\n"), StartsWith("map.yaml:1: is not a ROS map"));

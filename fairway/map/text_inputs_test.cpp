@@ -1,5 +1,5 @@
-// Every text that a map or a path comes in is read the same with a byte order mark, and with any of
-// the three kinds of line ends.
+// Every text format of maps and paths reads the same with a byte order mark, and with any of the
+// three line endings.
 
 #include <string>
 
@@ -32,7 +32,7 @@ TEST(TextInputs, MapsReadTheSame) {
   struct Input {
     const char* name;
     const char* text;
-    const char* map;  // the file to read, where that is another
+    const char* map;  // the file to read, if it is a different one
   };
   for (const Input& input :
        {Input{"a.yaml",

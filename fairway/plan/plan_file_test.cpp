@@ -89,8 +89,8 @@ TEST(PlanFile, EdgesOfTheValueRangesPass) {
   EXPECT_TRUE(same_bits(read_bytes(bytes_of(plan)).heading_rad, plan.heading_rad));
 }
 
-// A file taken apart: the header's JSON, the metadata's JSON, the arrays; joined again without any
-// of the writer's care, so that every kind of damage can be made.
+// A file taken apart: the header's JSON, the metadata's JSON, the arrays; reassembled without any
+// of the writer's checks, so that every kind of damage can be made.
 struct Parts {
   json header;
   json record;
@@ -111,7 +111,7 @@ struct Parts {
         const auto end = header[name]["data_offsets"][1].get<std::size_t>();
         const std::string data = arrays.substr(begin, end - begin);
         record["sha256"][name] = sha256_hex(std::as_bytes(std::span(data.data(), data.size())));
-      } catch (const std::exception&) {  // offsets that are damaged on purpose
+      } catch (const std::exception&) {  // offsets damaged on purpose
       }
     }
     if (header.contains("__metadata__") && header["__metadata__"].contains("fairway")) {
