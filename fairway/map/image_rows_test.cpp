@@ -105,7 +105,7 @@ TEST(Pnm, BytesLeftOverAreWarnedAbout) {
                   HasSubstr("a.pgm: 4 bytes after the last pixel are ignored"),
                   HasSubstr("a comment after the maximum value is read as pixels"))));
   EXPECT_THAT(warnings("P5 2 1 255\r\nab"),
-              ::testing::ElementsAre(HasSubstr("1 byte behind the last pixel is ignored")));
+              ::testing::ElementsAre(HasSubstr("1 byte after the last pixel is ignored")));
   EXPECT_THAT(warnings("P2 2 1 255 1 2 3"), ::testing::ElementsAre(HasSubstr("1 byte")));
 }
 
@@ -119,7 +119,7 @@ TEST(Pnm, AFileThatStartsOtherwiseGivesAnErrorSayingHowAPgmStarts) {
               std::string("a.PGM:1: starts with ") + shown +
                   "; a PGM starts with P5 or P2 and a PPM with P6 or P3, before any comment");
   EXPECT_THAT(input_error_of([&] { (void)load(folder.write("map.png", "# x\nP5 1 1 255\na")); }),
-              StartsWith("map.png:1: begins with \"# x\", a PGM begins with"));
+              StartsWith("map.png:1: starts with \"# x\"; a PGM starts with"));
 }
 
 TEST(Pnm, WhatIsWrongIsNamed) {

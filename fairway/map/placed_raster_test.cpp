@@ -252,7 +252,7 @@ TEST_F(PlacedRaster, MercatorsMetresAreWarnedAbout) {
   tiff.transform = {1000000.0, 2.0, 0.0, 6000000.0, 0.0, -2.0};  // 47.4 degrees north
   write_tiff(folder_.file("a.tif"), tiff);
   EXPECT_THAT(read_map(at_altitude(45.0)).warnings,
-              ::testing::ElementsAre(AllOf(HasSubstr("is 1.48 m of the map"),
+              ::testing::ElementsAre(AllOf(HasSubstr("is 1.48 m on the map"),
                                            HasSubstr("gdalwarp -t_srs EPSG:32632 IN OUT"))));
   tiff.transform = {1000000.0, 2.0, 0.0, 100000.0, 0.0, -2.0};  // near the equator
   write_tiff(folder_.file("a.tif"), tiff);

@@ -25,7 +25,7 @@ struct Plan {
   PlanRecord record;
 };
 
-/// Where the plan's mission wants the vehicle, and with which heading; none when its goal has no
+/// Where the plan's mission sends the vehicle, and with which heading; none when its goal has no
 /// heading, it follows a path, or the plan was not made by Fairway.
 [[nodiscard]] inline std::optional<State> goal_pose_of(const Plan& plan) {
   if (!plan.record.mission) return {};

@@ -42,7 +42,7 @@ enum class StoppedBy : std::uint8_t {
 const char* name_of(StoppedBy reason);
 
 /// Shares of the configuration volume by verdict, [Verdict]; each sums to 1, or to 0 when there
-/// are no such cells. Measured by proved queries of sampled states, as many in every cell.
+/// are no such cells. Measured by proved queries of sampled states, equally many in each cell.
 struct VolumeFractions {
   std::array<double, verdict_count> all{};        ///< cells that are neither obstacle nor target
   std::array<double, verdict_count> free{};       ///< of these, the safe-start cells
