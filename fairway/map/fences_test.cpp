@@ -238,7 +238,7 @@ TEST_F(Fences, AHomeFarAwayIsNotTheOrigin) {
   request.reference.reset();
   const ObstacleMap map = read_map(request);
   EXPECT_NEAR(map.frame.geo->latitude_deg, zurich.latitude_deg, 1e-6);
-  EXPECT_THAT(map.warnings, ::testing::ElementsAre(HasSubstr("farther than 100 km")));
+  EXPECT_THAT(map.warnings, ::testing::ElementsAre(HasSubstr("more than 100 km")));
 }
 
 TEST_F(Fences, PolygonsThatCrossThemselvesAreRefusedWithTheCrossingNamed) {

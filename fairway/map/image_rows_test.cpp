@@ -281,7 +281,7 @@ TEST(Occupancy, WhatTheAlphaChannelMakesOfPixelsIsWarnedAbout) {
   OccupancyRule scale;
   scale.mode = OccupancyRule::Mode::scale;
   EXPECT_THAT(warnings(2, {255, 0, 255, 255}, scale),
-              ::testing::ElementsAre(HasSubstr("alpha channel 1 pixels are not opaque")));
+              ::testing::ElementsAre(HasSubstr("1 pixels are not opaque (alpha channel)")));
 }
 
 TEST(Occupancy, DeepImagesAreReadLikeShallowOnesOfTheSameShade) {

@@ -166,7 +166,7 @@ TEST_F(RosMap, ATurnedOriginIsHonoured) {
   EXPECT_EQ(map.frame.world_from_grid.y_m, 3.0);
   EXPECT_EQ(map.frame.world_from_grid.yaw_rad, 1.5);
   ASSERT_EQ(map.warnings.size(), 1U);
-  EXPECT_THAT(map.warnings[0], HasSubstr("turned by 1.5 rad"));
+  EXPECT_THAT(map.warnings[0], HasSubstr("rotated by 1.5 rad"));
 }
 
 TEST_F(RosMap, TheOriginMayBeABlockList) {

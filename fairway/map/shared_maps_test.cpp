@@ -81,7 +81,7 @@ TEST_F(SharedMaps, AThresholdThatFreesTheUnknownIsWarnedAbout) {
   request.cell_m = 0.5;
   EXPECT_THAT(read_map(request).warnings, ::testing::Contains(HasSubstr("grey 205")));
   request.file = shared("ros_mit_racecar/basement_fixed.map.yaml");
-  EXPECT_THAT(read_map(request).warnings, ::testing::Contains(HasSubstr("turned by 3.14 rad")));
+  EXPECT_THAT(read_map(request).warnings, ::testing::Contains(HasSubstr("rotated by 3.14 rad")));
 }
 
 TEST_F(SharedMaps, EveryMovingAiMapIsReadAndItsScenariosEndsAreFree) {
