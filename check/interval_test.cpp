@@ -61,7 +61,7 @@ TEST(CheckInterval, DirectionsOfCommandsAreEnclosedAndEastIsExact) {
   EXPECT_TRUE(east.x.lower() == 1.0 && east.x.upper() == 1.0 && is_zero(east.y));
 }
 
-TEST(CheckInterval, TheRoundingModeIsTheOldOneAgainAfterwards) {
+TEST(CheckInterval, TheRoundingModeIsRestoredAfterwards) {
   const int before = std::fegetround();
   {
     const Upwards upwards;

@@ -378,7 +378,7 @@ TEST_F(AtomicFiles, WhatALiveProcessWritesIsNeverSwept) {
   EXPECT_FALSE(fs::exists(folder_ / elsewhere));
 }
 
-TEST_F(AtomicFiles, WhatWasLeftUnderOurOwnNumberIsSweptToo) {  // as in containers
+TEST_F(AtomicFiles, WhatWasLeftUnderOurOwnProcessIdIsRemovedToo) {  // as in containers
   const std::string stale = ".a.partial-" + std::to_string(::getpid()) + "-999999";
   std::ofstream(folder_ / stale) << "x";
   write_whole(folder_ / "a", Existing::keep, "a");

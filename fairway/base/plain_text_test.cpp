@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-TEST(PlainText, AByteOrderMarkIsTakenOffOnce) {
+TEST(PlainText, AByteOrderMarkIsRemovedOnce) {
   EXPECT_EQ(plain_text("\xef\xbb\xbf"
                        "a",
                        "f"),

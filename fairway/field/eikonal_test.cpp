@@ -133,7 +133,7 @@ RC_GTEST_PROP(EikonalProperty, SolvesItsEquationsOnDrawnMaps, ()) {
   expect_solution(inside, sources);
 }
 
-TEST(Eikonal, BlobsOfObstaclesAreWalkedRound) {
+TEST(Eikonal, BlobsOfObstaclesAreWalkedAround) {
   Random random(52);
   for (int map = 0; map < 4; ++map) {
     const Mask inside = samples::blobs(random, 90, 70, 25, 9.0).inverted();

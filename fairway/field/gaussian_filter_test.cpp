@@ -122,7 +122,7 @@ TEST(GaussianFilter, HasTheKernelOfEquation20) {
   }
 }
 
-TEST(GaussianFilter, OneVectorBecomesTheKernelAndNoMore) {
+TEST(GaussianFilter, OneVectorBecomesTheKernelAndNothingElse) {
   for (const double sigma : {0.7, 2.0, 4.0}) {
     const int half = gaussian_half_width(sigma);
     VectorField f(61 * 61);

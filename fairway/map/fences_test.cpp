@@ -149,7 +149,7 @@ TEST_F(Fences, HeightsBelowTheAltitudeAreFreeAndUnknownHeightsAreNot) {
   EXPECT_TRUE(blocked(read_map(request), {-30, 0}));
 }
 
-TEST_F(Fences, HeightsThatCannotBeStayObstacles) {
+TEST_F(Fences, ImpossibleHeightsStayObstacles) {
   for (const char* none : {"-9999", "-32768", "-3.4e38", "-20000"}) {
     MapRequest request = this->request(
         "a.geojson",
@@ -185,7 +185,7 @@ TEST_F(Fences, APlanKeepsInAndOut) {
   EXPECT_NEAR(map.grid.x0_m, -52.0, 0.01);
 }
 
-TEST_F(Fences, SeveralKeepInFencesNeedAWord) {
+TEST_F(Fences, SeveralKeepInFencesNeedInclusion) {
   const std::string text = plan(plan_square(-20, 0, 40, true) + "," + plan_square(20, 0, 40, true));
   EXPECT_EQ(
       error("a.plan", text),
@@ -250,7 +250,7 @@ TEST_F(Fences, PolygonsThatCrossThemselvesAreRefusedWithTheCrossingNamed) {
             "the edge from line 4 to line 5 at latitude 47.0500000, longitude 8.0500000");
 }
 
-TEST_F(Fences, GeoJsonThatIsWrongIsNamedWithItsPlace) {
+TEST_F(Fences, WrongGeoJsonIsReportedWithItsLocation) {
   const auto ring_error = [&](const std::string& ring) {
     return error("a.geojson", collection(feature(polygon(ring))));
   };
@@ -294,7 +294,7 @@ TEST_F(Fences, GeoJsonThatIsWrongIsNamedWithItsPlace) {
       AllOf(HasSubstr("EPSG::25832"), HasSubstr("ogr2ogr")));
 }
 
-TEST_F(Fences, APlanThatIsWrongIsNamedWithItsPlace) {
+TEST_F(Fences, AWrongPlanIsReportedWithItsLocation) {
   EXPECT_EQ(error("a.plan", R"({"fileType":"Plan","geoFence":{"version":1}})"),
             "a.plan: geoFence.version: is not 2; open and save the plan with a current "
             "QGroundControl");

@@ -143,7 +143,7 @@ TEST_F(PlacedRaster, RowsAndColumnsMayRunEitherWay) {
   EXPECT_EQ(map.obstacle, (std::vector<std::uint8_t>{0, 0, 0, 1, 1, 0}));
 }
 
-TEST_F(PlacedRaster, AScaleThatRunsNorthIsBelieved) {
+TEST_F(PlacedRaster, AScaleThatRunsNorthIsAccepted) {
   const std::vector<float> heights = {10, 20, 30, 40, 50, 60};  // the first row first
   folder_.write("a.tif", tiff_with_scale(2.0, 2.0, heights));
   const ObstacleMap north_up = read_map(at_altitude(45.0));
@@ -169,7 +169,7 @@ TEST_F(PlacedRaster, WarningsOfGdalArePassedOn) {
                                            HasSubstr("not sorted in ascending order"))));
 }
 
-TEST_F(PlacedRaster, HeightsThatCannotBeGroundAreUnknownWithAWord) {
+TEST_F(PlacedRaster, HeightsThatCannotBeGroundAreUnknownWithAWarning) {
   for (const double none : {-32768.0, -32767.0, -9999.0, -99999.0, -3.4028234663852886e38, 1e20,
                             32767.0, std::nan(""), -HUGE_VAL}) {
     write_tiff(folder_.file("a.tif"), {}, {none, 20, none, 10, 10, 10});
@@ -302,7 +302,7 @@ TEST_F(PlacedRaster, ABareImageNeedsAResolutionAndLiesAtTheOrigin) {
   EXPECT_EQ(read_map(request).grid, (Grid{4, 2, 0.0, 0.0, 2.0}));
 }
 
-TEST_F(PlacedRaster, APathInDegreesIsLaidOnAProjectedMap) {
+TEST_F(PlacedRaster, APathInDegreesIsPlacedOnAProjectedMap) {
   write_tiff(folder_.file("a.tif"), {});
   const ObstacleMap map = read_map(at_altitude(45.0));
   // Two points of the map, converted to degrees by PROJ itself.

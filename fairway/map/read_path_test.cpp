@@ -36,7 +36,7 @@ class ReadPath : public ::testing::Test {
   ObstacleMap geographic_;
 };
 
-TEST_F(ReadPath, HeadersAndSeparatorsOfTheWildAreUnderstood) {
+TEST_F(ReadPath, HeadersAndSeparatorsFoundInPracticeAreRead) {
   const std::vector<Vec2> expected = {{1.5, 2.0}, {30.0, -4.0}};
   for (const char* text : {
            "1.5,2\n30,-4\n",                             // no header
@@ -105,7 +105,7 @@ TEST_F(ReadPath, APathWithoutLengthIsRefusedWhereItEnds) {
   EXPECT_EQ(input_error_of(closed), "line.csv:2" + what);
 }
 
-TEST_F(ReadPath, DegreesWhereMetresBelongAreRefused) {
+TEST_F(ReadPath, DegreesInsteadOfMetresAreRefused) {
   EXPECT_EQ(error("lat,lon\n47.39,8.54\n47.40,8.55\n"),
             "line.csv: is in degrees, but the map is not georeferenced; expected x_m "
             "and y_m in the map's metres");
@@ -114,7 +114,7 @@ TEST_F(ReadPath, DegreesWhereMetresBelongAreRefused) {
             "of metres?");
 }
 
-TEST_F(ReadPath, DegreesAreLaidOnAGeographicMap) {
+TEST_F(ReadPath, DegreesArePlacedOnAGeoreferencedMap) {
   const TangentPlane plane(zurich);
   const std::vector<Vec2> expected = {{0.0, 0.0}, {50.0, 20.0}, {80.0, -4.0}};
   std::string csv = "time,longitude,latitude\n";

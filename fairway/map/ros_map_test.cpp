@@ -158,7 +158,7 @@ TEST_F(RosMap, TheOriginIsTheLowerLeftCornerAndTheFirstImageRowTheTop) {
   EXPECT_EQ(map.frame.world_from_grid.yaw_rad, 0.0);
 }
 
-TEST_F(RosMap, ATurnedOriginIsHonoured) {
+TEST_F(RosMap, ARotatedOriginIsHonoured) {
   write_row({0, 255});
   const ObstacleMap map = read(yaml({{"origin", "origin: [2.0, 3.0, 1.5]"}}));
   EXPECT_EQ(map.grid, (Grid{2, 1, 0.0, 0.0, 1.0}));

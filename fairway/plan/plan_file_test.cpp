@@ -245,7 +245,7 @@ TEST(PlanFile, EveryFieldThatIsWrongIsRefusedByName) {
   }
 }
 
-TEST(PlanFile, DigestsThatDoNotFitAreRefused) {
+TEST(PlanFile, DigestMismatchesAreRefused) {
   const std::string good = bytes_of(random_plan(5, 4, 2));
   for (const char* name : {"heading_rad", "cost_m", "region"}) {
     Parts parts(good);

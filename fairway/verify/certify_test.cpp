@@ -80,7 +80,7 @@ Plan plan_of(int nx, int ny, double cell_m, double turn_radius_m,
   return plan;
 }
 
-TEST(Certify, ProvesOfAUniformFieldWhatItsClosedFormSays) {
+TEST(Certify, ProvesForAUniformFieldWhatItsClosedFormSays) {
   // Heading 0 everywhere, a wall of targets on the right: a state turns to 0, then flies on.
   Plan plan = plan_of(24, 10, 1.0, 3.0, [](Vec2) { return 0.0; });
   for (int iy = 0; iy < 10; ++iy) plan.region[plan.grid.index({23, iy})] = Region::goal;
@@ -235,7 +235,7 @@ Plan turned(const Plan& plan) {
   return image;
 }
 
-TEST(Certify, SaysOfTheMirroredPlanTheSameMirrored) {
+TEST(Certify, GivesTheMirroredVerdictsForTheMirroredPlan) {
   int decided = 0;
   int differ = 0;
   for (std::uint64_t number = 600; number < 618; ++number) {
@@ -266,7 +266,7 @@ TEST(Certify, SaysOfTheMirroredPlanTheSameMirrored) {
   EXPECT_LT(differ, decided / 100);  // one undecided: leaves start at the other end
 }
 
-TEST(Certify, SaysOfTheTurnedPlanTheSameTurned) {
+TEST(Certify, GivesTheRotatedVerdictsForTheRotatedPlan) {
   int decided = 0;
   int contradict = 0;
   for (std::uint64_t number = 624; number < 642; ++number) {
@@ -292,7 +292,7 @@ TEST(Certify, SaysOfTheTurnedPlanTheSameTurned) {
   EXPECT_LT(contradict, decided / 50);
 }
 
-TEST(Certify, RefinedOnlyDecidesMoreAndChangesNoVerdict) {
+TEST(Certify, RefiningOnlyDecidesMoreAndChangesNoVerdict) {
   for (std::uint64_t number = 700; number < 712; ++number) {
     const Plan plan = random_plan(number);
     const std::vector<Place> places = random_places(plan, 400, number);
@@ -419,7 +419,7 @@ TEST(Certify, ReachesNothingWithoutATarget) {
   }
 }
 
-TEST(Certify, SaysWhatStoppedItAndWhatItHasIsProvedAllTheSame) {
+TEST(Certify, SaysWhatStoppedItAndWhatItHasIsStillProved) {
   const Plan plan = random_plan(3);
   CertifyOptions options = options_to(20);
   options.time_limit_s = 1e-9;

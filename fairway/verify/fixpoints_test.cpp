@@ -96,7 +96,7 @@ TEST(Components, AreThoseThatReachEachOtherAndTheirEndsComeFirst) {
   }
 }
 
-TEST(Components, OfAPartKnowNothingOfTheRest) {
+TEST(Components, OfAPartIgnoreTheRest) {
   // 0 -> 1 -> 2 -> 0, with 1 left out.
   const LeafGraph graph = drawn_graph({{1}, {2}, {0}});
   const std::vector<Id> part{0, 2};
@@ -105,7 +105,7 @@ TEST(Components, OfAPartKnowNothingOfTheRest) {
   EXPECT_TRUE(components(graph, {}).empty());
 }
 
-TEST(Components, OfAChainOfAMillionNeedNoStackOfTheMachine) {
+TEST(Components, OfAChainOfAMillionDoNotNeedTheCallStack) {
   std::vector<std::vector<Id>> chain(300000);
   for (Id id = 0; id + 1 < chain.size(); ++id) chain[id].push_back(id + 1);
   const auto found = components(drawn_graph(chain), std::vector<Id>{0, 1, 2});

@@ -187,7 +187,7 @@ TEST(LeafGraph, ThatDoesNotKeepLinksCannotBeInvalidated) {
 
 /// Every leaf proved after commands were changed has a verdict that a proof from scratch does not
 /// contradict, and no more is undecided than a proof from scratch leaves.
-TEST(LeafGraph, AfterAnInvalidationProvesWhatAProofFromNothingProves) {
+TEST(LeafGraph, AfterAnInvalidationProvesWhatAProofFromScratchProves) {
   std::size_t changed_verdicts = 0;
   std::size_t kept = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {

@@ -71,7 +71,7 @@ TEST(PointFlight, ReportsWhatTheExactFlightMeetsWhereverItIsSure) {
 
 /// States flown backwards from a corner, a tangent to a border, or an alignment on a border, so
 /// that the event lies at a distance `off` from the degenerate one.
-TEST(PointFlight, IsNotSureWhereAHairDecidesAndRightWhereItIs) {
+TEST(PointFlight, IsNotSureInCloseCasesAndRightWhereItIsSure) {
   Random random(2);
   Counts counts;
   Counts far;

@@ -117,7 +117,7 @@ TEST(Prover, KeepsTheRuleForEveryLeafItProves) {
   EXPECT_GT(trapped, 10U);
 }
 
-TEST(Prover, ProvesOfPlacesWhatExactFlightsDoAndWithinTheTime) {
+TEST(Prover, ProvesForPlacesWhatExactFlightsDoAndWithinTheTime) {
   Random random(2);
   int flown = 0;
   for (std::uint64_t number = 0; number < 40; ++number) {

@@ -72,7 +72,7 @@ TEST(Reprove, KeepsAllThatWasProved) {
   }
 }
 
-TEST(Reprove, BelievesNoLie) {
+TEST(Reprove, KeepsNoFalseClaim) {
   struct Lie {
     const char* name;
     std::function<void(SectionVerdicts&, std::size_t, Random&)> tell;

@@ -114,7 +114,7 @@ TEST_P(VerdictMapOf, ACoarserOneIsTheFineOneAtTheMiddleCells) {
   }
 }
 
-TEST(VerdictMap, OfAMirroredPlanIsMirroredButForTheStepAside) {
+TEST(VerdictMap, OfAMirroredPlanIsMirroredExceptForTheOffset) {
   Plan plan = corridor();             // its own mirror image about the middle row
   plan.vehicle.turn_radius_m = 22.3;  // quarter turns from the centres touch no row of cells
   const PlanFlow pf(plan);
@@ -153,7 +153,7 @@ TEST(VerdictMap, OfStatesThatAreAlignedIsKnownByHand) {
   EXPECT_EQ(map.kind[map.index(11, 2)], CellKind::target);
 }
 
-TEST(VerdictMap, LooksAtStatesCloseToTheMiddlesOfCells) {
+TEST(VerdictMap, SamplesStatesCloseToTheCentresOfCells) {
   const Plan plan = corridor();
   const PlanFlow pf(plan);
   const VerdictMap map = map_of(pf, undecided_sections(pf.flow(), 2));
@@ -180,7 +180,7 @@ TEST(VerdictMap, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(all.count, single.count);
 }
 
-TEST(VerdictMap, OfNothingProvedIsUndecidedButForStatesThatEndBeforeTheSection) {
+TEST(VerdictMap, OfNothingProvedIsUndecidedExceptForStatesThatEndBeforeTheSection) {
   const Plan plan = empty_plan(20, 20, 8.0, 20.0);
   const PlanFlow pf(plan);
   const SectionVerdicts nothing = undecided_sections(pf.flow(), 2);

@@ -314,7 +314,7 @@ TEST(SectionFlight, TouchesWhatLiesBeyondABorderItRunsAlong) {
   }
 }
 
-TEST(SectionFlight, GivesUpRatherThanSayHalf) {
+TEST(SectionFlight, GivesUpRatherThanReportHalf) {
   const Plan plan = random_plan(0);
   const PlanFlow plan_flow(plan);
   const Flow flow = plan_flow.flow();
