@@ -205,7 +205,7 @@ std::string plan_defect(const Plan& plan) {
 
 void write_plan(const Plan& plan, const std::filesystem::path& path, Existing existing) {
   if (const std::string defect = plan_defect(plan); !defect.empty()) {
-    throw PreconditionViolation("a plan to be written: " + defect);
+    throw PreconditionViolation("cannot write a plan: " + defect);
   }
   AtomicFile file(path, existing);
   const std::vector<Tensor> tensors = tensors_of(plan);
