@@ -1,21 +1,21 @@
-# Thin wrappers over the CMake presets. Each sets up a bare Debian 12 first (tools/setup.sh).
+# Thin wrappers around the CMake presets. Each first sets up a bare Debian 12 (tools/setup.sh).
 
 export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
 JOBS ?= $(shell nproc)
-# What a user runs; tests and benchmarks are built when asked for.
+# What users run; tests and benchmarks are built on request.
 PROGRAMS = fairway_command fairway_check
 
 .PHONY: help setup build demo test bench reproduce install package try-package site clean
 
 help:
-	@echo "make demo       build, run the demonstration, say where to look"
+	@echo "make demo       build, run the demonstration, print where the results are"
 	@echo "make test       build and run every test"
 	@echo "make build      build/release/bin/fairway"
 	@echo "make bench      build and print the benchmark table"
 	@echo "make reproduce  redraw the papers' figures on the project's own maps"
 	@echo "make install    install to PREFIX (default /usr/local)"
 	@echo "make package    Debian packages, in build/package/packages"
-	@echo "make try-package  install them into a fresh Debian and use them there (as root)"
+	@echo "make try-package  install them in a fresh Debian and try them there (as root)"
 	@echo "make site       the documentation as a site, build/site/index.html"
 	@echo "make clean      remove build/ and out/"
 

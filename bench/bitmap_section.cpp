@@ -1,6 +1,6 @@
-// Backward reachable sets on border samples (paper 2), at the paper's size and at ten times that
-// along each side; and what it would take to fly every state of the paper's 3-D grid instead.
-// Each set is made in a process of its own, so that the peak of memory is its own.
+// Backward reachable sets on border samples (paper 2), at the paper's size and ten times that along
+// each side; and what it would cost to fly every state of the paper's 3-D grid instead. Each set is
+// computed in its own process, so that the peak memory is its own.
 #include <fmt/core.h>
 #include <sys/resource.h>
 
@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::size_t volume_draws = 1'000'000;
 
-/// The real field towards a goal in the middle of free cells: d 8 m, r 20 m, goal radius 2 r.
+/// The real field towards a goal in the centre of free cells: d 8 m, r 20 m, goal radius 2 r.
 Plan open_plan(int side) {
   ObstacleMap map;
   map.grid = {side, side, 0.0, 0.0, 8.0};
@@ -79,8 +79,8 @@ Run median_run(const std::vector<Run>& runs) {
   return middle;
 }
 
-/// What flying a state takes, wall time, over states drawn from the 3-D grid of the paper's
-/// comparison; all threads at work.
+/// The wall time of flying a state, over states drawn from the 3-D grid of the paper's comparison,
+/// with all threads at work.
 struct Forward {
   double seconds_per_state = 0.0;
   double share = 0.0;

@@ -23,7 +23,7 @@ std::array<float, 4> spline_weights(float t) {
           (3.0F * u * u * u - 6.0F * u * u + 4.0F) / 6.0F, t * t * t / 6.0F};
 }
 
-// Random heights at every `spacing` cells, and the smooth surface through them.
+// Random heights every `spacing` cells, and the smooth surface through them.
 class Hills {
  public:
   Hills(int side, int spacing, std::uint64_t seed)
@@ -92,7 +92,7 @@ class Landscape {
   Hills fine_;
 };
 
-// Property 3: where two obstacles touch at a corner alone, the two cells beside become obstacles.
+// Property 3: where two obstacles touch only at a corner, the two cells between become obstacles.
 void fill_corner_contacts(std::vector<std::uint8_t>& obstacle, std::size_t side) {
   for (bool changed = true; std::exchange(changed, false);) {
     for (std::size_t i = 0; i + side + 1 < obstacle.size(); ++i) {

@@ -37,7 +37,7 @@ TEST(BlobMap, ARingOfObstaclesClosesIt) {
   }
 }
 
-TEST(BlobMap, NoTwoObstaclesTouchAtACornerAlone) {
+TEST(BlobMap, NoTwoObstaclesTouchOnlyAtACorner) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const ObstacleMap map = blob_map(400, seed);
     const auto at = [&](int ix, int iy) { return map.obstacle[map.grid.index({ix, iy})]; };

@@ -1,5 +1,5 @@
-// Proved verdicts: how much is left undecided after how long, what a query takes from a mapped
-// file, and how long the independent checker takes beside the prover.
+// Proved verdicts: how much is left undecided after how long, how long a query of a mapped file
+// takes, and how long the independent checker takes compared with the prover.
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -44,7 +44,7 @@ ObstacleMap open_map(int side, double cell_m) {
   return map;
 }
 
-/// Four irregular obstacles: discs whose radius varies round them.
+/// Four irregular obstacles: discs whose radius varies with the angle.
 ObstacleMap four_obstacles(int side) {
   ObstacleMap map = open_map(side, 8.0);
   const double width = map.grid.width_m();
@@ -85,7 +85,7 @@ Proved prove(const Plan& plan, const std::string& name, double undecided_max) {
   return proved;
 }
 
-/// Nanoseconds a query takes on one core, over random states of the grid.
+/// Nanoseconds per query on one core, over random states of the grid.
 double query_ns(const fs::path& file, int repeats) {
   const MappedFile mapped(file);
   runtime::Certificate certificate;

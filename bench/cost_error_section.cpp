@@ -1,8 +1,8 @@
-// Errors of the cost-to-go against the truth, beside those of first-order fast marching.
+// Errors of the cost-to-go against the truth, next to those of first-order fast marching.
 //
 // The truth: in the plane and past one corner it is known exactly; on the blob map it is our own
 // solver on a grid seven times finer, whose error is about a seventh of ours (docs/benchmarks.md
-// holds it against scikit-fmm's second-order solver).
+// compares it with scikit-fmm's second-order solver).
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct Errors {
   double max_cells = 0.0;
 };
 
-// Over the cells outside the disc whose distance both the truth and the answer know.
+// Over the cells outside the disc with a distance in both the truth and the result.
 template <typename Number>
 Errors errors_of(const std::vector<Number>& answer, const std::vector<double>& truth,
                  double radius_cells) {
@@ -83,7 +83,7 @@ Trial one_corner(int side) {
 }
 
 Trial blobs(int side) {
-  constexpr int finer = 7;  // odd: the middle of a cell is the middle of a fine cell
+  constexpr int finer = 7;  // odd: the centre of a cell is the centre of a fine cell
   const ObstacleMap map = blob_map(side, map_seed);
   const Cell goal = open_place(map, 10);
   Trial trial{"blob map", {map.obstacle, side, side, goal, 5.0}, {}};

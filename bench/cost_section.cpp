@@ -13,7 +13,7 @@
 namespace fairway::bench {
 namespace {
 
-// Two first-order solvers differ by what both err: a few cells in a thousand.
+// Two first-order solvers differ by both their errors: a few cells in a thousand.
 void check_against(const std::vector<double>& peer, const std::vector<float>& ours) {
   for (std::size_t i = 0; i < ours.size(); ++i) {
     const bool both_finite = std::isfinite(ours[i]) && std::isfinite(peer[i]);

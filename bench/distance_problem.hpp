@@ -9,14 +9,14 @@
 namespace fairway::bench {
 
 struct DistanceProblem {
-  std::vector<std::uint8_t> blocked;  ///< [iy][ix], not zero: obstacle
+  std::vector<std::uint8_t> blocked;  ///< [iy][ix], nonzero: obstacle
   int nx = 0;
   int ny = 0;
   Cell goal;
-  double radius_cells = 5.0;  ///< inside it distances are given, exact
+  double radius_cells = 5.0;  ///< inside it exact distances are given
 };
 
-/// What eikonal_distance makes of it: cells, [iy][ix], +inf where there is no way.
+/// The solution by eikonal_distance: cells, [iy][ix], +inf where there is no way.
 [[nodiscard]] std::vector<float> eikonal_answer(const DistanceProblem& problem);
 
 }  // namespace fairway::bench

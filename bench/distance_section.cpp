@@ -1,4 +1,4 @@
-// The exact distance transform with nearest features, against OpenCV's (which has none).
+// The exact distance transform with nearest features, against OpenCV's (which has no features).
 #include <fmt/core.h>
 
 #include <cmath>

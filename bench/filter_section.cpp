@@ -20,7 +20,7 @@
 namespace fairway::bench {
 namespace {
 
-// Unit vectors that turn at random from cell to cell; none in obstacles.
+// Unit vectors that turn randomly from cell to cell; none in obstacles.
 VectorField wandering_field(const ObstacleMap& map) {
   VectorField field(map.obstacle.size());
   Random random(7);
@@ -35,7 +35,7 @@ VectorField wandering_field(const ObstacleMap& map) {
 }
 
 // Our weights are not normalised: the factor is the square of their sum. OpenCV reflects at the
-// map's edge, so cells near it are left out.
+// map's edge, so cells near it are skipped.
 void check_against(std::span<const float> peer, const VectorField& ours, const Grid& grid,
                    double sigma) {
   const int r = gaussian_half_width(sigma);
@@ -49,7 +49,7 @@ void check_against(std::span<const float> peer, const VectorField& ours, const G
       const double dy =
           static_cast<double>(ours.y[i]) / (sum * sum) - static_cast<double>(peer[2 * i + 1]);
       if (!(std::abs(dx) < 1e-5 && std::abs(dy) < 1e-5)) {
-        throw std::runtime_error("Gaussian filter: not what OpenCV's GaussianBlur gives");
+        throw std::runtime_error("Gaussian filter: differs from OpenCV's GaussianBlur");
       }
     }
   }

@@ -1,4 +1,4 @@
-// Exact flights: cells crossed in a second of one core's time, one flight after the other in one
+// Exact flights: cells crossed per second of one core's time, one flight after another in one
 // thread.
 #include <fmt/core.h>
 
@@ -33,7 +33,7 @@ Plan plan_on_blobs(int side) {
   return plan_of_field(std::move(std::get<Field>(answer)), vehicle);
 }
 
-// Anywhere in the safe-start region from which the goal can be reached, any heading.
+// Any safe start that can reach the goal, with any heading.
 std::vector<State> random_starts(const Plan& plan, int count) {
   std::vector<State> starts;
   Random random(5);
@@ -67,7 +67,7 @@ Row row_of(const std::string& name, const Plan& plan, const Settings& settings) 
     }));
   }
   runs.erase(runs.begin());
-  // One thread: its CPU time, which others on the machine do not lengthen much.
+  // One thread: its CPU time, which other processes do not lengthen much.
   const double per_second = 1e-6 * static_cast<double>(crossings) / median(runs).cpu_s;
   const double share = 100.0 * static_cast<double>(reached) / static_cast<double>(starts.size());
   return at_least_row(name,

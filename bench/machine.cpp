@@ -25,7 +25,7 @@ std::string processor_model() {
   return "unknown processor";
 }
 
-// How many cores so many threads got while they did nothing but count, for a fifth of a second.
+// How many cores this many threads got while they only counted, for a fifth of a second.
 double cores_had(int threads) {
   const Took took = timed([threads] {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
@@ -58,8 +58,8 @@ void print_machine(int threads) {
       processor_model(), std::thread::hardware_concurrency(), memory, load, threads, cores);
   if (load > 0.5 || cores < 0.95 * threads) {
     fmt::print(
-        "WARNING: the machine is busy, or does not give this process the cores it wants. Times and "
-        "ratios below are not to be trusted.\n");
+        "WARNING: the machine is busy, or does not give this process enough cores. Times and "
+        "ratios below are unreliable.\n");
   }
 }
 

@@ -3,9 +3,9 @@
 
 namespace fairway::bench {
 
-/// Prints processor, cores, memory and the load average; warns when others are at work.
-/// Names the machine and its load, and tries whether `threads` threads get as many cores: others on
-/// the machine may take them, or only some may be allowed to this process.
+/// Prints processor, cores, memory and the load average, and tests whether `threads` threads get as
+/// many cores: other processes may take them, or this process may be limited. Warns if the machine
+/// is busy.
 void print_machine(int threads);
 
 /// The load average of the last minute; negative when unknown.

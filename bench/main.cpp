@@ -1,8 +1,8 @@
-// The benchmark table: ours against peers from Debian's packages, medians of runs taken in turn.
+// The benchmark table: ours against peers from Debian packages, medians of alternating runs.
 //
 //   fairway-bench [--quick] [--only SECTION]... [--repeats N] [--threads N]
 //
-// Exit code 0 whether targets hold or not; 1 when results disagree or something cannot run.
+// Exit code 0 whether or not targets hold; 1 when results disagree or something cannot run.
 #include <fmt/core.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -58,7 +58,7 @@ Request parsed(int argc, char** argv) {
   };
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
-    if (word == "--quick") {  // that everything runs, not how fast
+    if (word == "--quick") {  // checks that everything runs, not how fast
       request.quick = true;
       request.settings.side = 256;
       request.settings.error_side = 128;
@@ -106,7 +106,7 @@ int run_sections(const Request& request) {
   }
   if (request.quick) {
     for (Row& row : rows) {
-      if (!row.verdict.empty()) row.verdict = "too small to tell";
+      if (!row.verdict.empty()) row.verdict = "too small to judge";
     }
   }
   print_table(rows);

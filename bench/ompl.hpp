@@ -1,5 +1,5 @@
-// OMPL's DubinsStateSpace, a peer on the same pairs of poses. Without it (ompl_absent.cpp) nothing
-// is answered.
+// OMPL's DubinsStateSpace, a peer on the same pairs of poses. Without it (ompl_absent.cpp) there
+// are no results.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ class Ompl {
   Ompl& operator=(const Ompl&) = delete;
 
   [[nodiscard]] static bool is_there();
-  /// DubinsStateSpace::distance for every pair, one after the other.
+  /// DubinsStateSpace::distance for every pair, one after another.
   void distances(std::span<double> length_m) const;
 
  private:

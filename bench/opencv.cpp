@@ -53,7 +53,7 @@ void OpenCv::gaussian_blur_on_threads(double sigma_cells, int half_width) {
   images_->blurred.create(images_->vectors.size(), images_->vectors.type());
   const auto blur = [&](const cv::Range& range) {
     for (int band = range.start; band < range.end; ++band) {
-      // A part of an image: the filter reads the rows around it from the whole.
+      // A part of an image: the filter reads the rows around it from the whole image.
       const cv::Range part(rows * band / bands, rows * (band + 1) / bands);
       cv::Mat out = images_->blurred.rowRange(part);
       cv::GaussianBlur(images_->vectors.rowRange(part), out, kernel, sigma_cells, sigma_cells);

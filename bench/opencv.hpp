@@ -1,4 +1,4 @@
-// OpenCV, a peer on the same arrays. Without it (opencv_absent.cpp) nothing is answered.
+// OpenCV, a peer on the same arrays. Without it (opencv_absent.cpp) there are no results.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace fairway::bench {
 
 class OpenCv {
  public:
-  /// `threads` bounds OpenCV's own threads.
+  /// `threads` limits OpenCV's own threads.
   explicit OpenCv(int threads);
   ~OpenCv();
   OpenCv(const OpenCv&) = delete;
@@ -17,19 +17,19 @@ class OpenCv {
 
   [[nodiscard]] static bool is_there();
 
-  /// Exact Euclidean distances to the nearest cell of `feature` that is not zero
+  /// Exact Euclidean distances to the nearest nonzero cell of `feature`
   /// (distanceTransform, DIST_L2, DIST_MASK_PRECISE), [iy][ix], in cells. place_features() first.
   void place_features(std::span<const std::uint8_t> feature, int nx, int ny);
   void distance_transform();
   [[nodiscard]] std::span<const float> distances() const;
 
-  /// GaussianBlur of an image of two floats a pixel, kernels of 2 half_width + 1.
+  /// GaussianBlur of an image with two floats per pixel, kernels of 2 half_width + 1.
   void place_vectors(std::span<const float> x, std::span<const float> y, int nx, int ny);
   void gaussian_blur(double sigma_cells, int half_width);
-  /// The same result from as many calls, side by side on bands of rows, as there are threads:
-  /// GaussianBlur runs on one thread when the image is of floats.
+  /// The same result from one call per thread, in parallel on bands of rows: GaussianBlur runs on
+  /// one thread for float images.
   void gaussian_blur_on_threads(double sigma_cells, int half_width);
-  [[nodiscard]] std::span<const float> blurred() const;  ///< x and y in turn
+  [[nodiscard]] std::span<const float> blurred() const;  ///< x and y alternating
 
  private:
   struct Images;

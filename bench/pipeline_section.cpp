@@ -1,5 +1,5 @@
-// The whole field stage with default options: time and memory a cell, from small maps to large.
-// Every run is a process of its own, as a user's is: no memory is warm, and the peak is its own.
+// The whole field stage with default options: time and memory per cell, from small maps to large.
+// Every run is its own process, as for a user: no memory is warm, and the peak is its own.
 #include <fmt/core.h>
 #include <malloc.h>
 #include <sys/resource.h>

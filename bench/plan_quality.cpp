@@ -1,6 +1,6 @@
-// Measures how good plans are: over random goals on each map given, the share of random safe-start
-// states of finite cost that reach the goal, and what becomes of the others. The defaults of
-// FieldOptions were chosen with it; docs/defaults.md keeps its table.
+// Measures how good plans are: over random goals on each map given, the share of random safe starts
+// of finite cost that reach the goal, and what happens to the others. The defaults of FieldOptions
+// were chosen with it; docs/defaults.md has its table.
 //
 //   plan_quality GOALS STATES RESOLUTION_M TURN_RADIUS_M MAP.map...
 #include <algorithm>
@@ -64,8 +64,8 @@ void add_flights(const Plan& plan, int states, std::uint64_t seed, Tally& tally)
   tally.worst = std::min(tally.worst, reached / n);
 }
 
-// Random goals; those that Assumption 1 refuses, or that under a tenth of the map can reach, do not
-// count.
+// Random goals; those that violate Assumption 1, or that less than a tenth of the map can reach, do
+// not count.
 Tally measure(const ObstacleMap& map, const Vehicle& vehicle, const FieldOptions& options,
               int goals, int states) {
   Random random(7);

@@ -1,4 +1,4 @@
-// scikit-fmm, a peer in a Python process of its own that waits while it has nothing to do.
+// scikit-fmm, a peer in its own Python process that waits while it has nothing to do.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace fairway::bench {
 
 class ScikitFmm {
  public:
-  /// Starts /usr/bin/python3, Debian's, for which python3-scikit-fmm is packaged.
+  /// Starts Debian's /usr/bin/python3, for which python3-scikit-fmm is packaged.
   explicit ScikitFmm(const std::string& script);
   ~ScikitFmm();
   ScikitFmm(const ScikitFmm&) = delete;
@@ -24,9 +24,9 @@ class ScikitFmm {
   bool is_there() const { return absent_.empty(); }
   const std::string& why_absent() const { return absent_; }
 
-  /// The problem that solve() is about from now on.
+  /// Sets the problem that solve() solves from now on.
   void pose(const DistanceProblem& problem);
-  /// Time of the solver's call alone. `distance`, if given, gets [iy][ix], +inf if not reached.
+  /// The time of the solver call alone. `distance`, if given, gets [iy][ix], +inf if not reached.
   Took solve(int order, std::vector<double>* distance = nullptr);
 
  private:

@@ -1,11 +1,11 @@
-"""Solves the eikonal equation with scikit-fmm, asked line by line on stdin.
+"""Solves the eikonal equation with scikit-fmm, for requests on stdin, one per line.
 
 Prints "ready VERSION" or "absent REASON" first. A request is one line,
     MASK NX NY GOAL_X GOAL_Y RADIUS ORDER OUT
-where MASK is a file of NX * NY bytes, [iy][ix], not zero: blocked. Distances, in cells, grow from
-the disc of RADIUS cells about the centre of cell (GOAL_X, GOAL_Y), whose border is the zero contour
-that scikit-fmm starts from; RADIUS is added afterwards. The answer is "WALL_S CPU_S" of the solver's
-call alone; OUT, if not "-", gets NX * NY doubles, +inf where no distance was found.
+where MASK is a file of NX * NY bytes, [iy][ix], nonzero: blocked. Distances, in cells, grow from the
+disc of RADIUS cells about the centre of cell (GOAL_X, GOAL_Y), whose border is the zero contour that
+scikit-fmm starts from; RADIUS is added afterwards. The answer is "WALL_S CPU_S" of the solver call
+alone; OUT, if not "-", gets NX * NY doubles, +inf where no distance was found.
 """
 import sys
 import time

@@ -1,4 +1,4 @@
-// The sections of the benchmark table. Each checks that results agree before it times anything, and
+// The sections of the benchmark table. Each checks that results agree before timing anything, and
 // throws std::runtime_error when they do not.
 #pragma once
 
@@ -12,14 +12,14 @@ namespace fairway::bench {
 
 struct Settings {
   int side = 4096;                                         ///< cells along a side of the map
-  int error_side = 1024;                                   ///< the same where errors are measured
+  int error_side = 1024;                                   ///< the same, for measuring errors
   std::vector<int> sides = {512, 1024, 2048, 4096, 8192};  ///< for the whole pipeline
   int repeats = 5;
   int threads = 2;
   int flights = 2048;
   int bitmap_side = 20;  ///< and ten times that
   int bitmap_samples = 200;
-  std::string program;     ///< this program, to be started again for one whole pipeline
+  std::string program;     ///< this program, started again for one whole pipeline
   std::string fmm_script;  ///< scikit_fmm_peer.py
 };
 
@@ -35,9 +35,9 @@ inline constexpr std::uint64_t map_seed = 1;
 [[nodiscard]] std::vector<Row> steer_rows(const Settings& settings);
 [[nodiscard]] std::vector<Row> certified_rows(const Settings& settings);
 
-/// One whole pipeline in this process, which is to have done nothing else. Prints a line
+/// One whole pipeline in this process, which must not have done anything else. Prints a line
 /// "WALL_S CPU_S BYTES_BEFORE BYTES_AT_PEAK SHARE", where SHARE is that of the safe-start cells
-/// from which the goal can be reached.
+/// that can reach the goal.
 void run_one_field(int side);
 
 /// One backward reachable set in this process. Prints a line "WALL_S CPU_S STATES BYTES_STORED

@@ -1,5 +1,5 @@
 // Shortest Dubins lengths against OMPL's, and a step of either steering law. One thread; CPU time,
-// which others on the machine do not lengthen much.
+// which other processes do not lengthen much.
 #include <fmt/core.h>
 #include <tbb/global_control.h>
 
@@ -54,7 +54,7 @@ double worst_difference(const std::vector<double>& a, const std::vector<double>&
   return worst;
 }
 
-/// Nanoseconds of CPU for each of `count`, the median of runs in turn; the first warms up.
+/// Nanoseconds of CPU for each of `count`, the median of alternating runs; the first warms up.
 std::vector<double> nanoseconds(const Settings& settings, std::size_t count,
                                 const std::vector<std::function<void()>>& works) {
   constexpr int again = 10;
@@ -91,9 +91,9 @@ std::vector<Row> length_rows(const Settings& settings, double size, std::size_t 
                    },
                    [&] { ompl.distances(peer); }});
   if (worst_difference(one, batch) > 1e-12) throw std::runtime_error("steer: the batch differs");
-  // OMPL takes angles within 1e-6 of a turn for none, and has float functions in it.
+  // OMPL treats angles within 1e-6 of a full turn as zero, and uses float functions.
   if (Ompl::is_there() && worst_difference(one, peer) > 1e-5) {
-    throw std::runtime_error("steer: OMPL's lengths are others");
+    throw std::runtime_error("steer: OMPL's lengths differ");
   }
   const std::string in_box = fmt::format("poses in a box of {:g} r", size);
   const std::string shown_one = fmt::format("{:.1f} ns", ns[0]);
@@ -110,7 +110,7 @@ std::vector<Row> length_rows(const Settings& settings, double size, std::size_t 
           ratio_row(batch_name, shown_batch, shown_peer, ns[1] / ns[2], 0.125, "<= 1/8")};
 }
 
-/// Steps of many flights in turn, each with a law of its own.
+/// Steps of many flights in turn, each with its own law.
 template <typename Law>
 double step_ns(const Settings& settings, std::size_t count, const Law& law) {
   const Pairs pairs = random_pairs(10.0, count);

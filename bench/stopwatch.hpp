@@ -1,5 +1,5 @@
-// How long something took, and medians of ours and a peer run in turn, so that whatever else the
-// machine does falls on both alike.
+// How long something took, and medians of our runs alternating with a peer's, so that other load on
+// the machine affects both equally.
 #pragma once
 
 #include <sys/resource.h>
@@ -34,7 +34,7 @@ Took timed(Work&& work) {
   return {wall.count(), process_cpu_s() - cpu};
 }
 
-/// The middle value; of an even number the mean of the two in the middle. Not empty.
+/// The middle value, or the mean of the two middle ones. Not empty.
 inline double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
@@ -51,7 +51,7 @@ inline Took median(const std::vector<Took>& runs) {
   return {median(wall), median(cpu)};
 }
 
-/// `ours` and `peer` return a Took each; they run in turn, `repeats` times.
+/// `ours` and `peer` each return a Took; they run alternately, `repeats` times.
 struct Medians {
   Took ours;
   Took peer;

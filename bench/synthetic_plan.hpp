@@ -1,6 +1,6 @@
 // Plans without a map, for flights: "goal" is what plans look like (headings that change little
-// from cell to cell, towards a goal in the middle), "meander" makes the vehicle turn all the time,
-// "rough" has an independent heading in every cell, as no plan has.
+// from cell to cell, towards a goal in the centre), "meander" makes the vehicle turn all the time,
+// "rough" has an independent heading in every cell, unlike any real plan.
 #pragma once
 
 #include <cmath>

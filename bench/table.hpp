@@ -1,4 +1,4 @@
-// The one table of `make bench`: a row a claim, and whether it holds.
+// The one table of `make bench`: one row per claim, and whether it holds.
 #pragma once
 
 #include <string>
@@ -17,17 +17,17 @@ struct Row {
   std::string verdict = "";  ///< "holds", "FALLS SHORT", "not measured", or nothing without target
 };
 
-/// ours / peer is to be at most `limit` (shown as `target`).
+/// ours / peer must be at most `limit` (shown as `target`).
 [[nodiscard]] Row ratio_row(std::string name, std::string ours, std::string peer, double ratio,
                             double limit, std::string target);
-/// A value of ours alone, to be at most, or at least, `limit`.
+/// A value of ours alone, which must be at most, or at least, `limit`.
 [[nodiscard]] Row at_most_row(std::string name, std::string ours, double value, double limit);
 [[nodiscard]] Row at_least_row(std::string name, std::string ours, double value, double limit);
 /// The peer is not on this machine.
 [[nodiscard]] Row without_peer(std::string name, std::string ours, std::string why,
                                std::string target);
 
-/// "123.4 ms"; "12.34 s (1.0 cores)" names how many cores were busy.
+/// "123.4 ms"; "12.34 s (1.0 cores)" includes how many cores were busy.
 [[nodiscard]] std::string shown(const Took& took);
 
 void print_table(const std::vector<Row>& rows);

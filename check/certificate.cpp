@@ -21,10 +21,10 @@ std::vector<T> values(const TensorFile& file, const char* name, const char* type
                       const Shape& shape) {
   const auto found = file.tensors.find(name);
   require(found != file.tensors.end() && found->second.type == type && found->second.shape == shape,
-          fmt::format("{}: is missing, or its type or shape does not fit the others", name),
+          fmt::format("{}: is missing, or its type or shape does not match the others", name),
           unreadable);
   require(reinterpret_cast<std::uintptr_t>(found->second.bytes.data()) % sizeof(T) == 0,
-          fmt::format("{}: begins at no multiple of its element's size", name), unreadable);
+          fmt::format("{}: is not aligned to its element size", name), unreadable);
   std::vector<T> all(found->second.bytes.size() / sizeof(T));
   if (!all.empty()) std::memcpy(all.data(), found->second.bytes.data(), found->second.bytes.size());
   return all;
@@ -32,11 +32,11 @@ std::vector<T> values(const TensorFile& file, const char* name, const char* type
 
 void take_arrays(const TensorFile& file, Certificate& c) {
   require(file.tensors.contains("region") && file.tensors.size() == 9,
-          "has other arrays than a certificate", unreadable);
+          "does not have the arrays of a certificate", unreadable);
   const Shape grid = file.tensors.at("region").shape;
   require(grid.size() == 2 && grid[0] > 0 && grid[1] > 0 && grid[0] < 1U << 30 &&
               grid[1] < (1U << 30) / grid[0],
-          "region: is no grid", unreadable);
+          "region: is not a grid", unreadable);
   c.loop.ny = static_cast<int>(grid[0]);
   c.loop.nx = static_cast<int>(grid[1]);
   c.loop.command_rad = values<float>(file, "heading_rad", "F32", grid);
@@ -59,10 +59,10 @@ void require_geometry(const Geometry& g) {
               in(g.speed_mps, 1e-15, 1e15) && g.units == 0x1p32,
           "geometry: expected finite numbers in proportion, and 2^32 units in a side");
   require(g.cell_m < g.turn_radius_m && g.turn_radius_m <= 1e9 * g.cell_m,
-          "geometry: the cells are not smaller than the turning radius, or next to nothing");
+          "geometry: the cells are not smaller than the turning radius, or are far too small");
 }
 
-/// Whether two records place their grids alike; without a frame, a grid lies where it says itself.
+/// Whether two records place their grids alike; without a frame, the grid places itself.
 bool same_frame(const json& a, const json& b) {
   const auto said = [](const json& record, const std::string& place) {
     const json frame = record.value("frame", json());
@@ -78,20 +78,20 @@ bool same_frame(const json& a, const json& b) {
   return true;
 }
 
-/// Digests of what is here.
+/// Digests of the arrays in the file.
 void require_digests(const TensorFile& file) {
   const json& claimed = file.record.at("sha256");
   const json& of_plan = file.record.at("plan_sha256");
   for (const auto& [name, tensor] : file.tensors) {
     require(claimed.at(name) == sha256(tensor.bytes),
-            name + ": its digest is not the one claimed; the file was damaged or altered");
+            name + ": digest mismatch; the file was damaged or altered");
   }
   require(of_plan.at("heading_rad") == claimed.at("heading_rad") &&
               of_plan.at("region") == claimed.at("region"),
-          "heading_rad and region are not those of the plan it names");
+          "heading_rad and region are not those of the plan that it names");
 }
 
-/// That it is of this plan: arrays, vehicle, grid and frame.
+/// Requires that it belongs to this plan: arrays, vehicle, grid and frame.
 void require_plan(const TensorFile& file, const Geometry& g, const std::string& plan_path) {
   const json& of_plan = file.record.at("plan_sha256");
   const TensorFile plan = read_tensors(plan_path);
@@ -108,8 +108,8 @@ void require_plan(const TensorFile& file, const Geometry& g, const std::string& 
   require(same, "is not the certificate of the plan " + plan_path);
 }
 
-/// Whether [low, low + cell_m] lies in [from, to], as it is, or, where that is a matter of
-/// rounding, as it is claimed.
+/// Whether [low, low + cell_m] lies in [from, to]; where that depends on rounding, the claim
+/// decides.
 bool lies_within(double low, double cell_m, double from, double to, bool claimed) {
   const double least = std::min(low - from, to - (low + cell_m));
   return std::abs(least) > 0x1p-49 * (std::abs(low) + cell_m) ? least > 0.0 : claimed;
@@ -141,8 +141,8 @@ void require_cells(const Certificate& c, const json& interest) {
         (std::isnan(h) || (h > -std::numbers::pi && h <= std::numbers::pi))) {
       continue;
     }
-    throw Defect(1, fmt::format("cell ({}, {}): its command, region or cell_kind cannot be", cell.x,
-                                cell.y));
+    throw Defect(1, fmt::format("cell ({}, {}): has an invalid command, region or cell_kind",
+                                cell.x, cell.y));
   }
 }
 
@@ -156,7 +156,7 @@ void require_leaves(const Certificate& c) {
                             positive(into_frame(side, c.loop.direction[s / 4]).x) &&
                             c.loop.kind_at(c.loop.beyond(s)) == ordinary;
     require((c.first[s] < c.first[s + 1]) == has_leaves,
-            "a section has leaves that cannot have any, or none although it must");
+            "a section has leaves where it cannot have any, or none where it must");
     for (std::size_t leaf = c.first[s]; leaf < c.first[s + 1]; ++leaf) {
       const double t = c.time_s[leaf];
       const bool in_order =
@@ -166,8 +166,8 @@ void require_leaves(const Certificate& c) {
                                   ? c.rank[leaf] == 0 && t > std::numeric_limits<float>::max()
                                   : c.verdict[leaf] < trapped && t >= 0.0 && std::isfinite(t);
       if (in_order && meaningful) continue;
-      require(false, c.name_of(leaf) + (in_order ? ": its verdict, rank and time cannot be"
-                                                 : ": leaves do not ascend from the side's begin"));
+      require(false, c.name_of(leaf) + (in_order ? ": has an invalid verdict, rank or time"
+                                                 : ": leaves do not ascend from the side's start"));
     }
   }
 }

@@ -29,10 +29,10 @@ struct Certificate {
   std::vector<std::uint32_t> rank;    ///< [leaves]
   std::vector<float> time_s;          ///< [leaves]
   std::vector<std::uint8_t> verdict;  ///< [leaves], Verdict
-  nlohmann::json record;              ///< the rest of what is claimed
+  nlohmann::json record;              ///< everything else that is claimed
   Loop loop;
 
-  /// Where a leaf begins and ends, in units of a side / 2^32; the last one at the side's end.
+  /// Where a leaf starts and ends, in units of a side / 2^32; the last one ends at the side's end.
   double begin_of(std::size_t leaf) const { return begin[leaf]; }
   double end_of(std::size_t section, std::size_t leaf) const {
     return leaf + 1 < first[section + 1] ? begin[leaf + 1] : 0x1p32;
@@ -42,8 +42,8 @@ struct Certificate {
   std::size_t section_of(std::size_t leaf) const;
 };
 
-/// Reads and compares with the plan of that path, if any. Throws Defect 65 when the file is no
-/// certificate, Defect 1 when it is one and its digests, geometry, cells or leaves are wrong.
+/// Reads and compares with the plan at that path, if any. Throws Defect 65 when the file is not a
+/// certificate, Defect 1 when it is one but its digests, geometry, cells or leaves are wrong.
 Certificate read_certificate(const std::string& path, const std::string& plan);
 
 }  // namespace fairway_check

@@ -20,11 +20,11 @@ constexpr const char* portion_name[3]{"volume_fraction", "volume_fraction_free",
 /// Shares of the volume by portion and verdict.
 using Shares = std::array<std::array<double, verdict_count>, 3>;
 
-/// Fewer bear no share; no certificate has been measured with fewer.
+/// Too few for a meaningful share; no certificate is measured with fewer.
 constexpr double least_samples = 1000.0;
 
 struct Claims {
-  Shares shares{};  ///< 0 of no cells
+  Shares shares{};  ///< 0 without cells
   double samples = 0.0;
   double worst_time_s = 0.0;
 };
@@ -35,18 +35,18 @@ Claims claims_of(const nlohmann::json& record) {
     double sum = 0.0;
     for (std::size_t v = 0; v < verdict_count; ++v) {
       sum += claims.shares[p][v] = record.at(portion_name[p]).at(verdict_name[v]);
-      require(claims.shares[p][v] >= 0.0, "volume_fraction: a share is less than nothing");
+      require(claims.shares[p][v] >= 0.0, "volume_fraction: negative share");
     }
     require(sum == 0.0 || std::abs(sum - 1.0) < 1e-9,
             "volume_fraction: the shares do not sum to 1");
     require(sum == 0.0 || claims.samples >= least_samples,
             "samples: the shares rest on too few, expected at least 1000");
   }
-  require(claims.worst_time_s >= 0.0, "worst_time_s: less than nothing");
+  require(claims.worst_time_s >= 0.0, "worst_time_s: is negative");
   return claims;
 }
 
-/// What the leaves say of states drawn from all ordinary cells.
+/// What the leaves say about states drawn from all ordinary cells.
 struct Measured {
   std::array<double, 3> states{};  // by Portion
   Shares shares{};
@@ -97,14 +97,15 @@ std::string defect_of_claims(const Certificate& c, std::size_t samples,
       const double found = m.shares[p][v];
       const double both = (claimed * there + found * here) / (there + here);
       const double error = std::sqrt(both * (1.0 - both) * (1.0 / here + 1.0 / there));
-      // A share that is almost none is not known better than to a few states, of either sample.
+      // A share close to zero is only known to a few states, in either sample.
       if (std::abs(claimed - found) <= 5.0 * error + 5.0 / here + 5.0 / there) continue;
-      return fmt::format("{}: {} is claimed to be {:.6f}, measured {:.6f} +- {:.6f}",
+      return fmt::format("{}: {} is claimed as {:.6f}, measured as {:.6f} +- {:.6f}",
                          portion_name[p], verdict_name[v], claimed, found, error);
     }
   }
-  // Of those that the claim rests on none was slower: as likely as exp(-20) where a share of
-  // 20 / samples is. Of such a share the states drawn here hold so many, and some by chance.
+  // None of the states behind the claim was slower: that has a probability of exp(-20) if a share
+  // of 20 / samples is. Allow as many of the states drawn here as such a share gives, and some
+  // for chance.
   const double slow = 20.0 * m.states[all_cells] / std::max(1.0, claims.samples);
   const bool slower = m.slower_than_claimed > slow + 5.0 * std::sqrt(slow) + 5.0;
   return slower ? "worst_time_s: too many sampled states are slower" : "";

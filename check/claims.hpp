@@ -1,4 +1,4 @@
-// What a certificate claims of volumes, against sampled states. No verdict rests on this.
+// Compares the volumes a certificate claims with sampled states. No verdict depends on this.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace fairway_check {
 
-/// "" when no share of volume that is claimed is farther than five standard errors (of both
-/// samples) from the one measured with `samples` states, and no more reach later than chance
-/// allows. What was found goes into `report`. Throws Defect 1, or nlohmann::json::exception, for
-/// claims that cannot be.
+/// "" when no claimed share of volume is farther than five standard errors (of both samples) from
+/// the one measured with `samples` states, and no more states reach later than chance allows. The
+/// findings go into `report`. Throws Defect 1, or nlohmann::json::exception, for impossible
+/// claims.
 std::string defect_of_claims(const Certificate& c, std::size_t samples,
                              nlohmann::ordered_json& report);
 

@@ -1,10 +1,10 @@
 // Flights exactly through corners, and exactly along borders into them.
 //
-// Faults planted to see that they are caught, one at a time (motion.cpp), all by the first test:
-//   at_low or at_high never, swapped, or only beyond the corner; what touches a corner lost;
-//   flags lost of straight ways, with or without an arc or a command, of arcs to either hand, of
-//   either pair of sides; ties of events lost.
-// Change nothing told: corners of a way that skims (the side ahead tells the same).
+// Faults planted one at a time (motion.cpp) to see that they are caught, all by the first test:
+//   at_low or at_high never set, swapped, or only set beyond the corner; what touches a corner
+//   lost; flags lost for straight ways, with or without an arc or a command, for arcs to either
+//   hand, for either pair of sides; ties of events lost.
+// These change no reports: corners of a way that skims (the side ahead reports the same).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ using fairway::Random;
 using Exact = fairway::WideVec<Wide>;
 
 /// A set with a state that comes exactly to the corner of cell (2, 2) on the sides `side` and
-/// `towards`, which lies after it or before.
+/// `towards`, which is the side after it or before it.
 struct Approach {
   int side = 0;
   int towards = 1;
@@ -105,7 +105,7 @@ Approach draw(Random& random) {
   return a;
 }
 
-TEST(CheckCorner, EveryCellAroundACornerIsToldOfAndTheOneAcrossEntered) {
+TEST(CheckCorner, EveryCellAroundACornerIsReportedAndTheOneAcrossEntered) {
   Random random = Random::stream(11, 1);
   int told_of = 0;
   int entered = 0;
@@ -132,7 +132,7 @@ TEST(CheckCorner, EveryCellAroundACornerIsToldOfAndTheOneAcrossEntered) {
       ++told_of;
       const bool found = std::any_of(told.ends.begin(), told.ends.end(), [&](const auto& end) {
         const bool long_enough = (end.second >= least && end.second <= 1.04 * least + 1e-6) ||
-                                 // beside the border that it runs along: before
+                                 // next to the border that it runs along: before
                                  (a.way == 3 && c.x == a.beside().x && c.y == a.beside().y);
         return end.first == (kind == target ? reach : collide) && long_enough;
       });
@@ -161,8 +161,8 @@ TEST(CheckCorner, EveryCellAroundACornerIsToldOfAndTheOneAcrossEntered) {
   EXPECT_LT(lost, 1200);
 }
 
-/// Away from a corner nothing is known of the cells beyond it.
-TEST(CheckCorner, NothingIsToldOfTheCellBesideACornerThatIsMissed) {
+/// Away from a corner nothing is known about the cells beyond it.
+TEST(CheckCorner, NothingIsReportedForTheCellNextToACornerThatIsMissed) {
   Random random = Random::stream(11, 2);
   int missed = 0;
   for (int i = 0; i < 10000; ++i) {

@@ -13,19 +13,19 @@ constexpr int most_cells = 20000;
 constexpr std::size_t most_parts = 64;
 constexpr double most_waves = 0x1p50;
 
-/// A set in a cell, and what its past allows to conclude. Every state of it shares this past.
+/// A set in a cell, and what can be concluded from its past, which all its states share.
 struct Part {
   Cell cell{};
   Bundle set{};
-  float flown_rad = NAN;  ///< the heading, when it is a command, as a number
+  float flown_rad = NAN;  ///< the heading, when it is exactly a command
   double length = 0.0;
   std::size_t began_at = none;     ///< just left this section
   std::size_t mirror_of = none;    ///< just came back over this section, which it left before
-  std::size_t circle_from = none;  ///< the first side crossed on the present circle
-  std::size_t wave_from = none;    ///< the side crossed at the begin of a wave, ...
-  double wave_length = 0.0;        ///< ... what was flown until then, ...
-  bool wave_returned = false;      ///< ... and whether it was crossed back since
-  int skimmed_side = -1;           ///< the set runs along this side, and is followed beyond as well
+  std::size_t circle_from = none;  ///< the first side crossed on the current circle
+  std::size_t wave_from = none;    ///< the side crossed at the start of a wave, ...
+  double wave_length = 0.0;        ///< ... the length flown until then, ...
+  bool wave_returned = false;      ///< ... and whether it has been crossed back since
+  int skimmed_side = -1;           ///< the set runs along this side, and is also followed beyond it
 };
 
 Verdict verdict_in(CellKind kind) {
@@ -54,7 +54,7 @@ class Follower {
     return 4 * loop_.index(cell) + static_cast<std::size_t>(side);
   }
 
-  /// False: there is no telling where the set goes.
+  /// False: it is unknown where the set goes.
   bool cross(const Part& part) {
     const std::size_t cell = loop_.index(part.cell);
     const float rad = loop_.command_rad[cell];
@@ -62,7 +62,7 @@ class Follower {
     ways_.clear();
     if (!find_ways(part.set, command, loop_.radius, ways_) || ways_.empty()) return false;
     for (Way& way : ways_) {
-      // Along this side it is followed on its other side already.
+      // Along this side, the set is already followed on the other side.
       if (way.skims && way.side == part.skimmed_side) continue;
       const float flown_rad = !command.exists ? part.flown_rad : way.aligned ? rad : NAN;
       go(part, way, flown_rad, ways_.size() == 1);
@@ -72,7 +72,7 @@ class Follower {
 
   void go(const Part& part, Way& way, float flown_rad, bool alone) {
     const std::size_t off = section(part.cell, way.side);
-    // On its way back to the section it began at, the set aligns where it leaves: told as a hop.
+    // On the way back to the section it started at, the set aligns where it leaves: this is a hop.
     const bool hop = part.mirror_of == off;
     if (hop && way.aligned) return;
     Part next{.cell = part.cell.beyond(way.side),
@@ -111,13 +111,12 @@ class Follower {
     parts_.push_back(next);
   }
 
-  /// What leaves through a corner (end -1 or 1 of the side) touches the two cells beyond the end,
-  /// too, and may go on in the one across. Headings that come from beyond the end do not leave
-  /// here.
+  /// States that leave through a corner (end -1 or 1 of the side) also touch the two cells beyond
+  /// the end, and may continue in the one across. Headings from beyond the end do not leave here.
   void go_through_corner(const Part& part, const Way& way, Part next, int end) {
     const Real onwards = static_cast<double>(end) * into_frame(way.side, way.heading).y;
     if (negative(onwards)) return;
-    const int over = (way.side + end) & 3;  // the side of the cell left that lies at the end
+    const int over = (way.side + end) & 3;  // the side of the cell left that is at the end
     next.cell = next.cell.beyond(over);
     const CellKind beside = loop_.kind_at(part.cell.beyond(over));
     const CellKind across = loop_.kind_at(next.cell);
@@ -131,8 +130,8 @@ class Follower {
     parts_.push_back(next);
   }
 
-  /// Exactly along the side `over` through which it would come in, where the command turns it out
-  /// again at once: nothing moves in that cell for any time.
+  /// Exactly along the side `over` through which it would enter, where the command turns it out
+  /// again at once: no motion stays in that cell for any length of time.
   bool is_turned_away(const Part& next, int over) const {
     const std::size_t cell = loop_.index(next.cell);
     return is_zero(into_frame(over, next.set.heading).x) && !std::isnan(loop_.command_rad[cell]) &&
@@ -140,8 +139,8 @@ class Follower {
   }
 
   /// Lemma 5 for any weave: out over a side, back over it and out again, each time on one arc and
-  /// by all states of the set, is repeated while it lands between the same two cells: every wave
-  /// moves a state by 4 R sin n. Waves that are sure to are ridden at once.
+  /// by all states of the set, repeats as long as it lands between the same two cells: every wave
+  /// moves a state by 4 R sin n. Waves that certainly do are skipped in one step.
   void ride_waves(const Part& part, Way& way, std::size_t off, std::size_t back, Part& next) const {
     if (part.wave_from == back && !part.wave_returned) {
       next.wave_from = back;
@@ -173,7 +172,7 @@ class Follower {
 
   const Loop& loop_;
   Listener& listener_;
-  std::vector<Part> parts_;  // still to be followed
+  std::vector<Part> parts_;  // yet to be followed
   std::vector<Way> ways_;
 };
 

@@ -1,8 +1,8 @@
-// Following all states of a set until each is accounted for: it aligned and left a cell (it is on
-// the section, docs/formats.md), or its flight ended. What is told encloses what happens:
-//   1. every state meets one of the things told, within the length told with it;
-//   2. a state in a corner is told of all four cells; heading along a side, of both;
-//   3. circling is told of states that crossed one side twice, outwards, on one circle.
+// Follows all states of a set until each is accounted for: it has aligned and left a cell (it is on
+// the section, docs/formats.md), or its flight has ended. The reports enclose what happens:
+//   1. every state meets one of the things reported, within the length reported with it;
+//   2. a state in a corner is reported for all four cells; heading along a side, for both;
+//   3. circling is reported for states that crossed one side twice, outwards, on one circle.
 // A `hop` (lemma 5): off the section over a side and back over it on one arc each, to the section.
 #pragma once
 
@@ -62,15 +62,15 @@ class Listener {
   /// On the section 4 * cell + side, at `place` in the side's frame.
   virtual void arrive(std::size_t section, const Real& place, double length, bool hop) = 0;
   virtual void end(Verdict verdict, double length) = 0;
-  /// Not all can be said; what was told is not all.
+  /// Cannot follow further; the reports are incomplete.
   virtual void give_up() = 0;
 };
 
-/// All states of `section` with their place in `place`, followed from the cell beyond the side,
-/// which is ordinary.
+/// Follows all states of `section` with their place in `place` from the cell beyond the side, which
+/// is ordinary.
 void follow_section(const Loop& loop, std::size_t section, const Real& place, Listener& listener);
 
-/// States inside an ordinary cell.
+/// Follows states inside an ordinary cell.
 void follow_states(const Loop& loop, std::size_t cell, const Vec& at, const Vec& heading,
                    Listener& listener);
 

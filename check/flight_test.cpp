@@ -15,7 +15,7 @@ namespace {
 using fairway::Random;
 using fairway::Wide;
 
-TEST(CheckFlight, EveryFlightFromALeafMeetsWhatWasTold) {
+TEST(CheckFlight, EveryFlightFromALeafMeetsWhatWasReported) {
   int flights = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const fairway::Plan plan = fairway::random_plan(seed);
@@ -45,7 +45,7 @@ TEST(CheckFlight, EveryFlightFromALeafMeetsWhatWasTold) {
       if (told.lost) continue;
       for (int m = 0; m < 5; ++m) {
         const double place = begin + width * (m == 0 ? 0.0 : m == 1 ? 1.0 : random.unit());
-        if (place == 0.0 || place == 1.0) continue;  // a corner: whoever brings it is told of it
+        if (place == 0.0 || place == 1.0) continue;  // a corner: reported where it came from
         const Wide along_m = Wide(place) * Wide(flow.grid.cell_m);
         const Wide line = side < 2 ? Wide(0) : Wide(flow.grid.cell_m);
         const fairway::WideVec<Wide> p = side % 2 == 0 ? fairway::WideVec<Wide>{line, along_m}

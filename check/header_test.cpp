@@ -1,5 +1,5 @@
-// One grammar of headers (docs/formats.md, "Header") and three readers of it: the library's, the
-// vehicle's, and the checker's. What one refuses all refuse, and what they take they read alike.
+// One header grammar (docs/formats.md, "Header") and three readers: the library's, the vehicle's,
+// and the checker's. What one refuses, all refuse; what they accept, they read alike.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -104,7 +104,7 @@ Reading by_checker(const std::string& file, std::size_t header_size) {
   }
 }
 
-/// Whether it is read; with all readers of one mind.
+/// Whether it is read; requires that all readers agree.
 bool is_read(const std::string& header, std::size_t data_size) {
   const std::string file = file_of(header, data_size);
   const Reading library = by_library(file, header.size(), false);
@@ -122,7 +122,7 @@ constexpr const char* good =
     R"("b":{"dtype":"I8","shape":[5],"data_offsets":[24,29]}})";
 constexpr std::size_t good_size = 29;
 
-/// As Python writes it, with a key more, arrays in another order, and two empty ones.
+/// As Python writes it, with an extra key, arrays in another order, and two empty ones.
 constexpr const char* spaced =
     "{\"b\": {\"shape\": [5], \"data_offsets\": [24, 29], \"dtype\": \"I8\"}, \n\t\"none\": "
     "{\"dtype\": \"U8\", \"shape\": [0], \"data_offsets\": [24, 24]}, \"nor\": {\"dtype\": "
@@ -279,10 +279,10 @@ TEST(Headers, ChangedAtRandomAreReadAlikeOrRefusedByAll) {
         case 2:
           text.erase(at, span);
           break;
-        case 3:  // a piece of it once more
+        case 3:  // a piece of it repeated
           text.insert(somewhere(text), text.substr(at, span));
           break;
-        default: {  // a member once more, or blanks
+        default: {  // a member repeated, or blanks
           const std::size_t comma = text.find(',', at);
           const std::size_t next = text.find(',', comma + 1);
           if (comma < next && next != std::string::npos)

@@ -11,7 +11,7 @@ namespace {
 
 /// Operations whose exact results lie strictly between two doubles.
 void require_outward_rounding() {
-  const volatile double unfolded[3]{1.0, 3.0, 0x1p-80};  // as no compiler can work out beforehand
+  const volatile double unfolded[3]{1.0, 3.0, 0x1p-80};  // that no compiler can compute in advance
   const double one = unfolded[0];
   const double three = unfolded[1];
   const double tiny = unfolded[2];
@@ -30,13 +30,13 @@ void require_outward_rounding() {
       product.lower() < 1.0 && product.upper() >= 1.0 && two_root.lower() < two_root.upper() &&
       (Real(two_root.lower()) * Real(two_root.lower())).upper() <= 2.0 &&
       (Real(two_root.upper()) * Real(two_root.upper())).lower() >= 2.0;
-  if (!right) throw std::runtime_error("the processor does not round as it was told to");
+  if (!right) throw std::runtime_error("the processor does not honour the rounding mode");
 }
 
 }  // namespace
 
 Upwards::Upwards() : before_(std::fegetround()) {
-  if (std::fesetround(FE_UPWARD) != 0) throw std::runtime_error("there is no rounding mode to set");
+  if (std::fesetround(FE_UPWARD) != 0) throw std::runtime_error("the rounding mode cannot be set");
   require_outward_rounding();
 }
 Upwards::~Upwards() { std::fesetround(before_); }

@@ -16,7 +16,7 @@ using Exact = boost::multiprecision::number<boost::multiprecision::cpp_bin_float
 bool holds(const Real& a, const Exact& exact) {
   return Exact(a.lower()) <= exact && exact <= Exact(a.upper());
 }
-/// No wider than a few roundings.
+/// At most a few rounding errors wide.
 bool is_tight(const Real& a) {
   return a.upper() - a.lower() <= 1e-15 * std::max(std::abs(a.lower()), std::abs(a.upper()));
 }
@@ -61,7 +61,7 @@ TEST(CheckInterval, DirectionsOfCommandsAreEnclosedAndEastIsExact) {
   EXPECT_TRUE(east.x.lower() == 1.0 && east.x.upper() == 1.0 && is_zero(east.y));
 }
 
-TEST(CheckInterval, TheRoundingModeIsTheOldOneAgainAfterwards) {
+TEST(CheckInterval, TheRoundingModeIsRestoredAfterwards) {
   const int before = std::fegetround();
   {
     const Upwards upwards;

@@ -1,4 +1,4 @@
-// fairway-check: re-proves a certificate, with no code of the program that made it.
+// fairway-check: re-proves a certificate, without any code of the program that made it.
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -24,19 +24,19 @@ struct Request {
 };
 
 void declare(CLI::App& app, Request& r) {
-  app.add_option("CERT", r.certificate, "of \"fairway verify\"")->required();
+  app.add_option("CERT", r.certificate, "certificate made by \"fairway verify\"")->required();
   app.add_option("--plan", r.plan, "refuse unless it is the certificate of this plan");
-  app.add_option("--samples", r.samples, "states that measure the claimed shares; 0: none")
+  app.add_option("--samples", r.samples, "states sampled to measure the claimed shares; 0: none")
       ->check(CLI::Range(0, 1 << 30))
       ->capture_default_str();
   app.add_option("--threads", r.threads, "default: all cores; the answer does not depend on it")
       ->check(CLI::Range(1, 1024));
   app.add_flag("--json", r.json, "print one JSON object");
-  app.add_flag("--quiet", r.quiet, "print nothing but the answer");
+  app.add_flag("--quiet", r.quiet, "print only the answer");
   app.set_version_flag("--version", "fairway-check " FAIRWAY_VERSION);
   app.footer(
-      "Exit codes: 0 accepted, 1 refused, 64 wrong usage, 65 no readable certificate, 70 our "
-      "fault, 74 standard output could not be written.");
+      "Exit codes: 0 accepted, 1 refused, 64 wrong usage, 65 certificate not readable, 70 "
+      "internal error, 74 standard output could not be written.");
 }
 
 int run(const Request& r) {
@@ -69,7 +69,7 @@ int run(const Request& r) {
 }  // namespace
 }  // namespace fairway_check
 
-/// An answer that could not be written is none: 0 becomes 74.
+/// An answer that could not be written does not count: 0 becomes 74.
 int when_written(int code) {
   std::cout.flush();
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;
@@ -93,7 +93,7 @@ int checked(int count, char** words) {
   } catch (const fairway_check::Defect& defect) {
     return failed(defect.what(), defect.code);
   } catch (const nlohmann::json::exception& error) {
-    return failed(std::string("is not understood: ") + error.what(), 65);
+    return failed(std::string("cannot be understood: ") + error.what(), 65);
   } catch (const std::exception& error) {
     return failed(error.what(), 70);
   }

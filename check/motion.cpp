@@ -11,7 +11,7 @@ const Real unit_range(-1.0, 1.0);
 constexpr double diagonal = 1.4143;  // > sqrt(2)
 
 /// An upper bound of the angle between unit vectors of two sets, less than 180 degrees: four times
-/// the arc tangent of the tangent of its quarter, by the series up to a positive term.
+/// the arc tangent of the tangent of its quarter, from the series up to a positive term.
 double largest_angle(const Vec& a, const Vec& b) {
   const Real cosine(std::clamp(dot(a, b).lower(), -1.0, 1.0));
   const Real t = root((1.0 - cosine) * 0.5) / (1.0 + root((1.0 + cosine) * 0.5));
@@ -20,14 +20,15 @@ double largest_angle(const Vec& a, const Vec& b) {
   return (4.0 * t * series / 945.0).upper();
 }
 
-/// Headings on arcs of less than 180 degrees from `first` to `last`. One component runs from end to
-/// end unless the arc passes its axis, which it does not while the other one keeps its sign.
+/// Headings on arcs of less than 180 degrees from `first` to `last`. A component goes from its
+/// value at one end to that at the other unless the arc passes its axis, which it does not while
+/// the other component keeps its sign.
 Vec headings_between(const Vec& first, const Vec& last) {
   return {positive(first.y * last.y) ? hull(first.x, last.x) : unit_range,
           positive(first.x * last.x) ? hull(first.y, last.y) : unit_range};
 }
 
-/// What of (x, y) may be a unit vector with x >= 0; false when nothing.
+/// The part of (x, y) that may be a unit vector with x >= 0; false when empty.
 bool keep_on_circle(Vec& heading) {
   if (!cut(heading.x, root(1.0 - square(heading.y)))) return false;
   const Real size = root(1.0 - square(heading.x));
@@ -42,7 +43,7 @@ bool keep_between_corners(Way& way) {
   return cut(way.place, side_range);
 }
 
-/// Straight on from `at`; every way is `like` but for where it leaves.
+/// Straight on from `at`; every way is `like` except for where it leaves.
 bool go_straight(const Vec& at, const Way& like, std::vector<Way>& ways) {
   for (int side = 0; side < 4; ++side) {
     const Vec u = into_frame(side, like.heading);
@@ -56,20 +57,20 @@ bool go_straight(const Vec& at, const Way& like, std::vector<Way>& ways) {
     if (positive(u.x)) {
       way.place = p.y + gap * (u.y / u.x);
       length = std::min(length, (gap / u.x).upper());
-    } else {  // beside the side, or towards it under a very small angle
+    } else {  // along the side, or towards it at a very small angle
       if (gap.lower() > 0.0 && u.x.upper() == 0.0) continue;
       way.skims = true;
       const Real until = gap.lower() > 0.0 ? Real(gap.lower()) / u.x.upper() : Real(0.0);
       const double ahead = u.y.lower() > 0.5 ? 1.0 : u.y.upper() < -0.5 ? -1.0 : 0.0;
       if (ahead == 0.0) return false;
       const Real from = ahead * (p.y + until * u.y);
-      way.place = ahead * Real(std::min(from.lower(), 1.0), 1.0);  // and on, to the side's end
+      way.place = ahead * Real(std::min(from.lower(), 1.0), 1.0);  // and further, to the side's end
     }
     // Until it leaves, it stays between the side's ends.
     if (positive(u.y)) length = std::min(length, ((0.5 - p.y) / u.y).upper());
     if (negative(u.y)) length = std::min(length, ((-0.5 - p.y) / u.y).upper());
     if (!keep_between_corners(way)) continue;
-    // What runs exactly on the side comes to its end together with the side ahead: told there.
+    // A state running exactly on the side reaches its end together with the side ahead: see there.
     if (is_zero(u.x)) way.at_low = way.at_high = false;
     way.length = (Real(like.length) + length).upper();
     ways.push_back(way);
@@ -89,7 +90,7 @@ struct Arc {
 /// One of the events that may end an arc.
 struct Event {
   Way way;
-  bool possible = false;  // as the first event of some state
+  bool possible = false;  // it may be the first event of some state
   bool sure = false;      // every state meets it within 90 degrees, unless another comes first, ...
   Vec heading;            // ... with one of these headings
 };
@@ -134,7 +135,7 @@ bool align_and_go(const Arc& arc, const Vec& command, Vec at, std::vector<Way>& 
 /// `ahead`: the cosines of the angles to the command.
 bool go_turning(const Bundle& set, const Vec& command, int sign, const Real& ahead,
                 const Real& radius, std::vector<Way>& ways) {
-  const bool will_align = positive(ahead);  // if it stays so long
+  const bool will_align = positive(ahead);  // if it stays that long
   const double k = sign;
   const Real kr = k * radius;
   const Vec& u = set.heading;
@@ -142,7 +143,7 @@ bool go_turning(const Bundle& set, const Vec& command, int sign, const Real& ahe
   const Vec centre = set.turn == sign ? set.centre : Vec{set.at.x - kr * u.y, set.at.y + kr * u.x};
   const Arc arc{u, headings_between(u, last), centre, k, kr, radius};
   const Vec at{centre.x + kr * command.y, centre.y - kr * command.x};  // when aligned
-  // No state's part changes its sign on the way when no product of its first and last is below 0.
+  // No state's component changes sign on the way if no product of its first and last is below 0.
   const auto runs_one_way_inside = [](const Real& first, const Real& end, const Real& place) {
     return (first * end).lower() >= 0.0 && place.lower() > -0.5 && place.upper() < 0.5;
   };
@@ -152,7 +153,7 @@ bool go_turning(const Bundle& set, const Vec& command, int sign, const Real& ahe
   }
   std::array<Event, 5> events;  // the last one: aligning
   for (int side = 0; side < 4; ++side) {
-    // Between two headings there is none that points out of a side of which neither does.
+    // If neither of two headings points out of a side, none between them does.
     if (into_frame(side, u).x.upper() <= 0.0 && negative(into_frame(side, last).x)) continue;
     events[static_cast<std::size_t>(side)] = crossing(arc, side);
   }
@@ -185,7 +186,7 @@ bool find_ways(const Bundle& set, const Command& command, const Real& radius,
   const Real ahead = dot(set.heading, command.heading);
   const bool one_side = positive(left) || negative(left);
   if (!one_side && !positive(ahead) && !negative(ahead)) return false;
-  // Both turns where it may be either: aligned, or opposite.
+  // Both turns where either is possible: aligned, or opposite.
   return (negative(left) || go_turning(set, command.heading, 1, ahead, radius, ways)) &&
          (positive(left) || go_turning(set, command.heading, -1, ahead, radius, ways));
 }

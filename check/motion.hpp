@@ -1,13 +1,13 @@
 // How a set of states may leave a cell: an enclosure of the motion of docs/model.md, one arc of
 // the turning radius towards the command, then straight.
 //
-// Lengths are in cells, and a cell is the square [-1/2, 1/2]^2 about its own middle, so that all
+// Lengths are in cells, and a cell is the square [-1/2, 1/2]^2 about its own centre, so that all
 // four sides look alike in their frames (interval.hpp): the side is x = 1/2, and a vehicle that
 // turns with sign k (+1 left) about (a, b) on radius R crosses it outwards in exactly one point,
 //     heading (sqrt(1 - h^2), h), h = k (1/2 - a) / R, at the place y = b - k R sqrt(1 - h^2).
-// A state leaves a cell by the first of these four events, unless it is aligned before; all happen
-// within 90 degrees of the start, for the chord is at most sqrt(2) < sqrt(2) R, so that of two
-// events the one with the other's heading on its turning side is the earlier one.
+// A state leaves a cell by the first of these four events, unless it aligns first; all happen
+// within 90 degrees of the start, because the chord is at most sqrt(2) < sqrt(2) R, so of two
+// events the earlier one has the other's heading on its turning side.
 #pragma once
 
 #include <vector>
@@ -27,17 +27,17 @@ struct Bundle {
 struct Command {
   Vec heading{};
   bool exists = false;    ///< else the cell is crossed straight
-  bool is_flown = false;  ///< the states' heading is this command, as a number
+  bool is_flown = false;  ///< the states' heading is exactly this command
 };
 
-/// What may leave by one side.
+/// The states that may leave by one side.
 struct Way {
   int side = 0;
   Real place{};          ///< along the side, in its frame, within [-1/2, 1/2]
   bool at_low = false;   ///< may pass through the corner at -1/2 ...
   bool at_high = false;  ///< ... or at 1/2
   bool skims = false;    ///< may run along the side, straight
-  bool aligned = false;  ///< the heading is the command, as a number
+  bool aligned = false;  ///< the heading is exactly the command
   Vec heading{};
   int turn = 0;  ///< as in Bundle
   Vec centre{};
@@ -45,7 +45,7 @@ struct Way {
 };
 
 /// Adds every way by which a state of `set` may leave. `radius` > 1 cell. False: the set is too
-/// large to follow, the ways say nothing. Needs `Upwards`.
+/// large to follow and the ways are meaningless. Needs `Upwards`.
 [[nodiscard]] bool find_ways(const Bundle& set, const Command& command, const Real& radius,
                              std::vector<Way>& ways);
 

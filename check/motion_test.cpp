@@ -30,7 +30,7 @@ Wide along(int side, const Exact& v) {
   return side == 0 ? v.y : side == 1 ? Wide(-v.x) : side == 2 ? Wide(-v.y) : v.x;
 }
 
-/// A set with how to draw its states: positions (or centres, when turning) in a box, headings
+/// A set with a way to draw its states: positions (or centres, when turning) in a box, headings
 /// between two angles.
 struct Draw {
   double radius = 2.0;
@@ -75,7 +75,7 @@ double heading(Random& random) {
 
 double end(Random& random) { return random.below(2) == 0 ? -0.5 : 0.5; }
 
-/// Sets on sides, in corners, through corners on purpose, commands ahead, behind and mirrored.
+/// Sets on sides, in corners and through corners on purpose; commands ahead, behind and mirrored.
 Draw draw(Random& random) {
   constexpr std::array<double, 5> radii{1.0000001, 1.01, 1.5, 2.5, 300.0};
   constexpr std::array<double, 6> widths{0.0, 1e-12, 1e-7, 1e-3, 0.05, 0.3};
@@ -128,7 +128,7 @@ bool encloses(const Way& way, const fairway::WideExit<Wide>& exit) {
          static_cast<long double>(way.length) >= exit.length * (1.0L - 1e-15L);
 }
 
-/// Counts the states followed; every exit of each lies in some way.
+/// Counts the states followed; every exit of each must lie in one of the ways.
 int follow_members(const Draw& d, Random& random, const std::vector<Way>& ways) {
   const fairway::WideCell<Wide> cell(1.0, d.radius);
   int followed = 0;
@@ -138,7 +138,7 @@ int follow_members(const Draw& d, Random& random, const std::vector<Way>& ways) 
     if (d.turn != 0) p = p - (Wide(d.turn) * Wide(d.radius)) * fairway::wide_left(u);
     p = p + Exact{Wide(0.5), Wide(0.5)};
     if (p.x < 0 || p.x > 1 || p.y < 0 || p.y > 1) continue;
-    // A state on a side that heads out of it is another cell's.
+    // A state on a side that heads out of it belongs to another cell.
     if ((p.x == 0 && u.x < 0) || (p.x == 1 && u.x > 0) || (p.y == 0 && u.y < 0) ||
         (p.y == 1 && u.y > 0))
       continue;

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// A certificate file taken apart, to be changed and put together again.
+/// A certificate file taken apart, to be changed and reassembled.
 struct Parts {
   json header;
   json record;
@@ -57,7 +57,7 @@ struct Parts {
     while (at<std::uint32_t>("section_first", s + 1) <= leaf) ++s;
     return s;
   }
-  /// The last leaf of which `good` holds.
+  /// The last leaf for which `good` holds.
   std::size_t find(const std::function<bool(std::size_t)>& good) const {
     for (std::size_t leaf = leaves(); leaf-- > 0;) {
       if (good(leaf)) return leaf;
@@ -69,7 +69,7 @@ struct Parts {
     return find(
         [&](std::size_t leaf) { return at<std::uint8_t>("leaf_verdict", leaf) == verdict; });
   }
-  /// With digests of what is there now.
+  /// With digests of the current content.
   void sign() {
     for (const auto& [name, bytes] : arrays) record["sha256"][name] = sha256(bytes);
     for (const char* name : {"heading_rad", "region"})
@@ -201,7 +201,7 @@ TEST_F(CheckMutation, EveryOtherVerdictOfALeafIsRefused) {
   }
   Parts changed = good;
   changed.put<std::uint8_t>("leaf_verdict", 0, 5);
-  expect_refused(changed, "its verdict, rank and time cannot be");
+  expect_refused(changed, "has an invalid verdict, rank or time");
 }
 
 TEST_F(CheckMutation, UndecidedLeavesCannotBeClaimed) {
@@ -247,22 +247,22 @@ TEST_F(CheckMutation, RanksMustFallAndTimesMustBound) {
   expect_refused(changed, "its rank is 7");
   changed = good;
   changed.put("leaf_time_s", leaf, 0.9F * time_s);
-  expect_refused(changed, "it takes up to");
+  expect_refused(changed, "takes up to");
   changed = good;
-  changed.put("leaf_time_s", leaf, 10.0F * time_s);  // no lie itself, but others build on it
+  changed.put("leaf_time_s", leaf, 10.0F * time_s);  // not false itself, but others build on it
   changed.sign();
-  EXPECT_THAT(refusal(changed.file()), testing::AnyOf("", testing::HasSubstr("it takes up to")));
+  EXPECT_THAT(refusal(changed.file()), testing::AnyOf("", testing::HasSubstr("takes up to")));
   for (const float bad :
        {-1.0F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     changed = good;
     changed.put("leaf_time_s", leaf, bad);
-    expect_refused(changed, "its verdict, rank and time cannot be");
+    expect_refused(changed, "has an invalid verdict, rank or time");
   }
 }
 
 TEST_F(CheckMutation, ShiftedLeavesAreRefused) {
   const Parts good(good_);
-  // The last leaf of a verdict is stretched over all that lies between it and another verdict, and
+  // The last leaf of a verdict is stretched over everything between it and another verdict, and
   // over most of that.
   const auto verdict = [&](std::size_t i) { return good.at<std::uint8_t>("leaf_verdict", i); };
   std::size_t other = 0;
@@ -306,7 +306,7 @@ TEST_F(CheckMutation, ChangedCommandsCellsAndGeometryAreRefused) {
   changed = good;  // a new obstacle, where flights pass and leaves are
   changed.put<std::int8_t>("region", 4 * 12 + 10, 1);
   changed.put<std::uint8_t>("cell_kind", 4 * 12 + 10, obstacle);
-  expect_refused(changed, "a section has leaves that cannot");
+  expect_refused(changed, "a section has leaves where it cannot");
   changed = good;
   changed.record["region_of_interest"] = "obstacle";
   expect_refused(changed, "command, region or cell_kind");
@@ -369,7 +369,7 @@ TEST_F(CheckMutation, ThePlanIsComparedWholeWithItsFrameAndVehicle) {
     changes[i](other);
     EXPECT_THAT(judged(other), testing::HasSubstr("is not the certificate of the plan")) << i;
   }
-  // No frame, and that of the grid itself, are the same place.
+  // No frame, and the grid's own frame, are the same place.
   plan.record.frame.reset();
   write_sample(plan, folder_ / "framed");
   EXPECT_EQ(judged(plan), "");
@@ -424,12 +424,12 @@ TEST_F(CheckMutation, DamagedFilesAreNotJudgedOrRefused) {
   for (std::size_t i = 0; i < good.arrays.at("leaf_begin").size(); i += 4001) {
     Parts changed = good;
     changed.arrays["leaf_begin"][i] = static_cast<char>(changed.arrays["leaf_begin"][i] ^ 1);
-    EXPECT_THAT(refusal(changed.file()), testing::HasSubstr("leaf_begin: its digest"));
+    EXPECT_THAT(refusal(changed.file()), testing::HasSubstr("leaf_begin: digest mismatch"));
   }
   for (const std::size_t size : {0UL, 5UL, 100UL, good_.size() / 2, good_.size() - 1}) {
     EXPECT_THAT(refusal(good_.substr(0, size)), testing::StartsWith("unreadable: ")) << size;
   }
-  EXPECT_THAT(refusal(good_ + "x"), testing::HasSubstr("goes on after its last array"));
+  EXPECT_THAT(refusal(good_ + "x"), testing::HasSubstr("has bytes after its last array"));
   Parts changed = good;
   changed.record["plan_sha256"]["region"] = changed.record["plan_sha256"]["heading_rad"];
   EXPECT_THAT(refusal(changed.file()), testing::HasSubstr("not those of the plan"));

@@ -14,10 +14,10 @@
 namespace fairway_check {
 namespace {
 
-/// What is claimed of all the places where the flights of a set arrive or end.
+/// What is claimed about all places where the flights of a set arrive or end.
 class Outcome : public Listener {
  public:
-  /// `own`: the leaf that the set is, on which a hop may come down.
+  /// `own`: the leaf that the set is, on which a hop may land.
   explicit Outcome(const Certificate& c, std::size_t own = ~std::size_t{0})
       : c_(c), own_(own), seconds_per_cell_(Real(c.geometry.cell_m) / c.geometry.speed_mps) {}
 
@@ -44,11 +44,11 @@ class Outcome : public Listener {
   }
   void give_up() override { tell(undecided, 0.0); }
 
-  /// Places run upwards and to the right; in the frames of top and left the other way round.
+  /// Places run upwards and to the right, but in the frames of top and left the other way round.
   static Real turned(std::size_t section, const Real& place) {
     return section % 4 == 1 || section % 4 == 2 ? -place : place;
   }
-  /// The verdict of all; undecided when there are several, or nothing was told.
+  /// The verdict of all; undecided when there are several, or nothing was reported.
   Verdict verdict() const {
     return std::has_single_bit(told) ? static_cast<Verdict>(std::countr_zero(told)) : undecided;
   }
@@ -56,7 +56,7 @@ class Outcome : public Listener {
   unsigned told = 0;           ///< a bit for every verdict
   std::size_t least_rank = 0;  ///< above that of every leaf
   double worst_s = 0.0;
-  double hop_s = 0.0;  ///< of one hop that may come down on the leaf itself
+  double hop_s = 0.0;  ///< of one hop that may land on the leaf itself
 
  private:
   void tell(std::uint8_t verdict, double time_s) {
@@ -71,7 +71,7 @@ class Outcome : public Listener {
 
 /// The rule for one leaf: "" when it holds, else why not.
 std::string defect_of_leaf(const Certificate& c, std::size_t section, std::size_t leaf) {
-  // Lemma 5: a hop moves every state on by 4 R sin n, n the angle of the heading to the side.
+  // Lemma 5: a hop moves every state by 4 R sin n, n the angle of the heading to the side.
   const Vec heading = into_frame(static_cast<int>(section % 4), c.loop.direction[section / 4]);
   const Real hop = 4.0 * c.loop.radius * heading.x * 0x1p32;
   const bool one_way = positive(hop) && (positive(heading.y) || negative(heading.y));
@@ -79,25 +79,25 @@ std::string defect_of_leaf(const Certificate& c, std::size_t section, std::size_
   Outcome outcome(c, one_way ? leaf : ~std::size_t{0});
   follow_section(c.loop, section, Outcome::turned(section, units * 0x1p-32 - 0.5),
                  outcome);  // exact
-  // Each may have hopped all over the leaf before it does anything else.
+  // Each may have hopped across the whole leaf before it does anything else.
   const Real hops =
       outcome.hop_s > 0.0 ? Real(std::floor((width(units) / hop).upper())) : Real(0.0);
   const double worst_s = (outcome.worst_s + hops * outcome.hop_s).upper();
   const Verdict verdict = static_cast<Verdict>(c.verdict[leaf]);
   if (outcome.verdict() != verdict) {
-    std::string told = "what is told of its states is:";
+    std::string told = "re-proved outcomes:";
     for (unsigned v = 0; v < verdict_count; ++v)
       told += (outcome.told >> v & 1U) != 0 ? fmt::format(" {}", verdict_name[v]) : "";
     return told;
   }
   if (verdict == trapped) return {};
   if (outcome.least_rank > c.rank[leaf]) {
-    return fmt::format("its rank is {}, its states come to one of rank {}", c.rank[leaf],
+    return fmt::format("its rank is {}, but its states come to a leaf of rank {}", c.rank[leaf],
                        outcome.least_rank - 1);
   }
   const double claimed_s = c.time_s[leaf];
   if (worst_s <= claimed_s) return {};
-  return fmt::format("it takes up to {:.9g} s, claimed are {:.9g} s", worst_s, claimed_s);
+  return fmt::format("takes up to {:.9g} s, but {:.9g} s is claimed", worst_s, claimed_s);
 }
 
 /// Which leaves are decided and fail, 1 or 0.

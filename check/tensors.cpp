@@ -15,7 +15,7 @@
 
 namespace fairway_check {
 
-static_assert(std::endian::native == std::endian::little, "arrays are read as they lie");
+static_assert(std::endian::native == std::endian::little, "arrays are read in place");
 
 void require(bool good, std::string_view otherwise, int code) {
   if (!good) throw Defect(code, otherwise);
@@ -35,7 +35,7 @@ std::size_t members_in(const json& value) {
   return count;
 }
 
-/// Not deep, and no key twice in an object: the value has as many members as the text has colons.
+/// Not deep, and no repeated keys: the value has as many members as the text has colons.
 json strict_json(std::string_view text) {
   require(text.find('\0') == std::string_view::npos, "holds a zero byte", unreadable);
   std::size_t colons = 0;
@@ -44,7 +44,7 @@ json strict_json(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (c == '"') quoted = !quoted;
-    if (quoted && c == '\\') ++i;  // and what is escaped
+    if (quoted && c == '\\') ++i;  // and the escaped character
     if (quoted) continue;
     colons += c == ':' ? 1 : 0;
     depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
@@ -57,7 +57,7 @@ json strict_json(std::string_view text) {
 
 std::vector<std::uint64_t> whole_numbers(const json& list) {
   for (const json& number : list) {
-    require(number.is_number_unsigned(), "has a header with other than whole numbers", unreadable);
+    require(number.is_number_unsigned(), "header: expected non-negative integers", unreadable);
   }
   return list.get<std::vector<std::uint64_t>>();
 }
@@ -72,14 +72,14 @@ TensorFile tensors_of(std::string_view text, std::span<const char> data) {
       {"I16", 2}, {"U16", 2}, {"I8", 1},  {"U8", 1},  {"BOOL", 1}};
   require(text.starts_with('{') && text.size() <= longest_header &&
               std::all_of(text.begin(), text.end(), is_ascii),
-          "has no header of ASCII text", unreadable);
+          "has a header that is not ASCII text", unreadable);
   const json header = strict_json(text);
   const json& metadata = header.at("__metadata__");
   require(header.size() <= most_members && metadata.is_object() &&
               metadata.size() <= most_members &&
               std::all_of(metadata.begin(), metadata.end(),
                           [](const json& m) { return m.is_string(); }),
-          "has a header of too many members, or __metadata__ that is not strings", unreadable);
+          "has a header with too many members, or __metadata__ that is not strings", unreadable);
   TensorFile file;
   file.record = strict_json(metadata.at("fairway").get<std::string>());
   std::vector<std::array<std::uint64_t, 2>> places;
@@ -95,17 +95,17 @@ TensorFile tensors_of(std::string_view text, std::span<const char> data) {
     for (const std::uint64_t extent : tensor.shape)
       fits = fits && !__builtin_mul_overflow(bytes, extent, &bytes);
     require(fits && bytes == offsets[1] - offsets[0],
-            name + ": its type, shape and place do not fit, or the file is cut short", unreadable);
+            name + ": type, shape and offsets do not match, or the file is cut short", unreadable);
     tensor.bytes = data.subspan(offsets[0], bytes);
     places.push_back({offsets[0], offsets[1]});
   }
   std::sort(places.begin(), places.end());
   std::uint64_t filled = 0;
   for (const auto& [begin, end] : places) {
-    require(begin == filled, "has arrays that overlap or leave holes", unreadable);
+    require(begin == filled, "has arrays that overlap or leave gaps", unreadable);
     filled = end;
   }
-  require(filled == data.size(), "goes on after its last array", unreadable);
+  require(filled == data.size(), "has bytes after its last array", unreadable);
   return file;
 }
 
@@ -120,9 +120,9 @@ TensorFile read_tensors(const std::string& path) {
   const std::shared_ptr<void> mapping(place, [size](void* at) { ::munmap(at, size); });
   const std::span<const char> all(static_cast<const char*>(place), size);
   std::uint64_t length = 0;
-  require(size >= 8, "is no safetensors file", unreadable);
+  require(size >= 8, "is not a safetensors file", unreadable);
   std::memcpy(&length, all.data(), 8);
-  require(length <= size - 8, "is cut short, or no safetensors file", unreadable);
+  require(length <= size - 8, "is truncated, or not a safetensors file", unreadable);
   TensorFile file = tensors_of({all.data() + 8, length}, all.subspan(8 + length));
   file.mapping = mapping;
   return file;

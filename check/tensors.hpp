@@ -1,4 +1,4 @@
-// Reading a safetensors file: eight bytes with the length of a JSON header, the header, the arrays.
+// Reads a safetensors file: eight bytes with the length of a JSON header, the header, the arrays.
 #pragma once
 
 #include <map>
@@ -13,8 +13,8 @@
 
 namespace fairway_check {
 
-/// What is wrong with a file. `code` is the program's exit code: `unreadable`, it is not what it
-/// should be and there is nothing to judge; 1, it is, and it is refused.
+/// What is wrong with a file. `code` is the program's exit code: `unreadable` when it is not a
+/// certificate that can be judged; 1 when it is, and it is refused.
 inline constexpr int unreadable = 65;
 struct Defect : std::runtime_error {
   Defect(int code_, std::string_view what) : std::runtime_error(std::string(what)), code(code_) {}
@@ -29,17 +29,17 @@ struct Tensor {
 };
 
 struct TensorFile {
-  std::shared_ptr<void> mapping;  ///< of the file, in which the arrays lie
+  std::shared_ptr<void> mapping;  ///< of the file that contains the arrays
   std::map<std::string, Tensor> tensors;
   nlohmann::json record;  ///< the JSON in __metadata__.fairway
 };
 
 /// By the grammar of docs/formats.md, "Header": types, shapes and sizes agree, and the arrays fill
-/// the file without holes or overlaps. Nothing behind the header is loaded. Throws Defect 65, or
-/// nlohmann::json::exception where the header is not understood.
+/// the file without gaps or overlaps. Nothing after the header is loaded. Throws Defect 65, or
+/// nlohmann::json::exception when the header cannot be parsed.
 TensorFile read_tensors(const std::string& path);
 
-/// The same of a header, with the bytes behind it.
+/// The same for a header and the bytes after it.
 TensorFile tensors_of(std::string_view header, std::span<const char> data);
 
 std::string sha256(std::span<const char> bytes);

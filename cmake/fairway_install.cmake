@@ -1,8 +1,8 @@
 # Install and export. find_package(fairway) gives two targets, pkg-config two modules:
 #   fairway::fairway, fairway          the core library with the headers of its nouns and verbs
-#   fairway::runtime, fairway-runtime  headers alone, for the vehicle: fairway/runtime.hpp and what
-#                                      it includes; find_package(fairway COMPONENTS runtime) looks
-#                                      for no other package
+#   fairway::runtime, fairway-runtime  only headers, for the vehicle: fairway/runtime.hpp and what
+#                                      it includes; find_package(fairway COMPONENTS runtime) needs
+#                                      no other package
 include(CMakePackageConfigHelpers)
 
 install(TARGETS fairway_runtime EXPORT fairway_runtime_targets
@@ -25,13 +25,13 @@ install(FILES ${PROJECT_BINARY_DIR}/fairway-config.cmake
   ${PROJECT_BINARY_DIR}/fairway-config-version.cmake DESTINATION ${fairway_package_dir}
   COMPONENT development)
 
-# For pkg-config. The prefix is found from where the file lies, so any PREFIX will do.
+# For pkg-config. The prefix is derived from the file's location, so any PREFIX works.
 set(fairway_pkgconfig_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH fairway_up /prefix/${fairway_pkgconfig_dir} /prefix)  # ../..
 string(REGEX REPLACE "/$" "" fairway_up ${fairway_up})
 set(fairway_requires "tbb")
 set(fairway_requires_private "fmt libcrypto")
-if(NOT BUILD_SHARED_LIBS)  # a static library hands its own dependencies on to the linker
+if(NOT BUILD_SHARED_LIBS)  # a static library passes its own dependencies on to the linker
   string(APPEND fairway_requires " ${fairway_requires_private}")
   set(fairway_requires_private "")
 endif()
@@ -41,7 +41,7 @@ foreach(module fairway fairway-runtime)
     COMPONENT development)
 endforeach()
 
-# The docs, as they stand here, and the demonstration. Debian keeps licences elsewhere.
+# The docs, as they are here, and the demonstration. Debian keeps licences elsewhere.
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}

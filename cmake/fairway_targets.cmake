@@ -1,4 +1,4 @@
-# What every target of the project shares, and how the tests of a folder are declared.
+# What all targets of the project share, and how the tests of a folder are declared.
 
 function(fairway_defaults target)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -7,12 +7,12 @@ function(fairway_defaults target)
   target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wshadow -Wconversion
     -Wno-sign-conversion -Wnon-virtual-dtor)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # GCC 12 sees overlaps in "literal" + std::string that are not there (GCC bug 105651).
+    # GCC 12 warns of overlaps in "literal" + std::string that do not exist (GCC bug 105651).
     target_compile_options(${target} PRIVATE -Wno-restrict)
   endif()
   get_target_property(type ${target} TYPE)
   if(FAIRWAY_BUILD_PYTHON AND type STREQUAL "STATIC_LIBRARY")
-    # For the Python module; calls within the library stay direct, and are inlined, all the same.
+    # For the Python module; calls within the library still stay direct and are inlined.
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_compile_options(${target} PRIVATE -fno-semantic-interposition)
   endif()
@@ -27,7 +27,7 @@ function(fairway_defaults target)
 endfunction()
 
 # fairway_sources(TARGET SOURCES a.cpp ... HEADERS a.hpp ...): paths relative to the folder.
-# Headers keep their path below the project: "fairway/map/region.hpp" here and once installed.
+# Headers keep their path below the project: "fairway/map/region.hpp" here and when installed.
 function(fairway_sources target)
   cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS" ${ARGN})
   list(TRANSFORM ARG_SOURCES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
@@ -38,7 +38,7 @@ function(fairway_sources target)
 endfunction()
 
 # fairway_headers_behind(RESULT HEADER): HEADER and every header of the project that it includes,
-# directly or not, as absolute paths. Configures again when one of them changes.
+# directly or not, as absolute paths. Reconfigures when one of them changes.
 function(fairway_headers_behind result header)
   set(found "")
   set(waiting ${header})
@@ -72,6 +72,6 @@ function(fairway_tests name)
     FAIRWAY_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     FAIRWAY_SHARED_MAPS="${PROJECT_SOURCE_DIR}/../shared/maps")
   add_test(NAME ${name} COMMAND ${name})
-  # The same draws on every run; another seed is one RC_PARAMS away.
+  # The same draws on every run; set RC_PARAMS for another seed.
   set_tests_properties(${name} PROPERTIES ENVIRONMENT "RC_PARAMS=seed=2013")
 endfunction()

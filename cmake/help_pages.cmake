@@ -1,4 +1,4 @@
-# Manual pages and shell completions, made from what the built programs say with --help.
+# Manual pages and shell completions, made from the --help output of the built programs.
 if(NOT Python3_EXECUTABLE)
   message(STATUS "Manual pages and completions are left out: no Python 3")
   return()

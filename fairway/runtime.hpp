@@ -1,19 +1,19 @@
-// For the vehicle: what to steer, and what is proved, at any state. Looks into a certificate file
+// For the vehicle: what to steer, and what is proved, at any state. Reads a certificate file
 // mapped into memory (docs/formats.md).
 //
-// No heap, no exceptions, no library but the standard's; safe to call from several threads at once.
+// No heap, no exceptions, only the standard library; safe to call from several threads at once.
 //
 //     fairway::runtime::Certificate certificate;
 //     if (certificate.open(bytes, size) != fairway::runtime::Status::ok) ...
 //     const fairway::runtime::Answer answer = certificate.query(x_m, y_m, heading_rad);
 //
-// open() reads the header as every other reader does, and checks that every array is there and
-// fits, so that no query can read beside the file. It neither checks digests nor proves anything:
-// that is `fairway check`, once, on the ground. Properties that always hold:
+// open() reads the header like every other reader, and checks that every array is present and
+// fits, so that no query can read out of bounds. It neither checks digests nor proves anything:
+// `fairway check` does, once, on the ground. Properties that always hold:
 //   1. A verdict other than undecided is that of every flight of the model from the state
-//      (docs/trust.md), if the certificate is one that `fairway check` accepts.
+//      (docs/trust.md), provided that `fairway check` accepts the certificate.
 //   2. A state that is not finite, or far outside, is undecided; outside the grid it is `leave`.
-// Cost (measured, docs/benchmarks.md): less than half a microsecond a query.
+// Cost (measured, docs/benchmarks.md): less than half a microsecond per query.
 #pragma once
 
 #include <cmath>
@@ -35,12 +35,12 @@ enum class Status : std::uint8_t {
   ok,
   too_short,        ///< not even a header
   not_certificate,  ///< an array is missing, or has another type
-  misfit            ///< sizes, offsets or numbers do not fit together
+  misfit            ///< sizes, offsets or numbers do not match
 };
 
 struct Answer {
   Verdict verdict = Verdict::undecided;
-  double time_bound_s = std::numeric_limits<double>::infinity();  ///< finite for `reach` alone
+  double time_bound_s = std::numeric_limits<double>::infinity();  ///< finite only for `reach`
 };
 
 using Command = HeadingCommand;
@@ -72,7 +72,7 @@ class Certificate {
     if (ny == 0 || nx == 0 || ny > most || nx > most) return Status::misfit;
     const std::uint64_t cells = ny * nx;
     const std::uint64_t leaves = verdict->shape[0];
-    // The arrays, where they lie; null when one is missing, or not what it should be.
+    // The arrays, in place; null when one is missing or not as expected.
     const auto place = [&](const char* name, const char* dtype, std::uint64_t width,
                            auto... shape) {
       const HeaderEntry* entry = header.find(name);

@@ -1,5 +1,5 @@
-// Every input of the corpus, what the fuzzers once found among them, gives a map, a path or an
-// InputError with a place and a reason; and nothing is printed.
+// Every input of the corpus, including what the fuzzers have found, gives a map, a path or an
+// InputError with a location and a reason; and nothing is printed.
 
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,4 @@
-// One libFuzzer program a reader; FAIRWAY_FUZZ_READER names it.
+// One libFuzzer program per reader; FAIRWAY_FUZZ_READER names the reader.
 
 #include <cstddef>
 #include <cstdint>

@@ -60,7 +60,7 @@ void write_file(const std::filesystem::path& file, std::string_view bytes) {
   if (std::fclose(stream) != 0 || !whole) throw std::runtime_error("cannot write whole file");
 }
 
-// A folder for this process, with the images that some inputs speak of.
+// A folder for this process, with the images that some inputs refer to.
 class Folder {
  public:
   Folder()

@@ -1,5 +1,5 @@
-// One input for one reader, as the fuzzers and the corpus test give it: a value or an InputError,
-// anything else is a bug.
+// Feeds one input to one reader, for the fuzzers and the corpus test: the result is a value or an
+// InputError, anything else is a bug.
 #pragma once
 
 #include <span>
@@ -8,11 +8,11 @@
 
 namespace fairway {
 
-/// Names of the readers that can be fed; a folder of the corpus each.
+/// Names of the readers that can be fed; each has a folder in the corpus.
 [[nodiscard]] std::span<const std::string_view> readers_to_feed();
 
-/// Puts `bytes` into a file and reads it. "read", or the message of the InputError; any other
-/// exception passes.
+/// Writes `bytes` to a file and reads it. Returns "read", or the message of the InputError; any
+/// other exception propagates.
 std::string feed(std::string_view reader, std::string_view bytes);
 
 }  // namespace fairway

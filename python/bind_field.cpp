@@ -32,7 +32,7 @@ Mission mission_from(const py::object& goal_m, std::optional<double> goal_headin
                      const py::object& path_m, bool closed, double delta_position_m,
                      double delta_heading_rad) {
   if (goal_m.is_none() == path_m.is_none()) {
-    throw py::value_error("expected goal_m=(x, y) or path_m=[[x, y], ...], one of the two");
+    throw py::value_error("expected either goal_m=(x, y) or path_m=[[x, y], ...]");
   }
   if (path_m.is_none()) return GoalMission{point_of(goal_m, "goal_m"), goal_heading_rad};
   if (goal_heading_rad) throw py::value_error("goal_heading_rad: belongs to goal_m, not to path_m");
@@ -90,10 +90,10 @@ void bind_field(py::module_& m) {
         "sigma_path"_a = d.sigma_path, "mu_border"_a = d.mu_border,
         "sigma_border"_a = d.sigma_border, "filter"_a = "free_space", "blend"_a = "continuous",
         "axis_capture_rad"_a = d.axis_capture_rad,
-        R"(The feedback plan for a map in memory.
+        R"(Computes the feedback plan for a map in memory.
 
-obstacles         bool or uint8 (0 free, 1 obstacle), [ny, nx], the lowest row first: an image has
-                  its rows the other way round, image[::-1]; or an ObstacleMap
+obstacles         bool or uint8 (0 free, 1 obstacle), [ny, nx], the lowest row first: images have
+                  their rows the other way round, use image[::-1]; or an ObstacleMap
 cell_m            side of a cell, metres
 origin_m          (x, y) of the lower left corner, metres; default (0, 0)
 speed_mps         constant speed, metres per second
@@ -102,12 +102,12 @@ goal_m            (x, y) of the place to reach, metres; or
 path_m            [n, 2], the path to follow, metres; closed=True joins its ends
 goal_heading_rad  heading to arrive with, radians counter-clockwise from east
 
-Beyond the array the vehicle has left the grid; give it a rim of obstacles to say that it must not.
+Beyond the array the vehicle has left the grid; add a rim of obstacles to make that a collision.
 The other keywords are the keys of a scenario's [plan] and [mission] tables (docs/scenario.md).
 
 Returns a Plan. Raises MissionRefused when the map does not allow the mission, ValueError when a
-number is out of range, TypeError when an array is of another type. Other threads of Python run
-meanwhile.)");
+number is out of range, TypeError when an array has the wrong type. Other Python threads keep
+running meanwhile.)");
 }
 
 }  // namespace fairway::python

@@ -60,7 +60,7 @@ ObstacleMap read(const std::filesystem::path& file, double cell_m,
 }  // namespace
 
 void bind_map(py::module_& m) {
-  add_enum(m, "Region", "What a cell is, as Plan.region has it.",
+  add_enum(m, "Region", "The class of a cell, as in Plan.region.",
            {{"buffer", static_cast<int>(Region::buffer)},
             {"free", static_cast<int>(Region::free)},
             {"obstacle", static_cast<int>(Region::obstacle)},
@@ -88,10 +88,9 @@ void bind_map(py::module_& m) {
       .def_property_readonly(
           "extent_m", [](const ObstacleMap& map) { return extent_of(map.grid); },
           "(x low, x high, y low, y high), metres: matplotlib's `extent`, with origin=\"lower\".")
-      .def_property_readonly(
-          "georeference", &georeference,
-          "Reference point of the tangent plane, a dict of latitude_deg, "
-          "longitude_deg, worst_error_m, when the map came in degrees; else None.")
+      .def_property_readonly("georeference", &georeference,
+                             "Reference point of the tangent plane, a dict of latitude_deg, "
+                             "longitude_deg, worst_error_m, if the map was in degrees; else None.")
       .def_property_readonly(
           "projected_crs", [](const ObstacleMap& map) { return map.frame.projected_crs; },
           "WKT of a projected map's reference system, or None.")
@@ -109,12 +108,12 @@ void bind_map(py::module_& m) {
         "footprint_radius_m"_a = defaults.footprint_radius_m, "reference_deg"_a = py::none(),
         "altitude_m"_a = py::none(), "margin_m"_a = defaults.margin_m,
         "world_margin_m"_a = py::none(),
-        R"(Reads a map file of any kind Fairway knows into cells of side `cell_m` (metres).
+        R"(Reads a map file of any supported format into cells of side `cell_m` (metres).
 
 ROS map_server .yaml, MovingAI .map, GeoJSON, QGroundControl .plan, ArduPilot fences, QGC
 waypoints, or images (GeoTIFF; PNG, PGM, ... with a world file or `resolution_m`, metres per
-pixel). Conservative: a cell that any obstacle point, grown by `footprint_radius_m`, touches is an
-obstacle. The keywords are the keys of a scenario's [map] table.
+pixel). Conservative: a cell is an obstacle if any obstacle point, grown by `footprint_radius_m`,
+touches it. The keywords are the keys of a scenario's [map] table.
 
 Raises InputError (a ValueError) naming the file and the line, key or feature.)");
 }

@@ -40,7 +40,7 @@ void bind_plan(py::module_& m) {
       .def_property_readonly(
           "cost_m",
           [](const py::object& self) { return array_of<float, float>(self, &Plan::cost_m); },
-          "float32 [ny, nx]: cost to go, metres; +inf: the goal cannot be reached from here.")
+          "float32 [ny, nx]: cost to go, metres; +inf where the goal cannot be reached.")
       .def_property_readonly(
           "region",
           [](const py::object& self) { return array_of<Region, std::int8_t>(self, &Plan::region); },
@@ -63,7 +63,7 @@ void bind_plan(py::module_& m) {
           "{\"speed_mps\": metres per second, \"turn_radius_m\": metres}.")
       .def_property_readonly(
           "record", [](const HeldPlan& p) { return python_of_json(json_text(p.plan.record)); },
-          "How the plan came about, a dict: mission, every effective option, inputs, frame "
+          "How the plan was made, a dict: mission, every effective option, inputs, frame "
           "(docs/formats.md).")
       .def(
           "command",
@@ -79,9 +79,8 @@ void bind_plan(py::module_& m) {
             write_plan(p.plan, path, force ? Existing::replace : Existing::keep);
           },
           "path"_a, py::kw_only(), "force"_a = true,
-          "Writes a plan file (safetensors), whole or not at all. One that is there is replaced; "
-          "with "
-          "force=False it is kept: InputError.")
+          "Writes a plan file (safetensors), whole or not at all. Replaces an existing file; with "
+          "force=False raises InputError instead.")
       .def(
           "save_geotiff",
           [](const HeldPlan& p, const std::filesystem::path& path, bool force) {
@@ -89,7 +88,7 @@ void bind_plan(py::module_& m) {
             write_plan_raster(p.plan, path, force ? Existing::replace : Existing::keep);
           },
           "path"_a, py::kw_only(), "force"_a = true,
-          "Heading, cost and region as the bands of a GeoTIFF, laid on Earth where the map was "
+          "Writes heading, cost and region as the bands of a GeoTIFF, georeferenced if the map was "
           "(docs/exchange.md).")
       .def(
           "states_from_deg",
@@ -124,7 +123,7 @@ georeferenced.)")
         return std::make_shared<HeldPlan>(read_plan(path));
       },
       "path"_a,
-      "Reads a plan file, strictly. Raises InputError (a ValueError) naming the field that is "
+      "Reads a plan file strictly. Raises InputError (a ValueError) naming the field that is "
       "wrong.");
 }
 

@@ -39,13 +39,13 @@ void save(const Picture& drawn, const std::filesystem::path& path, bool force) {
 }  // namespace
 
 void bind_picture(py::module_& m) {
-  py::class_<Picture>(m, "Picture", "A finished picture, as SVG and as PNG; notebooks show it.")
+  py::class_<Picture>(m, "Picture", "A finished picture, as SVG and as PNG; notebooks display it.")
       .def_property_readonly(
           "svg", [](const Picture& drawn) { return py::str(drawn.svg); }, "The SVG's text.")
       .def_property_readonly(
           "png", [](const Picture& drawn) { return py::bytes(drawn.png); }, "The PNG's bytes.")
       .def("save", &save, "path"_a, py::kw_only(), "force"_a = true,
-           "To a file that ends in .svg or .png; one that is there is replaced unless force=False.")
+           "Writes a .svg or .png file; replaces an existing one unless force=False.")
       .def("_repr_png_", [](const Picture& drawn) { return py::bytes(drawn.png); })
       .def("__repr__", [](const Picture&) { return "<fairway.Picture>"; });
 }
@@ -55,7 +55,7 @@ void bind_report(py::module_& m) {
   auto plan = py::class_<HeldPlan, std::shared_ptr<HeldPlan>>(m.attr("Plan"));
   plan.def("picture", &picture, py::kw_only(), "title"_a = "", "cost"_a = d.cost,
            "streamlines"_a = d.streamlines, "arrows"_a = d.arrows,
-           "Regions, cost to go and the field as streamlines or arrows, a Picture.");
+           "Draws regions, cost to go and the field as streamlines or arrows; returns a Picture.");
   plan.def("_repr_png_", [d](const HeldPlan& held) {
     return py::bytes(picture(held, "", d.cost, d.streamlines, d.arrows).png);
   });

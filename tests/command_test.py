@@ -367,7 +367,7 @@ class Plan(Command):
     def test_an_existing_plan_is_kept_unless_forced(self):
         (self.folder / "p.safetensors").write_text("precious")
         done = self.expect(65, "plan", "s.toml", "-o", "p.safetensors")
-        self.assertIn("p.safetensors: exists already", done.stderr)
+        self.assertIn("p.safetensors: already exists", done.stderr)
         self.assertEqual((self.folder / "p.safetensors").read_text(), "precious")
 
     def test_json_is_one_object_and_words_stay_away(self):

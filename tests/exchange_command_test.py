@@ -141,7 +141,7 @@ class Exchange(unittest.TestCase):
         self.assertTrue(report["on_earth"])  # the certificate alone says where it lies
         self.expect(0, "export", "c.safetensors", "-o", "eight.tif")
         self.expect(64, "export", "c.safetensors", "-o", "x.tif", "--heading", "north")
-        self.assertIn("s.toml: is a scenario: `fairway plan` makes a plan of it",
+        self.assertIn("s.toml: is a scenario: `fairway plan` makes a plan from it",
                       self.expect(65, "export", "s.toml", "-o", "x.tif").stderr)
         self.assertIn("expected a name that ends in .tif or .tiff",
                       self.expect(64, "export", "p.safetensors", "-o", "p.png").stderr)

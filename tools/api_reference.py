@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The API reference, from what the sources say of themselves: docstrings and type stubs of the Python
-package, comments of the public headers.
+"""The API reference, made from the sources: docstrings and type stubs of the Python package, comments
+of the public headers.
 
 Usage: api_reference.py python PACKAGE_FOLDER | cpp SOURCE_FOLDER. Prints Markdown.
 """
@@ -10,7 +10,7 @@ import pathlib
 import re
 import sys
 
-# What a program that uses the library calls; headers behind these are no promise.
+# Headers for programs that use the library; the headers behind these may change.
 HEADERS = {
     "base": ["vec2", "heading", "grid", "frame", "error", "atomic_file", "random"],
     "vehicle": ["vehicle", "mission"],
@@ -40,8 +40,8 @@ def python_reference(folder):
              if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
     lines = ["# Python API", "",
              "Made from the package's docstrings and type stubs by `tools/api_reference.py`. "
-             "[Python](../python.md) is the tutorial, with the conventions that hold everywhere. In signatures "
-             "`_Path` is a text or an `os.PathLike`, `_Pair` and `_Extent` tuples of two and four numbers, `_Progress` a "
+             "[Python](../python.md) is the tutorial, with the general conventions. In signatures, "
+             "`_Path` is a string or an `os.PathLike`, `_Pair` and `_Extent` are tuples of two and four numbers, `_Progress` a "
              "function of (stage, left_s), `_Law` a name or a function.", ""]
     functions = [n for n in fairway.__all__ if isinstance(stubs[n], ast.FunctionDef)]
     classes = [n for n in fairway.__all__ if isinstance(stubs[n], ast.ClassDef)]
@@ -64,7 +64,7 @@ def signature(stub, member=None):
 
 
 def fill_defaults(arguments, member):
-    """The stub's `...` become what pybind11's own signature says."""
+    """Replaces the stub's `...` with the values in pybind11's own signature."""
     first = (getattr(member, "__doc__", None) or "").partition("\n")[0]
     named = [(a, arguments.defaults, i - len(arguments.args) + len(arguments.defaults))
              for i, a in enumerate(arguments.args)]
@@ -85,7 +85,7 @@ def docs(member):
 
 
 def prose(text):
-    """Paragraphs; indented or aligned lines, as of arguments, in a block."""
+    """Paragraphs; indented or aligned lines, such as arguments, in a block."""
     lines = []
     for paragraph in re.split(r"\n\s*\n", text):
         rows = paragraph.splitlines()
@@ -147,11 +147,11 @@ def class_lines(name, stub, member):
 
 def cpp_reference(folder):
     lines = ["# C++ API", "",
-             "`find_package(fairway)` gives `fairway::fairway`; everything is in the namespace `fairway`, headers are "
-             "included as `<fairway/STAGE/NAME.hpp>`. Made from the headers' own words by `tools/api_reference.py`. "
-             "What is not here is behind it, and no promise. The vehicle's own header, `fairway/runtime.hpp`, has neither "
-             "heap nor exceptions, and a target of its own, `fairway::runtime`, that needs no other package. "
-             "`tests/consumer` has a whole program for each.", ""]
+             "`find_package(fairway)` provides `fairway::fairway`; everything is in the namespace `fairway`, and headers are "
+             "included as `<fairway/STAGE/NAME.hpp>`. Made from the headers' comments by `tools/api_reference.py`. "
+             "Anything not listed here is internal and may change. The header for vehicles, `fairway/runtime.hpp`, uses neither "
+             "heap nor exceptions, and has its own target, `fairway::runtime`, which needs no other package. "
+             "`tests/consumer` has a complete program for each.", ""]
     for stage, names in HEADERS.items():
         lines += [f"## {stage}", ""]
         for name in names:

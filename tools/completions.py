@@ -28,7 +28,7 @@ def function_name(program):
 
 # bash
 
-BASH_FILES = r"""# Files by their ending (or any, or folders alone), and folders on the way to them.
+BASH_FILES = r"""# Files by extension (or any, or only folders), and folders on the way to them.
 {f}_files() {{
     local IFS=$'\n'
     compopt -o filenames 2>/dev/null
@@ -62,7 +62,7 @@ def bash(program):
                   f"            {commands.replace(' ', '|')}) command=${{COMP_WORDS[i]}} && break ;;",
                   "        esac", "    done"]
     lines.append("    case $command:$previous in")
-    words_of = {}  # by what completes a value: the words that want one
+    words_of = {}  # by what completes a value: the words that take one
     for command, options, _ in levels(program):
         for entry in options:
             if entry.value or entry.choices:

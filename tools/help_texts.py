@@ -1,4 +1,4 @@
-"""Reads what a program of CLI11 says with --help: strictly, so that no option can get lost.
+"""Reads the --help output of a CLI11 program strictly, so that no option can get lost.
 
     program = read_program("build/release/bin/fairway", "fairway")
 """
@@ -6,8 +6,8 @@ import dataclasses
 import re
 import subprocess
 
-COLUMN = 30  # where descriptions begin
-# Names, then: the value's name, what is checked, the default, how many.
+COLUMN = 30  # where descriptions start
+# Names, then: the value's name, its check, the default, how many.
 LABEL = re.compile(
     r"(?P<names>-[^ ]+|[A-Za-z_-]+)"
     r"(?: (?P<value>KEY=VALUE|(?!REQUIRED)[^ :={]+)?"
@@ -18,7 +18,7 @@ LABEL = re.compile(
 
 @dataclasses.dataclass
 class Entry:
-    """An option, an argument, or (with a name alone) a subcommand."""
+    """An option, an argument, or (with only a name) a subcommand."""
     names: list
     text: str
     value: str = ""
@@ -28,7 +28,7 @@ class Entry:
     required: bool = False
 
     def kind(self):
-        """What the value is: "choice", "directory", "file", a file's ending like ".csv", or ""."""
+        """What the value is: "choice", "directory", "file", a file extension like ".csv", or ""."""
         if self.choices:
             return "choice"
         for word in (self.value, self.names[-1].lstrip("-").upper()):
@@ -60,7 +60,7 @@ class Help:
 def entry_of(label, text):
     found = LABEL.fullmatch(label)
     if not found:
-        raise ValueError(f"not understood in a help text: {label!r}")
+        raise ValueError(f"cannot parse in a help text: {label!r}")
     check = found["check"] or ""
     return Entry(found["names"].split(","), text, found["value"] or "",
                  check[1:-1].split(",") if check.startswith("{") else [],
@@ -68,7 +68,7 @@ def entry_of(label, text):
 
 
 def entries_of(lines):
-    """`  LABEL   description`, or the description on lines of its own, from the same column."""
+    """`  LABEL   description`, or the description on separate lines, from the same column."""
     entries = []
     for line in lines:
         if line.startswith(" " * COLUMN):
@@ -111,7 +111,7 @@ def help_of(program, *command):
 
 
 def read_program(program, name):
-    """The Help of a program, with those of its commands in `pages`."""
+    """The Help of a program, with that of its commands in `pages`."""
     page = read_help(name, help_of(program))
     page.pages = [read_help(f"{name} {c.names[0]}", help_of(program, c.names[0]))
                   for c in page.commands]

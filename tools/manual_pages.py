@@ -32,7 +32,7 @@ def placeholder(argument):
 
 def shown(entry):
     value = f" {italic(entry.value or '|'.join(entry.choices))}" if entry.value or entry.choices else ""
-    if not entry.names[0].startswith("-"):  # an argument goes by its value's name
+    if not entry.names[0].startswith("-"):  # an argument is called by its value's name
         return italic(placeholder(entry))
     return ", ".join(bold(name) for name in entry.names) + value
 
@@ -54,7 +54,7 @@ def entries(title, list_of_entries):
     lines = [f".SH {roff(title.upper())}"]
     for entry in list_of_entries:
         sentence = entry.text
-        if not sentence.split(" ")[0].endswith(":"):  # not what a value of its name means
+        if not sentence.split(" ")[0].endswith(":"):  # not the meaning of a value of that name
             sentence = sentence[:1].upper() + sentence[1:]
         sentence += "" if sentence.endswith((".", ")")) or not sentence else "."
         lines += [".TP", shown(entry), roff(" ".join([sentence, *details(entry)]))]
@@ -71,7 +71,7 @@ def synopsis(page):
 
 
 def footer(page):
-    """The closing words, parted into description, examples and exit status."""
+    """The footer, split into description, examples and exit status."""
     told, examples, status = [], [], []
     for line in page.footer:
         if line.startswith("Example: "):
@@ -98,7 +98,7 @@ def manual(page, version, date, see_also):
         lines += entries(title, group)
     if page.commands:
         lines += entries("Commands", page.commands)
-        lines += [".PP", f"Each has a page of its own: \\fB{roff(page.name)}\\-\\fICOMMAND\\fR(1)."]
+        lines += [".PP", f"Each has its own page: \\fB{roff(page.name)}\\-\\fICOMMAND\\fR(1)."]
     if examples:
         lines += [".SH EXAMPLES", ".EX", *(roff(line) for line in examples), ".EE"]
     if status:
@@ -120,7 +120,7 @@ def main():
     for path in arguments.programs:
         program = read_program(path, path.name)
         pages.append(program)
-    # `fairway check` is fairway-check: the program's page is the fuller one.
+    # `fairway check` is fairway-check: the program's page is more complete.
     alone = {page.name for page in pages}
     pages += [page for program in pages for page in program.pages
               if page.name.replace(" ", "-") not in alone]
@@ -131,7 +131,7 @@ def main():
     for name, page in zip(names, pages):
         text = manual(page, arguments.version, arguments.date, names)
         with open(arguments.folder / f"{name}.1.gz", "wb") as file:
-            # No name and no time inside: the same page gives the same bytes.
+            # No name or time inside: the same page gives the same bytes.
             with gzip.GzipFile("", "wb", 9, file, mtime=0) as packed:
                 packed.write(text.encode())
 

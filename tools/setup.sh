@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs what is missing of the Debian packages named in the given lists, and nothing when
-# nothing is missing. Usage: tools/setup.sh packages.apt [MORE.apt ...]
+# Installs the missing Debian packages of those in the given lists, if any.
+# Usage: tools/setup.sh packages.apt [MORE.apt ...]
 set -eu
 
 missing=""
@@ -11,7 +11,7 @@ done
 [ -n "$missing" ] || exit 0
 
 if ! command -v apt-get >/dev/null 2>&1; then
-  echo "setup: this is not Debian; the build wants what these packages hold:$missing" >&2
+  echo "setup: this is not Debian; the build needs what these packages contain:$missing" >&2
   exit 0
 fi
 as_root=""

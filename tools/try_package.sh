@@ -1,18 +1,18 @@
 #!/bin/bash
-# Installs the Debian packages into a fresh, minimal Debian 12 and uses them there: the demonstration
-# is run, its certificate checked, the Python module imported, a stranger's C++ project built, and
-# every command and every Python block of the docs tried.
+# Installs the Debian packages in a fresh, minimal Debian 12 and tries them there: runs the
+# demonstration, checks its certificate, imports the Python module, builds a separate C++ project, and
+# tries every command and every Python block of the docs.
 # Usage (as root, for debootstrap and chroot): tools/try_package.sh FOLDER_OF_DEBS [CHROOT]
-# CHROOT is made, and removed at the end; KEEP_CHROOT=1 leaves it. Wants about 2 GB and a few minutes.
+# CHROOT is made, and removed at the end; KEEP_CHROOT=1 keeps it. Needs about 2 GB and a few minutes.
 set -euo pipefail
 debs=$(realpath "$1")
 root=$(realpath -m "${2:-build/chroot}")
 cd "$(dirname "$0")/.."
 mirror=${DEBIAN_MIRROR:-http://deb.debian.org/debian}
 
-[ "$(id -u)" -eq 0 ] || { echo "try_package: debootstrap and chroot want root" >&2; exit 1; }
+[ "$(id -u)" -eq 0 ] || { echo "try_package: debootstrap and chroot need root" >&2; exit 1; }
 command -v debootstrap >/dev/null || { echo "try_package: please install debootstrap" >&2; exit 1; }
-[ ! -e "$root" ] || { echo "try_package: $root is there already; remove it, or name another" >&2; exit 1; }
+[ ! -e "$root" ] || { echo "try_package: $root already exists; remove it or choose another" >&2; exit 1; }
 
 clean_up() {
   if mountpoint -q "$root/proc"; then umount "$root/proc"; fi
@@ -20,7 +20,7 @@ clean_up() {
 }
 trap clean_up EXIT
 
-step() {  # step WHAT COMMAND...: says what it is and how long it took
+step() {  # step WHAT COMMAND...: prints what it does and how long it took
   local what=$1 begin=$SECONDS
   shift
   echo "== $what"
@@ -53,7 +53,7 @@ demonstration() {
 asked() {
   as_user 'fairway-check out/demo/certificate.safetensors --plan out/demo/plan.safetensors'
   as_user 'fairway query out/demo/certificate.safetensors --state 100,100,90deg'
-  # minbase leaves manual pages and docs where a package puts them; there is no man to read them
+  # minbase keeps manual pages and docs where packages put them, but has no man to read them
   inside sh -c 'zcat /usr/share/man/man1/fairway-run.1.gz | head -n 4'
   inside bash -c '. /usr/share/bash-completion/completions/fairway
     COMP_WORDS=(fairway ver) COMP_CWORD=1; _fairway; test "${COMPREPLY[*]}" = verify'
@@ -79,7 +79,7 @@ strangers_project() {
   as_user 'g++ -std=c++20 -O2 consumer/on_board/main.cpp $(pkg-config --cflags fairway-runtime) \
     -o by_hand && ./by_hand proved.safetensors'
 }
-docs() {  # what the docs say to type, with what is installed alone
+docs() {  # the commands of the docs, with only what is installed
   mkdir -p "$root/home/someone/source/python"
   cp tests/docs_commands_test.py "$root/home/someone/source"
   cp -r python/tests "$root/home/someone/source/python"
@@ -89,14 +89,14 @@ docs() {  # what the docs say to type, with what is installed alone
   as_user 'FAIRWAY=/usr/bin/fairway FAIRWAY_SOURCE=$PWD/source \
     python3 -B source/python/tests/run_tests.py source/python/tests/test_docs.py'
 }
-gone() {  # nothing of the packages is left
+gone() {  # nothing from the packages is left
   inside apt-get purge -y -q fairway libfairway-dev python3-fairway >/dev/null 2>&1
   ! inside find /usr /etc -path '*fairway*' | grep .
 }
 
 step "a bare Debian 12 (debootstrap, minbase)" bare_system
 before=$(size)
-step "apt-get install fairway, with what it depends on" install '/debs/fairway_*.deb'
+step "apt-get install fairway, with its dependencies" install '/debs/fairway_*.deb'
 echo "$((before)) MB before, $(size) MB with it"
 step "the demonstration, as an ordinary user" demonstration
 step "certificate, query, manual page, completion" asked
@@ -107,4 +107,4 @@ step "find_package(fairway), pkg-config" strangers_project
 step "apt-get install python3-pytest" install python3-pytest
 step "every page of the docs" docs
 step "apt-get purge leaves nothing" gone
-echo "try_package: all of it works"
+echo "try_package: everything works"

@@ -1,4 +1,4 @@
-// For tests: certificates made by the prover, of plans made by hand or at random.
+// For tests: certificates made by the prover, for plans made by hand or at random.
 #pragma once
 
 #include <filesystem>

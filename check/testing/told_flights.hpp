@@ -1,4 +1,4 @@
-// For tests: keeps what a followed set is told, and holds exact flights against it.
+// For tests: records what is reported for a followed set, and compares exact flights with it.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace fairway_check {
 
 using fairway::Wide;
 
-/// Keeps what it is told.
+/// A visitor that records what is reported.
 struct Told : Listener {
   struct Arrival {
     std::size_t section;
@@ -31,7 +31,7 @@ struct Told : Listener {
   void end(Verdict verdict, double length) override { ends.emplace_back(verdict, length); }
   void give_up() override { lost = true; }
 
-  /// `meeting` in metres, of cells of `cell_m`.
+  /// `meeting` in metres, with cells of `cell_m`.
   bool knows_of(const fairway::WideMeeting<Wide>& meeting, double cell_m) const {
     const long double length = meeting.length_m / cell_m * (1.0L - 1e-12L);
     for (const auto& [verdict, bound] : ends) {

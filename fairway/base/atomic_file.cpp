@@ -28,7 +28,7 @@ using unfinished::register_temporary;
 }
 
 [[noreturn]] void refuse_existing(const fs::path& path) {
-  throw InputError(path.string(), "exists already and is kept; --force replaces it");
+  throw InputError(path.string(), "already exists; use --force to overwrite it");
 }
 
 void flush_to_disk(const fs::path& path) {  // best effort: some file systems refuse
@@ -77,7 +77,7 @@ void require_writable_place(const fs::path& path, Existing existing) {
   if (fs::exists(status) && existing == Existing::keep) refuse_existing(path);
   const fs::path folder = folder_of(path);
   if (!fs::is_directory(folder, error)) {
-    throw InputError(path.string(), "cannot be written: there is no folder " + folder.string());
+    throw InputError(path.string(), "cannot be written: no such folder: " + folder.string());
   }
 }
 
@@ -86,8 +86,7 @@ void require_no_input(const fs::path& path, std::span<const fs::path> inputs) {
     std::error_code error;
     if (!fs::equivalent(path, input, error) || error) continue;
     const std::string also = path == input ? "" : ", under the name " + input.string();
-    throw InputError(path.string(),
-                     "is an input" + also + "; what is made of it must go to another place");
+    throw InputError(path.string(), "is an input" + also + "; write the output to another file");
   }
 }
 
@@ -144,7 +143,7 @@ AtomicFolder::AtomicFolder(fs::path path, Existing existing, std::string last,
       products_(std::move(products)) {
   std::error_code error;
   if (!path_.has_filename() || path_.filename() == "." || path_.filename() == "..") {
-    path_ = fs::weakly_canonical(path_, error);  // "-o ." and "-o ..": a real name is needed
+    path_ = fs::weakly_canonical(path_, error);  // "-o ." and "-o ..": need a real name
   }
   const fs::file_status status = fs::status(path_, error);
   if (fs::exists(status) && !fs::is_directory(status)) {
@@ -166,20 +165,20 @@ AtomicFolder::~AtomicFolder() {
   if (lock_ >= 0) ::close(lock_);
 }
 
-/// Throws unless products of these names can take their places in the folder that is there.
+/// Throws unless products of these names can be moved into the existing folder.
 void AtomicFolder::require_room(const std::vector<std::string>& names) const {
   std::error_code error;
   if (existing_ == Existing::keep) {
     if (fs::is_empty(path_, error) && !error) return;
     if (error) fail(path_, "cannot be read", error.value());
     throw InputError(path_.string(),
-                     "is a folder with files in it, and they are kept; --force replaces the "
+                     "is a folder that is not empty; use --force to replace the "
                      "products of an earlier run");
   }
   for (const std::string& name : names) {
     if (fs::is_directory(fs::symlink_status(path_ / name, error))) {
       throw InputError((path_ / name).string(),
-                       "is a folder in the place of a product; nothing was replaced");
+                       "is a folder where a product belongs; nothing was replaced");
     }
   }
 }
@@ -194,21 +193,21 @@ void AtomicFolder::commit() {
       move_into_place(temporary_, path_, Existing::keep);
       moved = true;
     } catch (const InputError&) {
-      if (!is_there()) throw;  // else it came meanwhile: it is looked at like any other
+      if (!is_there()) throw;  // else it appeared meanwhile: it is checked like any other
     }
   }
   if (!moved) move_products();
   forget(temporary_);
   temporary_.clear();
-  ::close(std::exchange(lock_, -1));  // by now it may lie on the folder in its place
+  ::close(std::exchange(lock_, -1));  // by now it may lock the folder at its destination
   flush_to_disk(folder_of(path_));
 }
 
-/// One by one, into a folder that is there. Runs that come at the same time come one after the
-/// other, each whole; what does not know the lock is seen by the look, or by the renames.
+/// One by one, into an existing folder. Simultaneous runs commit one after another, each whole;
+/// the check and the renames notice writers that do not take the lock.
 void AtomicFolder::move_products() {
   if (!fs::is_directory(path_)) {
-    throw InputError(path_.string(), "is a file by now, expected a folder for the products");
+    throw InputError(path_.string(), "is now a file, expected a folder for the products");
   }
   const Lock one_at_a_time(path_, true);
   std::error_code error;
@@ -232,7 +231,7 @@ void AtomicFolder::move_products() {
     try {
       move_into_place(temporary_ / names[i], path_ / names[i], existing_);
     } catch (const InputError&) {
-      // Into an empty folder nothing was to be replaced: what is ours goes out again.
+      // Nothing was to be replaced in an empty folder: remove what we moved there.
       for (std::size_t back = 0; back < i && existing_ == Existing::keep; ++back) {
         fs::rename(path_ / names[back], temporary_ / names[back], error);
       }

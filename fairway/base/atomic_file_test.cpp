@@ -97,7 +97,7 @@ TEST_F(AtomicFiles, PlacesThatCannotHoldAFileAreRefusedAtTheStart) {
   EXPECT_EQ(names(), Names{});
 }
 
-TEST_F(AtomicFiles, AnOutputThatIsAnInputIsRefusedUnderWhateverName) {
+TEST_F(AtomicFiles, AnOutputThatIsAnInputIsRefusedUnderAnyName) {
   write_whole(folder_ / "in", Existing::keep, "in");
   write_whole(folder_ / "other", Existing::keep, "in");
   fs::create_symlink("in", folder_ / "link");
@@ -119,7 +119,7 @@ TEST_F(AtomicFiles, ThroughASymbolicLinkTheNamedFileIsReplaced) {
   EXPECT_EQ(content(folder_ / "real"), "new");
 }
 
-// A child process runs `work` and ends in whatever way it ends; returns its wait status.
+// Runs `work` in a child process and returns its wait status, however it ends.
 template <typename Work>
 int in_child(const Work& work) {
   const pid_t child = ::fork();
@@ -211,7 +211,7 @@ TEST_F(AtomicFiles, AFileWhereAFolderBelongsIsRefused) {
                InputError);
 }
 
-/// A set of products that belong together: each file holds `mark`.
+/// A set of products that belong together: each file contains `mark`.
 void write_set(const AtomicFolder& products, const std::string& mark, int count) {
   for (int i = 0; i < count; ++i) {
     write_whole(products.temporary_path() / std::to_string(i), Existing::keep, mark);
@@ -359,16 +359,16 @@ TEST_F(AtomicFiles, TheNextIntoAPlaceSweepsWhatAKilledProcessLeft) {
 
 TEST_F(AtomicFiles, WhatALiveProcessWritesIsNeverSwept) {
   const std::string alive = ".a.partial-" + std::to_string(::getppid()) + "-0";
-  const std::string others = ".b.partial-999999999-0";  // no process has it, of another name
+  const std::string others = ".b.partial-999999999-0";  // no such process, under another name
   const std::string not_ours = ".a.partial-999999999-x";
   for (const std::string& name : {alive, others, not_ours}) std::ofstream(folder_ / name) << "x";
-  // Gone by its number, but its lock is held: of another machine, or another container.
+  // No process with that id, but its lock is held: by another machine or container.
   const std::string elsewhere = ".a.partial-999999999-7";
   std::ofstream(folder_ / elsewhere) << "x";
   const int lock = ::open((folder_ / elsewhere).c_str(), O_RDONLY | O_CLOEXEC);
   ASSERT_EQ(::flock(lock, LOCK_EX | LOCK_NB), 0);
   AtomicFile mine(folder_ / "a", Existing::keep);
-  write_whole(folder_ / "a", Existing::keep, "a");  // another of this process, meanwhile
+  write_whole(folder_ / "a", Existing::keep, "a");  // another one from this process, meanwhile
   EXPECT_TRUE(fs::exists(mine.temporary_path()));
   for (const std::string& name : {alive, others, not_ours, elsewhere}) {
     EXPECT_TRUE(fs::exists(folder_ / name)) << name;
@@ -378,7 +378,7 @@ TEST_F(AtomicFiles, WhatALiveProcessWritesIsNeverSwept) {
   EXPECT_FALSE(fs::exists(folder_ / elsewhere));
 }
 
-TEST_F(AtomicFiles, WhatWasLeftUnderOurOwnNumberIsSweptToo) {  // as in containers
+TEST_F(AtomicFiles, WhatWasLeftUnderOurOwnProcessIdIsRemovedToo) {  // as in containers
   const std::string stale = ".a.partial-" + std::to_string(::getpid()) + "-999999";
   std::ofstream(folder_ / stale) << "x";
   write_whole(folder_ / "a", Existing::keep, "a");

@@ -1,4 +1,4 @@
-// SHA-256, by which a product names exactly what went into it.
+// SHA-256, with which a product names exactly what went into it.
 #pragma once
 
 #include <cstddef>

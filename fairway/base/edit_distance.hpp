@@ -1,4 +1,4 @@
-// How far a name is from another, to guess what was meant.
+// How far apart two names are, to guess what was meant.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace fairway {
 
-/// Number of insertions, deletions and replacements between two words.
+/// The number of insertions, deletions and replacements that turn one word into the other.
 [[nodiscard]] inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

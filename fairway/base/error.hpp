@@ -1,6 +1,6 @@
 // Three kinds of error, kept apart:
 //   InputError             bad input from outside, thrown by readers only; the command exits 65.
-//   PreconditionViolation  the caller broke what a function asks of it: a bug (exit 70).
+//   PreconditionViolation  the caller violated what a function requires: a bug (exit 70).
 //   the domain's answer (goal unreachable, undecided) is a value, never an exception.
 #pragma once
 
@@ -26,7 +26,7 @@ class PreconditionViolation : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-/// Throws PreconditionViolation when a caller's promise does not hold. Always on.
+/// Throws PreconditionViolation when a precondition does not hold. Always on.
 inline void require(bool holds, const char* promise) {
   if (!holds) throw PreconditionViolation(promise);
 }

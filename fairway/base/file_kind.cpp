@@ -32,7 +32,7 @@ FileKind product_kind_of(std::span<const std::byte> bytes) {
   return record["format"] == "fairway-certificate" ? FileKind::certificate : FileKind::unknown;
 }
 
-/// True when some line begins with `word`, whatever stands before it in the line but blanks.
+/// True when some line starts with `word`, after any blanks.
 bool has_line(std::string_view text, std::string_view word) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
@@ -98,7 +98,7 @@ FileKind kind_of_bytes(std::span<const std::byte> bytes) {
   try {
     return product_kind_of(bytes);
   } catch (const InputError&) {
-    // No safetensors file; then perhaps text.
+    // Not a safetensors file; perhaps it is text.
   }
   try {
     return text_kind_of(plain_text(whole.substr(0, most), ""));
@@ -112,22 +112,22 @@ std::string other_kind_words(FileKind found, FileKind wanted) {
   const std::string is = std::string("is ") + name_of(found);
   switch (found) {
     case FileKind::scenario:
-      return is + ": `fairway plan` makes a plan of it";
+      return is + ": `fairway plan` makes a plan from it";
     case FileKind::plan:
       if (wanted == FileKind::certificate) return is + ": `fairway verify` makes its certificate";
       if (wanted == FileKind::bitmap) {
         return is + ": `fairway verify --method bitmap` draws its bitmap";
       }
-      return is + ", expected " + name_of(wanted) + ": `fairway simulate` flies it";
+      return is + ", expected " + name_of(wanted) + ": use it with `fairway simulate`";
     case FileKind::certificate:
-      return is + ", expected " + name_of(wanted) + ": `fairway query` asks it";
+      return is + ", expected " + name_of(wanted) + ": use it with `fairway query`";
     case FileKind::bitmap:
       if (wanted == FileKind::certificate) {
         return is +
                ", a picture drawn from samples, not a proof: `fairway verify` without "
                "--method bitmap makes a certificate";
       }
-      return is + ", expected " + name_of(wanted) + ": `fairway query` asks it";
+      return is + ", expected " + name_of(wanted) + ": use it with `fairway query`";
     default:
       return is + ": name it in a scenario, as map.file";
   }

@@ -1,7 +1,7 @@
-// What a file is that was given where another kind is expected.
+// What kind of file was given where another kind is expected.
 //
-// Told by content alone, after a reader has refused the file: so the reader's own complaint, which
-// speaks of bytes and headers, gives way to one that says what to do.
+// Detected from the content alone, after a reader has refused the file: the reader's own error,
+// about bytes and headers, is then replaced by one that says what to do.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ enum class FileKind : std::uint8_t {
 
 [[nodiscard]] FileKind kind_of_bytes(std::span<const std::byte> bytes);
 
-/// "is a scenario: `fairway plan` makes a plan of it"; empty when the kind is unknown, or the one
-/// that was wanted. Where a map was wanted, `wanted` is unknown.
+/// "is a scenario: `fairway plan` makes a plan from it"; empty when the kind is unknown or
+/// the expected one. Where a map was expected, `wanted` is unknown.
 [[nodiscard]] std::string other_kind_words(FileKind found, FileKind wanted);
 
 /// Throws InputError{where, other_kind_words} when these bytes are of another known kind.

@@ -17,7 +17,7 @@ std::string product(const std::string& record) {
   return safetensors_header({{{"fairway", record}}, {}});
 }
 
-TEST(FileKind, IsToldByContent) {
+TEST(FileKind, IsDetectedFromTheContent) {
   const std::pair<std::string, FileKind> files[] = {
       {"# mine\n[map]\nfile = \"a.yaml\"\n[mission]\nkind = \"goal\"\n", FileKind::scenario},
       {"\xef\xbb\xbf[map]\r\nfile = \"a.yaml\"\r\n[mission]\r\n", FileKind::scenario},
@@ -42,7 +42,7 @@ TEST(FileKind, IsToldByContent) {
 
 TEST(FileKind, WordsSayWhatToDoWithTheOtherKind) {
   EXPECT_EQ(other_kind_words(FileKind::scenario, FileKind::plan),
-            "is a scenario: `fairway plan` makes a plan of it");
+            "is a scenario: `fairway plan` makes a plan from it");
   EXPECT_EQ(other_kind_words(FileKind::plan, FileKind::certificate),
             "is a plan: `fairway verify` makes its certificate");
   EXPECT_EQ(other_kind_words(FileKind::plan, FileKind::bitmap),
@@ -53,7 +53,7 @@ TEST(FileKind, WordsSayWhatToDoWithTheOtherKind) {
   EXPECT_EQ(other_kind_words(FileKind::ros_map, FileKind::scenario),
             "is a ROS map: name it in a scenario, as map.file");
   EXPECT_EQ(other_kind_words(FileKind::certificate, FileKind::plan),
-            "is a certificate, expected a plan: `fairway query` asks it");
+            "is a certificate, expected a plan: use it with `fairway query`");
   EXPECT_EQ(other_kind_words(FileKind::plan, FileKind::plan), "");
   EXPECT_EQ(other_kind_words(FileKind::unknown, FileKind::plan), "");
 }

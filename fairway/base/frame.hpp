@@ -1,4 +1,4 @@
-// Where a grid's frame of metres lies in the world: in the frame of the map's source, and on Earth.
+// Where a grid's metric frame lies in the world: in the frame of the map's source, and on Earth.
 #pragma once
 
 #include <functional>
@@ -47,7 +47,7 @@ struct EarthState {
   double course_deg = 0.0;     ///< [-360, 360]; [0, 360) where Fairway writes it
   friend bool operator==(const EarthState&, const EarthState&) = default;
 };
-/// The place on Earth of a point of a frame; empty: the frame has none.
+/// The place on Earth of a point of a frame; empty when the frame is not georeferenced.
 using LonLatOf = std::function<LonLat(Vec2 position_m)>;
 
 }  // namespace fairway

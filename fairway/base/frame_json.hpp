@@ -1,4 +1,4 @@
-// A frame as the records of plans and certificates hold it (docs/formats.md).
+// A frame in the records of plans and certificates (docs/formats.md).
 // Private to the library: nlohmann/json is not part of its interface.
 #pragma once
 

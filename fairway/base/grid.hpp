@@ -1,7 +1,7 @@
 // The grid of square cells on which maps, fields and plans live.
 //
 // Cell (ix, iy) covers [x0_m + ix*cell_m, x0_m + (ix+1)*cell_m] by the same in y. Arrays over a
-// grid are [iy][ix], iy = 0 lowest y; `index` gives the place in a flat array.
+// grid are [iy][ix], iy = 0 lowest y; `index` gives the position in a flat array.
 #pragma once
 
 #include <cmath>

@@ -2,7 +2,7 @@
 //
 // Only this file wraps angles. Properties that always hold:
 //   1. -pi < Heading::rad() <= pi, in double arithmetic (M_PI is the double nearest to pi).
-//   2. turn_to() is in (-pi, pi]; exactly opposite headings answer +pi: a simulation turns left.
+//   2. turn_to() is in (-pi, pi]; for exactly opposite headings it is +pi: a simulation turns left.
 //   3. stored() is a float in (-pi, pi] as a real number: the floats next to +-pi lie outside the
 //      interval, so the last representable one inside is used (1.5e-7 rad away).
 #pragma once

@@ -11,7 +11,7 @@
 namespace fairway {
 namespace {
 
-// Angles where wrapping goes wrong first, and random ones around them.
+// Angles where wrapping is most likely to go wrong, and random ones around them.
 std::vector<double> angles() {
   std::vector<double> all;
   for (const double a : {0.0, pi / 2, pi, two_pi, 3 * pi, 100 * pi, 1e-8, 1e-300}) {

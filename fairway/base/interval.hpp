@@ -2,13 +2,12 @@
 //
 // Properties that always hold, for finite operands whose exact results stay below 1e300:
 //   1. Inclusion: x in X and y in Y imply x op y in X op Y, for the exact reals x, y.
-//   2. Nothing depends on the processor's rounding mode being any other than to nearest, and none
-//      is ever set.
+//   2. The processor's rounding mode only has to be to nearest, and is never changed.
 // Error bound (derived): to nearest, an operation errs by at most ulp(x) / 2 of its result x, plus
-// 2^-1075 when a product or quotient underflows. |x| 2^-52 is at least ulp(x), and exact but for
-// underflow; x - ulp(x) is a double; rounding is monotone: so below(x) <= x - ulp(x), under the
-// exact result. Where x underflows, 2^-1000 alone is more than the error.
-// No include but the standard's, no heap, no exception: runtime.hpp carries it into vehicles.
+// 2^-1075 when a product or quotient underflows. |x| 2^-52 is at least ulp(x), and exact except for
+// underflow; x - ulp(x) is a double; rounding is monotone: so below(x) <= x - ulp(x), which is
+// below the exact result. Where x underflows, 2^-1000 alone is more than the error.
+// Only standard headers, no heap, no exceptions: runtime.hpp carries it into vehicles.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +29,7 @@ struct Interval {
   constexpr bool empty() const { return !(lo <= hi); }
   constexpr bool contains(double x) const { return lo <= x && x <= hi; }
   constexpr double width() const { return hi - lo; }
-  /// Certain signs.
+  /// Whether the sign is certain.
   constexpr bool positive() const { return lo > 0.0; }
   constexpr bool negative() const { return hi < 0.0; }
 };
@@ -80,7 +79,7 @@ FAIRWAY_INLINE Interval square(Interval a) {
   const double least = a.lo <= 0.0 && a.hi >= 0.0 ? 0.0 : below(std::min(p, q));
   return {std::max(0.0, least), above(std::max(p, q))};
 }
-/// Of the part of `a` that is not negative; `a.hi` >= 0.
+/// Of the non-negative part of `a`; `a.hi` >= 0.
 FAIRWAY_INLINE Interval sqrt(Interval a) {
   const double low = a.lo > 0.0 ? below(std::sqrt(a.lo)) : 0.0;
   return {std::max(0.0, low), above(std::sqrt(a.hi))};

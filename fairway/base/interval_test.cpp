@@ -21,14 +21,14 @@ using Wide = mp::number<mp::cpp_bin_float<400, mp::digit_base_2>>;
 
 constexpr double pi = std::numbers::pi;
 
-/// A number with powers of two, their neighbours, zeros and the tiny ones on purpose.
+/// A number, with powers of two, their neighbours, zeros and tiny ones on purpose.
 double number(Random& random) {
   static constexpr std::array<double, 10> special{
       0.0, -0.0, 1.0, -1.0, 0x1p-1074, -0x1p-1060, 0x1p-530, -0x1p-540, 1e100, 1.0 / 3.0};
   switch (random.below(5)) {
     case 0:
       return special[random.below(special.size())];
-    case 1: {  // a power of two or the number beside it
+    case 1: {  // a power of two or a neighbour of one
       const double power = std::ldexp(1.0, static_cast<int>(random.below(120)) - 60);
       const double to = random.below(2) == 0 ? 0.0 : 1e300;
       const double x = random.below(3) == 0 ? power : std::nextafter(power, to);
@@ -51,7 +51,7 @@ Interval interval(Random& random) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// A member: an end, the middle, or another one.
+/// A member: an end, the midpoint, or another one.
 double member(Random& random, Interval x) {
   switch (random.below(4)) {
     case 0:
@@ -67,7 +67,7 @@ bool holds(Interval x, const Rational& exact) {
   return Rational(x.lo) <= exact && exact <= Rational(x.hi);
 }
 
-/// Of a result without width in its operands: no wider than four steps of its size.
+/// For a result from operands without width: at most four steps of its size wide.
 bool is_tight(Interval x) {
   return x.width() <= 4.0 * (std::max(std::abs(x.lo), std::abs(x.hi)) * 0x1p-52 + 0x1p-1000);
 }
@@ -87,7 +87,7 @@ TEST(Interval, HoldsTheExactSumDifferenceProductAndQuotientOfMembers) {
     ASSERT_TRUE(holds(x * b, p * q)) << x << " * (number) " << y;
     ASSERT_TRUE(holds(-a, -p)) << x;
     if (b.positive() || b.negative()) {
-      // Within the limit that interval.hpp states: exact results below 1e300.
+      // Within the limit stated in interval.hpp: exact results below 1e300.
       const double least = std::min(std::abs(b.lo), std::abs(b.hi));
       const double largest = std::max(std::abs(a.lo), std::abs(a.hi));
       if (largest > least * 1e290) continue;
@@ -183,7 +183,7 @@ TEST(Interval, TakesTheDoublesNearestToTheAxesForTheAxesToo) {
   EXPECT_TRUE(unit_enclosure(pi).y.contains(0.0));
   EXPECT_EQ(unit_enclosure(0.0).y.lo, 0.0);
   EXPECT_EQ(unit_enclosure(0.0).y.hi, 0.0);
-  // A float is none of them, and neither is a double's neighbour.
+  // A float is not one of them, nor is a double's neighbour.
   EXPECT_TRUE(unit_enclosure(static_cast<double>(1.57079637F)).x.negative());
   EXPECT_TRUE(unit_enclosure(std::nextafter(pi / 2, 0.0)).x.positive());
 }

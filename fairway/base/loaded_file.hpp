@@ -1,5 +1,5 @@
-// A file's bytes, read into memory once. Unlike a mapping's they stay as they are, whatever becomes
-// of the file: a mapped file that is cut short ends the process at the next look (SIGBUS).
+// A file's bytes, read into memory once. Unlike a mapping's they never change, whatever happens to
+// the file: if a mapped file is truncated, the next access ends the process (SIGBUS).
 #pragma once
 
 #include <cstddef>

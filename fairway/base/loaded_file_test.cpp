@@ -36,7 +36,7 @@ class LoadedFiles : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(LoadedFiles, HoldWhatTheFileHeldWhateverBecomesOfIt) {
+TEST_F(LoadedFiles, KeepTheContentWhateverHappensToTheFile) {
   for (const std::size_t size : {0U, 1U, 7U, 8U, 9U, 100'000U}) {
     std::string text(size, '\0');
     for (std::size_t i = 0; i < size; ++i) text[i] = static_cast<char>(i % 251);
@@ -48,7 +48,7 @@ TEST_F(LoadedFiles, HoldWhatTheFileHeldWhateverBecomesOfIt) {
   }
 }
 
-TEST_F(LoadedFiles, WhatIsNoRegularFileIsRefusedByName) {
+TEST_F(LoadedFiles, AnythingButARegularFileIsRefusedByName) {
   for (const fs::path& path : {folder_ / "none", folder_, fs::path("/dev/zero")}) {
     try {
       const LoadedFile file(path);

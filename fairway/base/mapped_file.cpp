@@ -24,7 +24,7 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
     throw InputError(path.string(), "is not a regular file");
   }
   size_ = static_cast<std::size_t>(status.st_size);
-  if (size_ > 0) {  // an empty mapping is an error of mmap, an empty file is the caller's to judge
+  if (size_ > 0) {  // mmap fails for an empty mapping; an empty file is for the caller to judge
     void* address = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, descriptor, 0);
     const int error = errno;
     if (address == MAP_FAILED) {

@@ -99,7 +99,7 @@ double value_of(std::string_view text, const CsvColumn& column, const CsvPlace& 
                  ": expected radians from -7 to 7, or degrees with the suffix deg" +
                  (may_be_degrees ? "; did you mean " + std::string(text) + "deg?" : ""));
   }
-  // Reduced in degrees, where it is exact: 540deg is the same bits as 180deg.
+  // Reduced in degrees, where this is exact: 540deg gives the same bits as 180deg.
   return Heading::from_rad(degrees ? std::remainder(*value, 360.0) * (pi / 180.0) : *value).rad();
 }
 
@@ -155,7 +155,7 @@ void for_csv_lines(std::string_view text, const std::string& where,
                    std::span<const CsvColumn> columns, const char* lines, const CsvTake& take) {
   const std::string plain = plain_text(text, where);
   text = plain;
-  char separator = 0;  // that of the first line which is no comment
+  char separator = 0;  // that of the first line that is not a comment
   Fields fields = fields_without_header(columns.size());
   std::vector<std::string_view> words;
   std::vector<double> values;
@@ -169,7 +169,7 @@ void for_csv_lines(std::string_view text, const std::string& where,
     const CsvPlace place{where, line_number};
     if (separator == 0) separator = separator_of(line);
     split(line, separator, words);
-    // A header names at least one of the columns; anything else is taken for numbers gone wrong.
+    // A header names at least one of the columns; anything else is read as malformed numbers.
     const bool is_header =
         header_possible && std::any_of(columns.begin(), columns.end(), [&](const CsvColumn& c) {
           return std::find(words.begin(), words.end(), c.name) != words.end();

@@ -12,7 +12,7 @@ namespace {
 constexpr int centimetres = 2;
 constexpr int most_decimals = 15;
 
-/// `decimals` places behind the point, without the zeros at their end.
+/// `decimals` places after the point, without trailing zeros.
 std::string fixed_text(double value, int decimals) {
   std::array<char, 400> buffer;  // the longest double has 309 digits before the point
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,

@@ -1,4 +1,4 @@
-// Numbers as messages show them: no more digits than one can act on, and no fewer.
+// Numbers as messages show them: exactly as many digits as are useful.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace fairway {
 
-/// A coordinate, metres: the shortest decimals that are right to the centimetre (off by at most
-/// half of one), never in powers of ten. "5200009.5", "-16.2", "0".
+/// A coordinate, metres: the shortest decimal that is right to the centimetre (off by at most half
+/// of one), never in scientific notation. "5200009.5", "-16.2", "0".
 [[nodiscard]] std::string coordinate_text(double x_m);
 
 /// The same in as many decimals as asked for, from 0 on, without the zeros at their end.
@@ -22,18 +22,17 @@ namespace fairway {
 /// A share from 0 to 1 as "97 %", rounded down, and not to nothing: "under 1 %".
 [[nodiscard]] std::string whole_percent_text(double share);
 
-/// A length: as a coordinate, but that one of less than a metre has three digits that count:
-/// "0.00125".
+/// A length: the same, but below one metre it has three significant digits: "0.00125".
 [[nodiscard]] std::string length_text(double length_m);
 
 /// "(x, y)" in coordinates.
 [[nodiscard]] std::string place_text(Vec2 p_m);
 
-/// "(x, y) is outside the map, expected x in [a, b] and y in [c, d]", in as many more decimals as
-/// it takes for the place to be outside as printed, too.
+/// "(x, y) is outside the map, expected x in [a, b] and y in [c, d]", with as many extra decimals
+/// as needed for the printed place to be outside, too.
 [[nodiscard]] std::string outside_text(Vec2 p_m, const Grid& grid);
 
-/// True on the grid, its border included.
+/// True on the grid, including its border.
 [[nodiscard]] bool is_within(const Grid& grid, Vec2 p_m);
 
 }  // namespace fairway

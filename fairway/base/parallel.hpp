@@ -1,5 +1,5 @@
-// Work over ranges on all threads. Results must not depend on how a range is cut; the command's
-// --threads bounds the number of threads for the whole process (see app/).
+// Work over ranges on all threads. Results must not depend on how a range is split; the command's
+// --threads limits the number of threads for the whole process (see app/).
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,8 @@ template <typename Body>
 void for_ranges(std::size_t count, std::size_t grain, const Body& body) {
   const std::size_t least = std::max<std::size_t>(1, grain);
 #ifdef __SANITIZE_THREAD__
-  // The sanitizer does not see what the TBB library synchronises, as Debian's is not built for it:
-  // under it the pieces run on plain threads.
+  // The thread sanitizer cannot see the synchronisation in Debian's TBB, which is not built for
+  // it: under the sanitizer the pieces run on plain threads.
   const std::size_t pieces = std::clamp<std::size_t>(count / least, count > 0 ? 1 : 0, 4);
   std::vector<std::thread> threads;
   for (std::size_t i = 0; i < pieces; ++i) {

@@ -10,7 +10,7 @@ namespace {
 using namespace std::string_view_literals;
 
 void require_utf8(std::string_view bytes, const std::string& where) {
-  // The marks of UTF-32 first: the little-endian one begins like that of UTF-16.
+  // The UTF-32 marks first: the little-endian one starts like that of UTF-16.
   for (const auto& [mark, name] : {std::pair("\xff\xfe\0\0"sv, "UTF-32"),
                                    {"\0\0\xfe\xff"sv, "UTF-32"},
                                    {"\xff\xfe"sv, "UTF-16"},

@@ -1,5 +1,5 @@
-// The one way in for text: what editors and other systems put around it is taken off here, so that
-// no reader need know of it.
+// The single entry point for text: what editors and other systems add to it is removed here, so no
+// reader needs to know about it.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace fairway {
 
-/// `bytes` without a UTF-8 byte order mark, every line end (CR, LF, CRLF) as LF. Lines keep their
-/// numbers. Throws InputError{where, ...} for UTF-16 and UTF-32, told by their marks.
+/// `bytes` without a UTF-8 byte order mark, every line ending (CR, LF, CRLF) as LF. Lines keep
+/// their numbers. Throws InputError{where, ...} for UTF-16 and UTF-32, detected by their marks.
 [[nodiscard]] std::string plain_text(std::string_view bytes, const std::string& where);
 
-/// A field of a CSV file without the blanks around it and the pair of quotes around that.
+/// A field of a CSV file without surrounding blanks and quotes.
 [[nodiscard]] std::string_view csv_field(std::string_view field);
 
 }  // namespace fairway

@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-TEST(PlainText, AByteOrderMarkIsTakenOffOnce) {
+TEST(PlainText, AByteOrderMarkIsRemovedOnce) {
   EXPECT_EQ(plain_text("\xef\xbb\xbf"
                        "a",
                        "f"),
@@ -30,7 +30,7 @@ TEST(PlainText, EveryLineEndBecomesOneLineFeed) {
   for (const char* text : {"a\nb\n\nc", "a\r\nb\r\n\r\nc", "a\rb\r\rc", "a\rb\n\r\nc"})
     EXPECT_EQ(plain_text(text, "f"), "a\nb\n\nc");
   EXPECT_EQ(plain_text("a\r", "f"), "a\n");
-  EXPECT_EQ(plain_text("a\n\r", "f"), "a\n\n") << "two ends: a line feed, then a return";
+  EXPECT_EQ(plain_text("a\n\r", "f"), "a\n\n") << "two line endings: a line feed, then a return";
   EXPECT_EQ(plain_text("", "f"), "");
 }
 

@@ -1,7 +1,7 @@
 // Portable random draws: the same seed gives the same numbers on every machine and compiler.
 //
 // xoshiro256++ (Blackman and Vigna 2019) seeded by splitmix64. `stream` gives independent draws
-// for item i of a batch, so that results never depend on the order of work.
+// for item i of a batch, so results never depend on the order of work.
 #pragma once
 
 #include <array>

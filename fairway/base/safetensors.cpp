@@ -16,7 +16,8 @@ namespace {
 
 using nlohmann::json;
 
-static_assert(std::endian::native == std::endian::little, "arrays are written as they lie");
+static_assert(std::endian::native == std::endian::little,
+              "arrays are written as they are in memory");
 
 constexpr std::array<std::pair<std::string_view, std::uint64_t>, 11> widths{{{"F64", 8},
                                                                              {"I64", 8},
@@ -34,12 +35,12 @@ std::uint64_t width_of(const std::string& dtype, const std::string& where) {
   for (const auto& [name, width] : widths) {
     if (name == dtype) return width;
   }
-  throw InputError(where + ".dtype", "is " + shown(json(dtype)) + ", which is not known here");
+  throw InputError(where + ".dtype", "is " + shown(json(dtype)) + ", which is not supported");
 }
 
 std::uint64_t unsigned_integer(const json& value, const std::string& where) {
   if (!value.is_number_unsigned()) {
-    throw InputError(where, "expected an integer that is not negative, found " + shown(value));
+    throw InputError(where, "expected a non-negative integer, found " + shown(value));
   }
   return value.get<std::uint64_t>();
 }
@@ -120,7 +121,7 @@ std::pair<std::string_view, std::span<const std::byte>> split(std::span<const st
 Safetensors parse_safetensors(std::span<const std::byte> bytes, const std::string& where) {
   const auto [text, data] = split(bytes, where);
   const std::string header_place = where + ": header";
-  if (!text.starts_with('{')) throw InputError(header_place, "expected to begin with {");
+  if (!text.starts_with('{')) throw InputError(header_place, "expected to start with {");
   if (!std::all_of(text.begin(), text.end(), is_ascii)) {
     throw InputError(header_place, "expected ASCII text: other characters are written as \\uXXXX");
   }
@@ -145,7 +146,7 @@ Safetensors parse_safetensors(std::span<const std::byte> bytes, const std::strin
     if (p.begin != filled) {
       throw InputError(where + ": \"" + p.tensor.name + "\".data_offsets",
                        "begin at " + std::to_string(p.begin) + ", expected " +
-                           std::to_string(filled) + ": arrays follow each other without holes");
+                           std::to_string(filled) + ": arrays must be contiguous");
     }
     filled = p.end;
     content.tensors.push_back(std::move(p.tensor));
@@ -158,7 +159,7 @@ Safetensors parse_safetensors(std::span<const std::byte> bytes, const std::strin
 }
 
 std::string safetensors_header(const Safetensors& content) {
-  // Written by hand: the arrays stand in the header in the order in which they lie in the file.
+  // Written by hand: the header lists the arrays in their order in the file.
   std::string text = "{\"__metadata__\":" + json(content.metadata).dump();
   std::uint64_t offset = 0;
   for (const Tensor& tensor : content.tensors) {

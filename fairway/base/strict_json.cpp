@@ -13,8 +13,8 @@ using nlohmann::json;
 
 namespace {
 
-/// Looks a text over as it is parsed, and keeps nothing of it: nlohmann's own parser, with a
-/// callback that could refuse, takes time quadratic in the members of an object.
+/// Checks a text as it is parsed, without storing it: nlohmann's own parser, with a callback that
+/// could refuse, takes time quadratic in the members of an object.
 class Looker : public nlohmann::json_sax<json> {
  public:
   Looker(std::string_view text, const std::string& where, const JsonLimits& limits)
@@ -88,13 +88,13 @@ class Looker : public nlohmann::json_sax<json> {
 }  // namespace
 
 json parse_strict_json(std::string_view text, const std::string& where, const JsonLimits& limits) {
-  // Where a zero byte stands, nlohmann takes the text to end.
+  // nlohmann takes a zero byte for the end of the text.
   if (text.find('\0') != std::string_view::npos) throw InputError(where, "holds a zero byte");
   Looker looker(text, where, limits);
   try {
     json::sax_parse(text.begin(), text.end(), &looker);
     return json::parse(text.begin(), text.end());
-  } catch (const json::exception& error) {  // a number that no double holds
+  } catch (const json::exception& error) {  // a number that does not fit a double
     throw InputError(where, std::string("is not JSON: ") + error.what());
   }
 }

@@ -1,4 +1,4 @@
-// JSON from outside, read strictly: nothing deep, repeated or not finite passes.
+// JSON from outside, read strictly: refuses deep nesting, repeated keys and non-finite numbers.
 // Private to the library: nlohmann/json is not part of its interface.
 #pragma once
 
@@ -22,10 +22,10 @@ struct JsonLimits {
 [[nodiscard]] nlohmann::json parse_strict_json(std::string_view text, const std::string& where,
                                                const JsonLimits& limits = {});
 
-/// A value for an error message, cut when long.
+/// A value for an error message, shortened when long.
 [[nodiscard]] std::string shown(const nlohmann::json& value);
 
-/// Members of an object, with errors that name them. `where` is the place of the object.
+/// Members of an object, with errors that name them. `where` is where the object is.
 const nlohmann::json& member(const nlohmann::json& object, const char* key,
                              const std::string& where);
 double finite_number(const nlohmann::json& object, const char* key, const std::string& where);

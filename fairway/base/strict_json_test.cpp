@@ -25,7 +25,7 @@ TEST(StrictJson, RefusesWhatIsAmbiguousOrHostile) {
   EXPECT_NO_THROW((void)parse_strict_json(std::string(30, '[') + std::string(30, ']'), "w"));
 }
 
-TEST(StrictJson, CountsMembersAndEndsAtNoZeroByte) {
+TEST(StrictJson, CountsMembersAndDoesNotEndAtAZeroByte) {
   EXPECT_NO_THROW(
       (void)parse_strict_json(R"([{"a":1,"b":2},{"a":1,"b":2}])", "w", {.most_members = 2}));
   EXPECT_THROW(

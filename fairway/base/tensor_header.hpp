@@ -1,9 +1,9 @@
 // The header of a safetensors file (docs/formats.md, "Header"), read in place: no heap, no
-// exceptions, no library but the standard's.
+// exceptions, only the standard library.
 //
 // One pass over the text by the grammar, from the first byte to the last. Properties that always
-// hold: it refuses what parse_safetensors and fairway-check refuse of a header, and reads the same
-// of what they take (check/header_test.cpp feeds all three).
+// hold: it refuses the headers that parse_safetensors and fairway-check refuse, and reads the same
+// from those they accept (check/header_test.cpp feeds all three).
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace fairway {
 
-/// What stands between the quotes of a JSON string, its escapes as they are.
+/// The text between the quotes of a JSON string, with its escapes left as they are.
 struct HeaderText {
   const char* begin = nullptr;
   const char* end = nullptr;
@@ -34,7 +34,7 @@ struct HeaderText {
     return b == other.end;
   }
 
-  /// The next UTF-16 unit of a text whose escapes are whole; false at its end.
+  /// The next UTF-16 unit of a text whose escapes are complete; false at its end.
   static bool next(const char*& at, const char* end, unsigned& unit) noexcept {
     if (at == end) return false;
     unit = static_cast<unsigned char>(*at++);
@@ -69,14 +69,14 @@ struct HeaderText {
   }
 };
 
-/// An array, as the header has it.
+/// An array, as given in the header.
 struct HeaderEntry {
   static constexpr int most_sizes = 8;
   HeaderText name;
   HeaderText dtype;
   std::uint64_t shape[most_sizes] = {};
   int sizes = 0;
-  std::uint64_t begin = 0;  ///< of its bytes, behind the header
+  std::uint64_t begin = 0;  ///< of its bytes, after the header
   std::uint64_t end = 0;
 
   bool has_shape(std::uint64_t n) const noexcept { return sizes == 1 && shape[0] == n; }
@@ -92,7 +92,7 @@ class TensorHeader {
   static constexpr int most_members = 32;  ///< of any object
 
   /// `text`: the header without its length, which must outlive this object; `data_size`: the bytes
-  /// behind it. False when it is none, or its arrays do not fill those bytes.
+  /// after it. False when it is not a header, or its arrays do not fill those bytes.
   bool read(const char* text, std::size_t size, std::uint64_t data_size) noexcept {
     at_ = text;
     end_ = text + size;
@@ -133,7 +133,7 @@ class TensorHeader {
     if (!take('"')) return false;
     text.begin = at_;
     while (at_ != end_ && *at_ != '"') {
-      if (*at_ < 0x20 || *at_ > 0x7e) return false;  // a char with a sign, or beyond 0x7e
+      if (*at_ < 0x20 || *at_ > 0x7e) return false;  // a signed char, or beyond 0x7e
       if (*at_++ == '\\' && !take_escape()) return false;
     }
     text.end = at_;
@@ -161,7 +161,7 @@ class TensorHeader {
     return true;
   }
 
-  /// A whole number as JSON writes it: digits alone, none before it that is 0.
+  /// A whole number as JSON writes it: only digits, without leading zeros.
   bool take_number(std::uint64_t& value) noexcept {
     skip_blanks();
     const char* const first = at_;
@@ -174,7 +174,7 @@ class TensorHeader {
     return at_ != first && (*first != '0' || at_ == first + 1);
   }
 
-  /// Members, none of them twice; `take_value(name)` takes what is behind the colon.
+  /// Members, none of them twice; `take_value(name)` takes what follows the colon.
   template <typename TakeValue>
   bool take_object(const TakeValue& take_value) noexcept {
     if (!take('{')) return false;
@@ -217,7 +217,7 @@ class TensorHeader {
     if (width_of(entry.dtype) == 0 || entry.begin > entry.end || entry.end - entry.begin != bytes) {
       return false;
     }
-    entry_[count_++] = entry;  // as many as there are members, at most
+    entry_[count_++] = entry;  // at most as many as there are members
     return true;
   }
   bool take_shape(HeaderEntry& entry) noexcept {
@@ -246,12 +246,12 @@ class TensorHeader {
     return 0;
   }
 
-  /// Whether the arrays, in the order of their places, follow each other from 0 to `data_size`.
+  /// Whether the arrays, in order of their offsets, follow each other from 0 to `data_size`.
   bool fill(std::uint64_t data_size) const noexcept {
     bool used[most_members] = {};
     std::uint64_t filled = 0;
     for (int n = 0; n < count_; ++n) {
-      int next = -1;  // of those left, the one that begins at `filled`; an empty one goes first
+      int next = -1;  // of those left, the one that starts at `filled`; an empty one goes first
       for (int i = 0; i < count_; ++i) {
         if (used[i] || entry_[i].begin != filled) continue;
         if (next < 0 || entry_[i].end < entry_[next].end) next = i;

@@ -37,7 +37,7 @@ std::string partial_prefix(const fs::path& path) {
   return "." + path.filename().string() + ".partial-";
 }
 
-/// The process that a name PREFIX-PID-N speaks of.
+/// The process in a name PREFIX-PID-N.
 std::optional<pid_t> owner_of(std::string_view name, std::string_view prefix) {
   if (!name.starts_with(prefix)) return std::nullopt;
   name.remove_prefix(prefix.size());
@@ -51,9 +51,9 @@ std::optional<pid_t> owner_of(std::string_view name, std::string_view prefix) {
   return owner;
 }
 
-/// Removes what killed processes left beside `path` under its name. That nobody works on it any
-/// more is told by the process, which is gone, and by the lock, which is free: the number alone
-/// would mislead where another machine or container writes into the same folder.
+/// Removes what killed processes left next to `path` under its name. It is abandoned when the
+/// process is gone and the lock is free: the process id alone would mislead where another machine
+/// or container writes into the same folder.
 void sweep(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   const std::string prefix = partial_prefix(path);
@@ -64,7 +64,7 @@ void sweep(const fs::path& path) {
     const std::string name = it->path().filename().string();
     const std::optional<pid_t> owner = owner_of(name, prefix);
     if (!owner) continue;
-    if (*owner == ::getpid()) {  // ours, or of a process that had our number
+    if (*owner == ::getpid()) {  // ours, or from a process that had our id
       const std::scoped_lock lock(places().mutex);
       const auto& ours = places().paths;
       if (std::any_of(ours.begin(), ours.end(),

@@ -1,6 +1,6 @@
-// Products on their way: under hidden names beside their places until they are whole, known to the
-// process so that it can remove them, and swept by the next to write there when it was killed.
-// Private to atomic_file.cpp.
+// Unfinished products: under hidden names next to their destinations until they are whole. The
+// process keeps track of them so that it can remove them; if it was killed, the next writer there
+// does. Private to atomic_file.cpp.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace fairway::unfinished {
 
-/// A lock on a file or folder that goes with its process, however that ends; with `wait`, once
-/// others have let go of it. Held while the object lives.
+/// A lock on a file or folder that is released when its process ends, however that happens; with
+/// `wait`, taken once others have released it. Held while the object lives.
 class Lock {
  public:
   Lock() = default;
@@ -19,18 +19,18 @@ class Lock {
   Lock& operator=(const Lock&) = delete;
 
   bool held() const { return held_; }
-  int release() { return std::exchange(descriptor_, -1); }  ///< the descriptor that keeps it
+  int release() { return std::exchange(descriptor_, -1); }  ///< the descriptor that holds it
 
  private:
   int descriptor_ = -1;
   bool held_ = false;
 };
 
-/// A hidden name in the same folder, hence on the same file system: rename is then atomic. Sweeps
-/// first what killed processes left there.
+/// A hidden name in the same folder, hence on the same file system, so that rename is atomic.
+/// First removes what killed processes left there.
 [[nodiscard]] std::filesystem::path register_temporary(const std::filesystem::path& path);
 
-/// It is in its place now.
+/// It has been moved to its destination.
 void forget(const std::filesystem::path& temporary);
 
 /// Removes it.

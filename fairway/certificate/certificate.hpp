@@ -1,4 +1,4 @@
-// A certificate: what was proved of a plan, with all that queries and the checker need.
+// A certificate: what was proved about a plan, with everything queries and the checker need.
 //
 // Properties that always hold: those of plan.hpp for the arrays taken from the plan; kind follows
 // from region and region_of_interest (cell_kinds); those of section_verdicts.hpp.
@@ -27,15 +27,15 @@ struct Certificate {
   std::vector<Region> region;      ///< [iy][ix]
   std::vector<CellKind> kind;      ///< [iy][ix]
   SectionVerdicts sections;
-  PlanDigests plan;            ///< which plan it is of
-  std::optional<Frame> frame;  ///< where the plan's grid lies; none: the plan did not say
-  /// How it was found and what it amounts to, one JSON object: program, options, volumes, levels.
+  PlanDigests plan;            ///< which plan it belongs to
+  std::optional<Frame> frame;  ///< where the plan's grid lies; none when the plan did not say
+  /// How it was found and its overall results, one JSON object: program, options, volumes, levels.
   std::string evidence_json = "{}";
 
   Flow flow() const { return {grid, vehicle, heading_rad.data(), kind.data()}; }
 };
 
-/// What a certificate's file says beside its arrays, one JSON object with sorted keys.
+/// Everything in a certificate's file except its arrays, one JSON object with sorted keys.
 [[nodiscard]] std::string record_text(const Certificate& certificate);
 
 }  // namespace fairway

@@ -46,7 +46,7 @@ std::vector<Tensor> tensors_of(const Certificate& c, const Geometry& geometry) {
 
 json record_of(const Certificate& c) {
   json record = json::parse(c.evidence_json, nullptr, false);
-  require(record.is_object(), "evidence_json is one JSON object");
+  require(record.is_object(), "evidence_json is a JSON object");
   record["plan_sha256"] = json::parse(json_text(c.plan));
   record["frame"] = c.frame ? json_of(*c.frame) : json();
   return record;
@@ -84,7 +84,7 @@ void take_cells(const Safetensors& file, const std::string& where, Certificate& 
   if (!g.is_valid()) {
     throw InputError(
         where + ": \"geometry\"",
-        "expected sizes in the range of docs/formats.md, cells smaller than the turning "
+        "expected sizes in the ranges of docs/formats.md, cells smaller than the turning "
         "radius, and 2^32 units");
   }
   g.put_into(c.grid, c.vehicle);
@@ -155,7 +155,8 @@ Certificate certificate_of_bytes(std::span<const std::byte> bytes, const std::st
   take_sections(file, where, c);
   c.region_of_interest = region_of_interest_of(member(record, "region_of_interest", place), c.kind,
                                                place + ".region_of_interest");
-  if (file.tensors.size() != 9) throw InputError(where, "has arrays that no certificate has");
+  if (file.tensors.size() != 9)
+    throw InputError(where, "has arrays that do not belong in a certificate");
   const json found = digests_of(file.tensors);
   require_digests(record, found, place);
   if (cell_kinds(c.grid, c.region, c.region_of_interest) != c.kind) {

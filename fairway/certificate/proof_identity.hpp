@@ -1,6 +1,6 @@
-// What a proof is a proof of, in one digest: the vehicle, the grid and its frame, the region of
-// interest, and the plan's arrays. Two proofs go together when theirs are the same: a certificate
-// and the plan beside it, an earlier certificate and the work that goes on from it.
+// What a proof is about, in one digest: the vehicle, the grid and its frame, the region of
+// interest, and the plan's arrays. Two things belong together when their digests agree: a
+// certificate and the plan next to it, an earlier certificate and the work that resumes from it.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace fairway {
 
-/// SHA-256 in lower-case hex. A plan without a frame lies where its own grid does.
+/// SHA-256 in lower-case hex. A plan without a frame is placed by its own grid.
 [[nodiscard]] std::string proof_identity(const Certificate& certificate);
 
-/// That of a certificate of `plan`.
+/// The identity of a certificate for `plan`.
 [[nodiscard]] std::string proof_identity(const Plan& plan, const RegionOfInterest& region);
 
 }  // namespace fairway

@@ -1,6 +1,6 @@
-// The outer border of the buffer: the safe-start cells, reachable ones only, that touch it, and for
+// The outer border of the buffer: the safe-start cells, only reachable ones, that touch it, and for
 // every cell the nearest of them (paper 1: "the closest point of the buffer region's external
-// border"). A border cell from which the goal cannot be reached is no way out, so it is left out.
+// border"). A border cell that cannot reach the goal is not a way out, so it is excluded.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,7 @@ struct Scene {
   std::vector<float> cost;
 };
 
-// Regions and costs at random: the border is asked of nothing else.
+// Random regions and costs: the border depends on nothing else.
 Scene random_scene(Random& random, int nx, int ny) {
   Scene s{{nx, ny, 0.0, 0.0, 1.0}, {}, {}};
   for (std::size_t i = 0; i < s.grid.size(); ++i) {

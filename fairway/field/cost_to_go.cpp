@@ -20,10 +20,10 @@ std::vector<std::uint8_t> safe_start(const CompleteMap& complete) {
   return inside;
 }
 
-// Exact distances where the mission says them: the disc sees its own centre, a path's cells and
-// their neighbours their path. Without the neighbours, a cell just beside the path would count the
-// way to the centre of a path cell first, up to a cell too far, and the field beside a slanted path
-// would waver with it.
+// Exact distances where the mission gives them: to the centre in the goal disc, to the path in a
+// path's cells and their neighbours. Without the neighbours, a cell right next to the path would
+// measure to the centre of a path cell first, up to a cell too far, and the field next to a slanted
+// path would waver with it.
 std::vector<EikonalSource> exact_sources(const Grid& grid, const CompleteMap& complete,
                                          const Mission& mission) {
   std::vector<EikonalSource> sources;

@@ -31,7 +31,7 @@ CompleteMap complete_of(const ObstacleMap& map, const Mission& mission, Metric m
 
 bool safe(Region r) { return r == Region::free || r == Region::goal; }
 
-// Is a cell joined to a goal cell through safe start, by sides and corners?
+// Is a cell connected to a goal cell through safe-start cells, by sides and corners?
 std::vector<std::uint8_t> joined_to_goal(const Grid& g, const CompleteMap& complete) {
   std::vector<std::uint8_t> out(g.size(), 0);
   std::vector<std::uint32_t> open = complete.goal_cells;

@@ -55,8 +55,9 @@ class DescentRows {
   const float* above_;
 };
 
-/// Descent of an eikonal field: of the eight triangles that of least value, with the direction at
-/// which its linear interpolation is crossed (see eikonal.cpp). Every direction can occur.
+/// Descent of an eikonal field: the one of the eight triangles with the least value, with the
+/// direction in which its linear interpolation is crossed (see eikonal.cpp). Every direction can
+/// occur.
 inline Descent descent_continuous(const DescentRows& rows, int ix) {
   constexpr float root_half = 0.70710678F;
   constexpr float root_two = 1.41421356F;

@@ -56,7 +56,7 @@ struct Parabola {
   std::int32_t height;
 };
 
-// Does the parabola `b` lie nowhere below both `a` and `c`, a.x < b.x < c.x? Maurer et al., Eq. 3
+// Is the parabola `b` nowhere below both `a` and `c`, a.x < b.x < c.x? Maurer et al., Eq. 3
 // with everything multiplied out: integers, no division.
 bool hidden(Parabola a, Parabola b, Parabola c) {
   const std::int64_t ab = b.x - a.x;

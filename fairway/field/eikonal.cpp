@@ -17,8 +17,8 @@
 namespace fairway {
 namespace {
 
-// Inside the solver a distance is measured in waves: a cell's side is 3/2 waves, so that a wave is
-// thinner than the 1/sqrt(2) cell by which values grow, and so that the side is exact in float.
+// Inside the solver, distances are measured in waves: a cell's side is 3/2 waves, so that a wave is
+// thinner than the 1/sqrt(2) cell by which values grow, and the side is exact in float.
 constexpr float side = 1.5F;
 constexpr float diagonal = 2.12132034F;      // 1.5 sqrt(2)
 constexpr float largest_drop = 1.06066017F;  // 1.5 / sqrt(2): beyond it the diagonal alone wins
@@ -31,7 +31,7 @@ constexpr std::size_t last_wave = std::size_t{1}
                                   << 22;  // whole waves are exact in float up to here
 
 // Threads meet here after every wave they share. Waves are short (microseconds), so they spin
-// first; on a busy machine they then sleep, and leave the processor to the one they wait for.
+// first; on a busy machine they then sleep, leaving the processor to the thread they wait for.
 class WaveBarrier {
  public:
   explicit WaveBarrier(int threads) : threads_(threads) {}
@@ -81,9 +81,9 @@ class WaveFront {
   };
 
   // Every thread runs the same loop and reads the same counts, so all leave it together. A list is
-  // written by its owner only, and read by all in the wave it belongs to, when nobody writes it.
-  // Narrow waves (a corridor's) thread 0 spreads alone while the others wait: meeting after each
-  // would take longer than the work.
+  // written only by its owner, and read by all in the wave it belongs to, when nobody writes it.
+  // Narrow waves (in a corridor) are spread by thread 0 alone while the others wait: meeting after
+  // each would take longer than the work.
   void work(std::size_t thread) {
     std::size_t wave = 0;
     while (wave != finished) {
@@ -94,7 +94,7 @@ class WaveFront {
         lists_[thread].cells[wave % slots].clear();
         ++wave;
       } else {
-        barrier_.wait();  // every thread has cleared its list of the wave before
+        barrier_.wait();  // every thread has cleared its list of the previous wave
         if (thread == 0) next_wave_ = spread_alone(wave);
         barrier_.wait();
         wave = next_wave_;
@@ -115,7 +115,7 @@ class WaveFront {
     list.insert(list.end(), starts_[wave].begin(), starts_[wave].end());
   }
 
-  // Spreads waves from `wave` on until one is wide enough to share; answers that wave, or finished.
+  // Spreads waves from `wave` on until one is wide enough to share; returns that wave, or finished.
   std::size_t spread_alone(std::size_t wave) {
     std::size_t empty_waves = 0;
     for (; wave < last_wave; ++wave) {
@@ -133,7 +133,7 @@ class WaveFront {
     return finished;
   }
 
-  // This thread's share of the cells of the wave: an even cut of all threads' lists in a row.
+  // This thread's share of the cells of the wave: an even split of all threads' lists in sequence.
   void spread_share(std::size_t wave, std::size_t thread) {
     const std::size_t total = cells_of(wave);
     const std::size_t begin = total * thread / lists_.size();
@@ -149,11 +149,11 @@ class WaveFront {
     }
   }
 
-  // Blocked cells are NaN: they compare false, so they are neither final nor to be lowered.
+  // Blocked cells are NaN: they compare false, so they are neither final nor lowered.
   void spread(std::uint32_t cell, float wave_begin, ThreadLists& mine) {
     const float* at = u_ + cell;
     const float value = load(at);
-    if (!(value >= wave_begin)) return;  // it was lowered into an earlier wave, and is done
+    if (!(value >= wave_begin)) return;  // it was lowered into an earlier wave and is done
     const float wave_end = wave_begin + 1.0F;
     const std::ptrdiff_t n = stride_;
     const float e = load(at + 1);
@@ -162,7 +162,7 @@ class WaveFront {
     const float so = load(at - n);
     const float across_x = std::min(final_or_inf(no, wave_end), final_or_inf(so, wave_end));
     const float across_y = std::min(final_or_inf(e, wave_end), final_or_inf(w, wave_end));
-    // Values grow by 1.06 waves or more; far out, where a float is coarser, they are held to it.
+    // Values grow by 1.06 waves or more; far out, where floats are coarser, this is enforced.
     const float along_x = std::max(axial_value(value, across_x), wave_end);
     const float along_y = std::max(axial_value(value, across_y), wave_end);
     if (e > along_x) lower(cell + 1, along_x, mine);
@@ -181,10 +181,10 @@ class WaveFront {
     return value < wave_end ? value : unreached;
   }
 
-  // The triangle of an axial neighbour of value a and the diagonal one of value b beside it:
+  // The triangle of an axial neighbour of value a and the adjacent diagonal one of value b:
   //   min over 0 <= s <= 1 of a - s (a - b) + side sqrt(1 + s^2)
   //     = a + sqrt(side^2 - (a - b)^2) where 0 <= a - b <= side / sqrt(2), else an end point.
-  // The end point b is spread by the diagonal cell itself.
+  // The end point b is handled by the diagonal cell itself.
   static float axial_value(float a, float b) {
     const float drop = std::clamp(a - b, 0.0F, largest_drop);
     return a + std::sqrt(side * side - drop * drop);
@@ -219,7 +219,7 @@ class WaveFront {
   WaveBarrier barrier_;
 };
 
-// Sources by the wave they fall into; of two sources in one cell the nearer counts.
+// Sources by the wave they fall into; of two sources in one cell, the nearer counts.
 std::vector<CellList> sorted_starts(std::span<const EikonalSource> sources, int nx,
                                     std::size_t stride, std::vector<float>& u) {
   const auto columns = static_cast<std::uint32_t>(nx);
@@ -242,7 +242,7 @@ std::vector<CellList> sorted_starts(std::span<const EikonalSource> sources, int 
   return starts;
 }
 
-// The arena does not know of a bound on the whole process (--threads), so both are asked.
+// The arena does not know the limit for the whole process (--threads), so both are queried.
 int allowed_threads() {
   const std::size_t bound =
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
@@ -258,7 +258,7 @@ std::vector<float> eikonal_distance(std::span<const std::uint8_t> inside, int nx
   const auto columns = static_cast<std::size_t>(nx);
   const auto rows = static_cast<std::size_t>(ny);
   require(inside.size() == columns * rows, "eikonal_distance: one entry of `inside` per cell");
-  const std::size_t stride = columns + 2;  // a rim of blocked cells spares every bounds check
+  const std::size_t stride = columns + 2;  // a rim of blocked cells saves every bounds check
   require(stride * (rows + 2) < std::numeric_limits<std::uint32_t>::max(),
           "eikonal_distance: fewer than 2^32 cells");
   for (const EikonalSource& source : sources) {
@@ -276,11 +276,11 @@ std::vector<float> eikonal_distance(std::span<const std::uint8_t> inside, int nx
     }
   });
   std::vector<CellList> starts = sorted_starts(sources, nx, stride, u);
-  // Waves of a small grid are too short to share.
+  // Waves in a small grid are too short to share.
   const int threads = inside.size() < 500'000 ? 1 : allowed_threads();
   WaveFront(u, stride, std::move(starts), threads).run();
 
-  // Cut off the rim in place: every row moves towards the front of the array.
+  // Remove the rim in place: every row moves towards the front of the array.
   for (std::size_t iy = 0; iy < rows; ++iy) {
     for (std::size_t ix = 0; ix < columns; ++ix) {
       const float waves = u[(iy + 1) * stride + ix + 1];

@@ -3,14 +3,14 @@
 // Discretisation: at every cell the least of the eight triangles of its 3 x 3 neighbourhood, each
 // with linear interpolation between an axial and a diagonal neighbour (Tsitsiklis 1995; Sethian
 // and Vladimirsky 2003). First order, overestimates, isotropic to 1 part in a few hundred, and
-// its gradient takes every direction.
+// its gradient can have any direction.
 //
-// Order: in a triangle whose angle at the updated cell is 45 degrees the new value exceeds each
-// value it rests on by at least 1/sqrt(2) cell. So all cells of one "wave" of thickness 2/3 cell
-// are final together (Dial's buckets), no heap is needed, and the cells of a wave can be worked on
+// Order: in a triangle whose angle at the updated cell is 45 degrees, the new value exceeds each
+// value it depends on by at least 1/sqrt(2) cell. So all cells of one "wave" of thickness 2/3 cell
+// are final together (Dial's buckets), no heap is needed, and the cells of a wave can be processed
 // in parallel; a value is a minimum over final values, so results do not depend on threads.
-// Cost: linear in cells; two square roots a cell. Limit: distances beyond 2^22 / 1.5 = 2.8 million
-// cells are left at +inf.
+// Cost: linear in cells; two square roots per cell. Limit: distances beyond 2^22 / 1.5 = 2.8
+// million cells are left at +inf.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +27,9 @@ struct EikonalSource {
   float distance_cells = 0.0F;
 };
 
-/// Distances in cells, [iy][ix]. `inside` ([iy][ix], not zero: part of the region) bounds the
+/// Distances in cells, [iy][ix]. `inside` ([iy][ix], nonzero: part of the region) bounds the
 /// region; sources outside it are ignored. Returns +inf for cells that no source reaches.
-/// A step between diagonal neighbours is taken whatever the two cells beside it are.
+/// Steps between diagonal neighbours are allowed whatever the two cells next to them are.
 [[nodiscard]] std::vector<float> eikonal_distance(std::span<const std::uint8_t> inside, int nx,
                                                   int ny, std::span<const EikonalSource> sources);
 

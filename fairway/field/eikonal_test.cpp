@@ -55,7 +55,7 @@ double least_of_triangles(const Mask& m, const std::vector<double>& u, int ix, i
   return best;
 }
 
-// The same equations solved another way: Gauss-Seidel sweeps in double until nothing changes.
+// The same equations, solved differently: Gauss-Seidel sweeps in double until nothing changes.
 std::vector<double> by_sweeping(const Mask& inside, const Sources& sources) {
   std::vector<double> u(inside.cells.size(), std::numeric_limits<double>::infinity());
   for (const EikonalSource& s : sources) {
@@ -133,7 +133,7 @@ RC_GTEST_PROP(EikonalProperty, SolvesItsEquationsOnDrawnMaps, ()) {
   expect_solution(inside, sources);
 }
 
-TEST(Eikonal, BlobsOfObstaclesAreWalkedRound) {
+TEST(Eikonal, BlobsOfObstaclesAreWalkedAround) {
   Random random(52);
   for (int map = 0; map < 4; ++map) {
     const Mask inside = samples::blobs(random, 90, 70, 25, 9.0).inverted();
@@ -141,8 +141,8 @@ TEST(Eikonal, BlobsOfObstaclesAreWalkedRound) {
   }
 }
 
-// An open square of 100 m, whatever the cell, with exact distances in a disc about its middle (a
-// single cell if the disc has no radius). Errors are positive where the answer is too large.
+// An open square of 100 m, for any cell size, with exact distances in a disc about its centre (a
+// single cell if the disc has no radius). Errors are positive where the result is too large.
 struct OpenError {
   double worst_relative = 0.0;
   double worst_m = 0.0;
@@ -187,9 +187,9 @@ TEST(Eikonal, FromADiscTheErrorHalvesWithTheCell) {
   }
 }
 
-TEST(Eikonal, FromASingleCellTheErrorIsAFewPartsInAHundredBesideItAndGrowsByALogarithm) {
+TEST(Eikonal, FromASingleCellTheErrorIsAFewPartsInAHundredNearItAndGrowsByALogarithm) {
   // Measured: 3.95 % a knight's move from the source; 0.27, 0.33, 0.39, 0.45 cells at the corners
-  // of squares of 51, 101, 201, 401 cells: first order but for the logarithm of a point source.
+  // of squares of 51, 101, 201, 401 cells: first order except for the logarithm of a point source.
   double before_cells = 0.0;
   for (const int cells : {51, 101, 201, 401}) {
     const OpenError e = open_error(cells, 0.0);
@@ -205,8 +205,8 @@ TEST(Eikonal, FromASingleCellTheErrorIsAFewPartsInAHundredBesideItAndGrowsByALog
 }
 
 TEST(Eikonal, AroundACornerItNearsTheWayByTheCornerFromAbove) {
-  // A wall from the south up to half the height; the way behind it bends at the free cell on top
-  // of the wall.
+  // A wall from the south up to half the height; the way behind it bends at the free cell above
+  // the wall.
   double before_cells = 0.0;
   for (const int n : {41, 81, 161, 321}) {
     Mask inside(n, n, 1);
@@ -221,7 +221,7 @@ TEST(Eikonal, AroundACornerItNearsTheWayByTheCornerFromAbove) {
       for (int ix = 0; ix < n; ++ix) {
         const std::uint32_t i = inside.index(ix, iy);
         if (inside.cells[i] == 0) continue;
-        const bool seen = ix <= half || iy - half >= ix - half;  // the line by the corner: 45 deg
+        const bool seen = ix <= half || iy - half >= ix - half;  // line past the corner: 45 deg
         const double exact = seen ? between(inside, i, source)
                                   : between(inside, source, top) + between(inside, top, i);
         ASSERT_GE(found[i], exact * (1.0 - 4e-6)) << "cell " << ix << ", " << iy << " of " << n;
@@ -340,7 +340,7 @@ TEST(Eikonal, ASpiralIsFollowedToItsEnd) {
   const float longest = *std::max_element(found.begin(), found.end(), [](float a, float b) {
     return (std::isinf(a) ? 0.0F : a) < (std::isinf(b) ? 0.0F : b);
   });
-  EXPECT_GT(longest, 8.0F * n) << "the spiral is no spiral";
+  EXPECT_GT(longest, 8.0F * n) << "the spiral is not a spiral";
 }
 
 TEST(Eikonal, ASymmetricMapGetsASymmetricAnswerToTheBit) {

@@ -10,8 +10,8 @@
 
 // Along columns a vector of neighbouring cells moves from row to row: loads are aligned and shared
 // by four outputs. Rows are transposed, 16 of them at a time, so that the same code runs along
-// them. What is transposed at a time and what of the columns is at work at a time fit into the
-// first-level cache each.
+// them. The part transposed at a time and the part of the columns in use at a time each fit into
+// the first-level cache.
 
 namespace fairway {
 namespace {
@@ -25,7 +25,7 @@ using lanes::Sight;
 using lanes::Vector;
 
 constexpr std::size_t group_rows = 32;  // rows filtered along columns at a time
-constexpr std::size_t block = 64;       // columns that lie together in a tile
+constexpr std::size_t block = 64;       // columns stored together in a tile
 constexpr std::size_t chunk = 256;      // columns transposed at a time
 std::size_t whole(std::size_t count, std::size_t unit) { return (count + unit - 1) / unit * unit; }
 
@@ -44,7 +44,7 @@ struct Work {
   std::size_t tile_rows;
   std::size_t row_length;
   Scratch<float> tiles;
-  Scratch<float> rows;    // 16 rows of a chunk, padded by the reach; a line more against aliasing
+  Scratch<float> rows;    // 16 rows of a chunk, padded by the reach; an extra line against aliasing
   Scratch<float> turned;  // the same, transposed
   Sight sight;
 };
@@ -62,7 +62,7 @@ template <typename V>
   for (; i < count; ++i) out[i] = wall[i] != 0 ? marked_wall : row[i] + 0.0F;
 }
 
-/// One row of a chunk with `reach` cells more on both sides; zeros beyond the grid.
+/// One row of a chunk with `reach` extra cells on both sides; zeros beyond the grid.
 template <typename V, bool walls>
 [[gnu::always_inline]] inline void fill(float* out, const GaussianBand& b, std::ptrdiff_t iy,
                                         std::size_t first_column, std::size_t length) {
@@ -147,7 +147,7 @@ template <std::size_t bytes, bool walls>
 [[gnu::always_inline]] inline void filter_rows(const GaussianBand& b) {
   using V = Vector<bytes>;
   Work work(b);
-  const std::size_t kept = 2 * b.reach;  // rows of a tile that the next group needs too
+  const std::size_t kept = 2 * b.reach;  // rows of a tile that the next group also needs
   std::size_t next = 0;
   for (std::size_t group = b.first_row; group < b.last_row; group += group_rows) {
     const std::ptrdiff_t lowest =

@@ -22,8 +22,8 @@ std::vector<float> kernel_of(double sigma_cells) {
   return weight;
 }
 
-// Bands are filtered side by side and in place, so each needs its neighbours' nearest rows as they
-// were: copies, made before any band starts. Bands are high enough that these stay few.
+// Bands are filtered in parallel and in place, so each needs copies of its neighbours' nearest
+// rows, made before any band starts. Bands are tall enough that these stay few.
 constexpr std::size_t least_band_rows = 1024;
 constexpr std::size_t band_rows_per_reach = 16;
 
@@ -35,7 +35,7 @@ struct Bands {
   std::size_t count = (rows + height - 1) / height;
 
   std::size_t first_row(std::size_t band) const { return std::min(band * height, rows); }
-  /// The rows within reach of where `band` begins, on both sides.
+  /// The rows within reach of the start of `band`, on both sides.
   std::vector<float> around_start(const std::vector<float>& plane, std::size_t band) const {
     if (band == 0) return {};
     const auto row = [&](std::size_t iy) {

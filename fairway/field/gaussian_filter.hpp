@@ -20,7 +20,7 @@ namespace fairway {
 void gaussian_filter(VectorField& field, int nx, int ny, double sigma_cells);
 
 /// The same, but a cell averages only what it sees: along its row, then along its column, up to
-/// the first wall (`wall`: [iy][ix], not zero). Walls themselves count for nothing.
+/// the first wall (`wall`: [iy][ix], nonzero). Walls themselves do not contribute.
 void gaussian_filter_between_walls(VectorField& field, std::span<const std::uint8_t> wall, int nx,
                                    int ny, double sigma_cells);
 

@@ -86,7 +86,7 @@ Plane convolved_between_walls(const VectorField& f, const Mask& wall, double sig
   return in;
 }
 
-// Equal but for one positive factor, the same for all cells: a constant does not turn a vector.
+// Equal up to one positive factor, the same for all cells: a constant does not turn a vector.
 void expect_proportional(const VectorField& found, const Plane& exact, double sigma) {
   double scale = 0.0;
   double largest = 0.0;
@@ -122,7 +122,7 @@ TEST(GaussianFilter, HasTheKernelOfEquation20) {
   }
 }
 
-TEST(GaussianFilter, OneVectorBecomesTheKernelAndNoMore) {
+TEST(GaussianFilter, OneVectorBecomesTheKernelAndNothingElse) {
   for (const double sigma : {0.7, 2.0, 4.0}) {
     const int half = gaussian_half_width(sigma);
     VectorField f(61 * 61);
@@ -204,7 +204,7 @@ bool same_bits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 TEST(GaussianFilterBetweenWalls, NotABitLeaksThroughAWallOneCellThick) {
   Random random(124);
   constexpr int n = 90;
-  // Straight, slanted with corners touching, and closed: `left` says on which side a cell is.
+  // Straight, slanted with touching corners, and closed: `left` says which side a cell is on.
   const auto straight = [](int ix, int) { return ix - 45; };
   const auto slanted = [](int ix, int iy) { return ix - iy; };
   const auto yard = [](int ix, int iy) {
@@ -225,7 +225,7 @@ TEST(GaussianFilterBetweenWalls, NotABitLeaksThroughAWallOneCellThick) {
       VectorField other = f;
       for (std::size_t i = 0; i < side.size(); ++i) {
         if (side[i] > 0) std::tie(other.x[i], other.y[i]) = std::pair{-f.y[i], 7.0F * f.x[i]};
-        if (side[i] == 0) other.x[i] = 100.0F;  // walls count for nothing
+        if (side[i] == 0) other.x[i] = 100.0F;  // walls do not contribute
       }
       VectorField a = f;
       VectorField b = other;
@@ -259,7 +259,7 @@ TEST(GaussianFilterBetweenWalls, RefusesWallsOfAnotherSize) {
   EXPECT_THROW(gaussian_filter_between_walls(f, wall.cells, 4, 3, 1.0), PreconditionViolation);
 }
 
-// A plane in bands of `height` rows, one after the other.
+// A plane in bands of `height` rows, one after another.
 std::vector<float> filtered_in_bands(BandFilter filter, std::vector<float> plane, const Mask& wall,
                                      bool walls, std::span<const float> weight,
                                      std::size_t height) {

@@ -1,5 +1,5 @@
-// Vectors for the Gaussian filter: of the compiler's own kind, element by element like the scalars
-// they stand for, so that every width gives the same bits.
+// Vectors for the Gaussian filter: the compiler's vector types, working element by element like
+// scalars, so that every width gives the same bits.
 //
 // Everything here is inlined into functions built for one width; nothing is called across widths.
 #pragma once
@@ -34,7 +34,7 @@ struct Vector {
   }
 };
 
-/// Of two rows of a matrix, `distance` apart, swaps the blocks off the diagonal.
+/// Swaps the off-diagonal blocks of two rows of a matrix that are `distance` apart.
 template <typename V, std::size_t distance, std::size_t... lane>
 [[gnu::always_inline]] inline void swap_blocks(typename V::Float& a, typename V::Float& b,
                                                std::index_sequence<lane...>) {

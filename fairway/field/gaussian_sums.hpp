@@ -2,9 +2,9 @@
 // which is taken over lines a stride apart. The same code runs along columns, where a line is a
 // piece of a row, and along rows, once they are transposed.
 //
-// Between walls the cells of a wall are marked while they pass through: by the one float that no
-// other cell may have, minus zero. A cell sees its k-th neighbour if more than k open cells follow
-// each other up to it, itself included.
+// Between walls, wall cells are marked on their way through with the one float that no other cell
+// may have, minus zero. A cell sees its k-th neighbour if the run of open cells up to the cell,
+// including itself, is longer than k.
 //
 // Everything here is inlined into functions built for one vector width (gaussian_band.cpp).
 #pragma once
@@ -22,7 +22,7 @@
 
 namespace fairway::lanes {
 
-inline constexpr std::size_t abreast = 4;  // outputs that share their loads
+inline constexpr std::size_t abreast = 4;  // outputs that share loads
 inline constexpr float marked_wall = -0.0F;
 inline constexpr int far = std::numeric_limits<int>::max();
 
@@ -36,7 +36,7 @@ template <typename T>
   return Scratch<T>(static_cast<T*>(::operator new (count * sizeof(T), std::align_val_t{64})));
 }
 
-/// How many open cells follow each other up to a cell, coming from either side; lines of 16 cells.
+/// The length of the run of open cells up to a cell, from either side; lines of 16 cells.
 struct Sight {
   explicit Sight(std::size_t length)
       : from_below(scratch<int>(length * line)), from_above(scratch<int>(length * line)) {}
@@ -68,8 +68,8 @@ struct Kernel {
   std::size_t reach;
 };
 
-/// The weighted sums of four outputs while they grow: the neighbours at distance k below and above
-/// every output are kept, and one of each is loaded when k grows.
+/// The growing weighted sums of four outputs: the neighbours at distance k below and above every
+/// output are kept, and one of each is loaded when k grows.
 template <typename V, std::size_t stride>
 struct Sums {
   using Float = typename V::Float;
@@ -97,7 +97,7 @@ struct Sums {
       for (std::size_t j = 0; j < abreast; ++j) sum[j] += (below[j] + above[j]) * weight[k];
     }
   }
-  /// Only what is seen: the output's open cells on both sides, itself included, are more than k.
+  /// Only what is seen: the output's runs of open cells, including itself, are longer than k.
   [[gnu::always_inline]] inline void add_seen(std::size_t first, std::size_t last,
                                               const std::array<typename V::Int, abreast>& lower,
                                               const std::array<typename V::Int, abreast>& upper) {
@@ -138,7 +138,7 @@ template <typename V, bool walls, std::size_t stride>
         greatest = greatest > more ? greatest : more;
       }
       fold<V, V::count / 2>(least, greatest, std::make_index_sequence<V::count>());
-      // All outputs see both neighbours up to the distance `both`, none sees any beyond `any`.
+      // All outputs see both neighbours up to distance `both`; none sees any beyond `any`.
       const std::size_t any =
           std::min<std::size_t>(static_cast<std::size_t>(greatest[0]), kernel.reach + 1);
       const std::size_t both =

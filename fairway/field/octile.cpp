@@ -74,7 +74,7 @@ std::vector<float> octile_distance(std::span<const std::uint8_t> inside, int nx,
     for (const std::uint32_t cell : bucket) {
       --waiting;
       const Steps here = best[cell];
-      if (static_cast<std::size_t>(here.cost()) != wave) continue;  // lowered, and done before
+      if (static_cast<std::size_t>(here.cost()) != wave) continue;  // lowered, and already done
       const Neighbours around = neighbours_of(cell, nx, ny);
       for (int k = 0; k < around.count; ++k) {
         const bool axial = k < around.axial;
@@ -96,7 +96,7 @@ std::vector<float> paper_wavefront(std::span<const std::uint8_t> inside, int nx,
   require(inside.size() == cells, "paper_wavefront: one entry of `inside` per cell");
 
   std::vector<float> number(cells, unreached);
-  std::vector<std::uint32_t> latest;  // only neighbours of cells numbered last can be next
+  std::vector<std::uint32_t> latest;  // only neighbours of the last numbered cells can be next
   for (const std::uint32_t source : sources) {
     require(source < cells, "paper_wavefront: sources lie on the grid");
     if (number[source] == unreached) latest.push_back(source);
@@ -116,7 +116,7 @@ std::vector<float> paper_wavefront(std::span<const std::uint8_t> inside, int nx,
         candidates.push_back(n);
       }
     }
-    // Every candidate reads the map of the sweep before; only then are the new numbers written.
+    // Every candidate reads the map of the previous sweep; only then are the new numbers written.
     next.clear();
     for (const std::uint32_t cell : candidates) {
       const Neighbours around = neighbours_of(cell, nx, ny);

@@ -116,7 +116,7 @@ TEST(OctileDistance, RefusesSourcesOffTheGridAndWrongSizes) {
 }
 
 // Lines 3 to 13 of Algorithm 2, and 4 to 15 of Algorithm 1: a new map from the old one, sweep by
-// sweep over the whole map. 0 is a cell to be filled, -1 one that takes no part.
+// sweep over the whole map. 0 is a cell to be filled, -1 one that is left out.
 std::vector<float> by_whole_sweeps(const Mask& inside, const std::vector<std::uint32_t>& sources,
                                    float first, int sweeps) {
   std::vector<float> m(inside.cells.size());

@@ -1,5 +1,5 @@
 // ArduPilot fence text: "latitude longitude" per line, first the return point, then a ring whose
-// last line repeats its first. Lines that begin with '#' are comments.
+// last line repeats its first. Lines that start with '#' are comments.
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ std::vector<FencePoint> read_points(const SourceText& source) {
     double values[2];
     for (std::size_t i = 0; i < 2; ++i) {
       const auto number = parse_number(words[i]);
-      if (!number) throw InputError(where, fmt::format("{} is no number", shown(words[i])));
+      if (!number) throw InputError(where, fmt::format("{} is not a number", shown(words[i])));
       values[i] = *number;
     }
     const GeodeticPoint point{values[0], values[1]};
@@ -44,7 +44,7 @@ GeodeticFences read_ardupilot_fence(const SourceText& source) {
   const std::vector<FencePoint> points = read_points(source);
   if (points.size() < 5)
     throw InputError(source.file.string(),
-                     fmt::format("has {} points, expected a return point and a closed ring of at "
+                     fmt::format("has {} points, expected a return point and a closed ring with at "
                                  "least 3 corners (5 lines)",
                                  points.size()));
   if (points.back().point != points[1].point)

@@ -27,7 +27,7 @@ std::shared_ptr<OGRCoordinateTransformation> to_degrees(const std::string& proje
     projection.reset(OGRCreateCoordinateTransformation(&from, &to));
   }
   if (!projection) {
-    throw InputError(where, "its reference system is not understood: " + session.message());
+    throw InputError(where, "unknown reference system: " + session.message());
   }
   return projection;
 }
@@ -48,7 +48,7 @@ LonLatOf lon_lat_of(const Frame& frame, const std::string& where) {
     double x = position_m.x;
     double y = position_m.y;
     if (projection->Transform(1, &x, &y) == 0 || !std::isfinite(x) || !std::isfinite(y)) {
-      throw InputError(where, place_text(position_m) + " lies outside its reference system");
+      throw InputError(where, place_text(position_m) + " is outside its reference system");
     }
     return LonLat{x, y};
   };

@@ -7,9 +7,9 @@
 
 namespace fairway {
 
-/// Degrees of a point of the frame; empty when it has no place on Earth. The function is for one
-/// thread at a time. `where` names the record in errors: InputError when its reference system is
-/// not understood; the function throws it for a point outside that system.
+/// Converts points of the frame to degrees; empty when the frame is not georeferenced. For one
+/// thread at a time. `where` names the record in errors: throws InputError when its reference
+/// system is not understood; the returned function throws it for points outside that system.
 [[nodiscard]] LonLatOf lon_lat_of(const Frame& frame, const std::string& where);
 
 }  // namespace fairway

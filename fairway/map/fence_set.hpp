@@ -1,4 +1,4 @@
-// What every vector reader gives: places to keep out of and places to stay in, in metres.
+// What every vector reader returns: areas to keep out of and areas to stay in, in metres.
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@ struct FenceSet {
   std::vector<FenceCircle> keep_out_circles;
   std::vector<FencePolygon> keep_in;
   std::vector<FenceCircle> keep_in_circles;
-  std::vector<Vec2> places_m;  ///< what the world must hold besides: mission items, drawn lines
+  std::vector<Vec2> places_m;  ///< what the world must also contain: mission items, drawn lines
   std::optional<GeoReference> geo;
   std::vector<InputFile> inputs;
   std::vector<std::string> warnings;

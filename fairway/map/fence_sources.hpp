@@ -32,7 +32,7 @@ namespace fairway {
 /// QGC WPL 110 (qgc_waypoints.cpp): fence items (commands 5000 to 5004), mission items, home.
 [[nodiscard]] GeodeticFences read_waypoint_fences(const SourceText& source);
 
-/// The places a QGC WPL 110 mission visits, in order, home not among them.
+/// The places a QGC WPL 110 mission visits, in order, without home.
 [[nodiscard]] std::vector<MissionPlace> read_waypoint_mission(const SourceText& source);
 
 [[nodiscard]] bool is_waypoint_file(std::string_view head);

@@ -149,7 +149,7 @@ TEST_F(Fences, HeightsBelowTheAltitudeAreFreeAndUnknownHeightsAreNot) {
   EXPECT_TRUE(blocked(read_map(request), {-30, 0}));
 }
 
-TEST_F(Fences, HeightsThatCannotBeStayObstacles) {
+TEST_F(Fences, ImpossibleHeightsStayObstacles) {
   for (const char* none : {"-9999", "-32768", "-3.4e38", "-20000"}) {
     MapRequest request = this->request(
         "a.geojson",
@@ -159,8 +159,7 @@ TEST_F(Fences, HeightsThatCannotBeStayObstacles) {
     const ObstacleMap map = read_map(request);
     EXPECT_TRUE(blocked(map, {-30, 0})) << none;
     EXPECT_FALSE(blocked(map, {30, 0}));
-    EXPECT_THAT(map.warnings,
-                ::testing::Contains(HasSubstr("1 features have heights that cannot")));
+    EXPECT_THAT(map.warnings, ::testing::Contains(HasSubstr("1 features have impossible heights")));
   }
 }
 
@@ -186,7 +185,7 @@ TEST_F(Fences, APlanKeepsInAndOut) {
   EXPECT_NEAR(map.grid.x0_m, -52.0, 0.01);
 }
 
-TEST_F(Fences, SeveralKeepInFencesNeedAWord) {
+TEST_F(Fences, SeveralKeepInFencesNeedInclusion) {
   const std::string text = plan(plan_square(-20, 0, 40, true) + "," + plan_square(20, 0, 40, true));
   EXPECT_EQ(
       error("a.plan", text),
@@ -232,14 +231,14 @@ TEST_F(Fences, TheReferenceIsTheRequestsElseHomeElseTheMiddle) {
   EXPECT_NEAR(map.frame.geo->longitude_deg, middle.longitude_deg, 1e-7);
 }
 
-TEST_F(Fences, AHomeFarAwayIsNoOrigin) {
+TEST_F(Fences, AHomeFarAwayIsNotTheOrigin) {
   std::string text = plan(plan_square(0, 0, 40, true));
   text.replace(text.find("[47.3977,8.5456,400]"), 20, "[-35.0,149.0,400]");
   MapRequest request = this->request("a.plan", text);
   request.reference.reset();
   const ObstacleMap map = read_map(request);
   EXPECT_NEAR(map.frame.geo->latitude_deg, zurich.latitude_deg, 1e-6);
-  EXPECT_THAT(map.warnings, ::testing::ElementsAre(HasSubstr("farther than 100 km")));
+  EXPECT_THAT(map.warnings, ::testing::ElementsAre(HasSubstr("more than 100 km")));
 }
 
 TEST_F(Fences, PolygonsThatCrossThemselvesAreRefusedWithTheCrossingNamed) {
@@ -251,7 +250,7 @@ TEST_F(Fences, PolygonsThatCrossThemselvesAreRefusedWithTheCrossingNamed) {
             "the edge from line 4 to line 5 at latitude 47.0500000, longitude 8.0500000");
 }
 
-TEST_F(Fences, GeoJsonThatIsWrongIsNamedWithItsPlace) {
+TEST_F(Fences, WrongGeoJsonIsReportedWithItsLocation) {
   const auto ring_error = [&](const std::string& ring) {
     return error("a.geojson", collection(feature(polygon(ring))));
   };
@@ -277,10 +276,10 @@ TEST_F(Fences, GeoJsonThatIsWrongIsNamedWithItsPlace) {
   EXPECT_THAT(ring_error("[[8,47],[12,47],[12,47.1],[8,47]]"), HasSubstr("km from the reference"));
   EXPECT_THAT(ring_error("[[-179,47],[179,47],[179,47.1],[-179,47]]"), HasSubstr("antimeridian"));
   EXPECT_EQ(error("a.geojson", collection("")),
-            "a.geojson: has neither fence, obstacle nor mission item");
+            "a.geojson: has no fence, obstacle or mission item");
   EXPECT_EQ(error("a.geojson", R"({"type":"Blob"})"),
             "a.geojson: type: is \"Blob\", expected a GeoJSON geometry");
-  EXPECT_EQ(error("a.geojson", "{}"), "a.geojson: is no GeoJSON, the key \"type\" is missing");
+  EXPECT_EQ(error("a.geojson", "{}"), "a.geojson: is not GeoJSON, the key \"type\" is missing");
   EXPECT_THAT(error("a.geojson", "{\n\"type\": \"Polygon\",\n oops}"),
               StartsWith("a.geojson:3: is not JSON: syntax error"));
   EXPECT_EQ(error("a.geojson", R"({"type":"Polygon","type":"Point"})"),
@@ -296,7 +295,7 @@ TEST_F(Fences, GeoJsonThatIsWrongIsNamedWithItsPlace) {
       AllOf(HasSubstr("EPSG::25832"), HasSubstr("ogr2ogr")));
 }
 
-TEST_F(Fences, APlanThatIsWrongIsNamedWithItsPlace) {
+TEST_F(Fences, AWrongPlanIsReportedWithItsLocation) {
   EXPECT_EQ(error("a.plan", R"({"fileType":"Plan","geoFence":{"version":1}})"),
             "a.plan: geoFence.version: is not 2; open and save the plan with a current "
             "QGroundControl");
@@ -316,7 +315,7 @@ TEST_F(Fences, APlanThatIsWrongIsNamedWithItsPlace) {
       error("a.plan", plan("", "", R"({"type":"ComplexItem","complexItemType":"StructureScan"})")),
       "a.plan: mission.items[0]: is a complex item of kind \"StructureScan\" without plain "
       "waypoints");
-  EXPECT_EQ(error("a.plan", plan("")), "a.plan: has neither fence, obstacle nor mission item");
+  EXPECT_EQ(error("a.plan", plan("")), "a.plan: has no fence, obstacle or mission item");
 }
 
 TEST_F(Fences, AnArduPilotFenceIsAKeepInRingAboutItsReturnPoint) {
@@ -336,12 +335,13 @@ TEST_F(Fences, AnArduPilotFenceIsAKeepInRingAboutItsReturnPoint) {
   EXPECT_EQ(error("a.txt", line(0, 0) + ring),
             "a.txt:5: the ring is not closed: the last point differs from the first corner in line "
             "2");
-  EXPECT_EQ(error("a.txt", line(0, 0) + line(1, 1)),
-            "a.txt: has 2 points, expected a return point and a closed ring of at least 3 corners "
-            "(5 lines)");
+  EXPECT_EQ(
+      error("a.txt", line(0, 0) + line(1, 1)),
+      "a.txt: has 2 points, expected a return point and a closed ring with at least 3 corners "
+      "(5 lines)");
   EXPECT_EQ(error("a.txt", "47.0 8.0\n47.0\n"),
             "a.txt:2: \"47.0\" has 1 values, expected latitude and longitude");
-  EXPECT_EQ(error("a.txt", "47.0 east\n"), "a.txt:1: \"east\" is no number");
+  EXPECT_EQ(error("a.txt", "47.0 east\n"), "a.txt:1: \"east\" is not a number");
   EXPECT_EQ(error("a.txt", "147.0 8.0\n"),
             "a.txt:1: latitude 147 is out of range, expected degrees from -90 to 90");
   EXPECT_EQ(error("a.txt", "nan 8.0\n"),
@@ -362,11 +362,11 @@ TEST_F(Fences, AWaypointFileMayHoldFences) {
   EXPECT_FALSE(blocked(map, {-20, 0}));
   EXPECT_TRUE(blocked(map, {25, 0}));
   EXPECT_EQ(error("a.txt", head + row(1, 5001, 4, 0, 0) + row(2, 16, 0, 1, 1)),
-            "a.txt:4: the polygon that begins at a.txt:3 has 1 corners, expected 4");
+            "a.txt:4: the polygon that starts at a.txt:3 has 1 corners, expected 4");
   EXPECT_EQ(error("a.txt", head + row(1, 5002, 2, 0, 0)),
             "a.txt:3: the polygon has 2 corners, expected at least 3");
   EXPECT_EQ(error("a.txt", "QGC WPL 120\n"),
-            "a.txt:1: \"QGC WPL 120\" is no waypoint file, expected \"QGC WPL 110\"");
+            "a.txt:1: \"QGC WPL 120\" is not a waypoint file, expected \"QGC WPL 110\"");
   EXPECT_EQ(error("a.txt", "QGC WPL 110\n1 2 3\n"), "a.txt:2: has 3 fields, expected 12");
   EXPECT_EQ(error("a.txt", "QGC WPL 110\n0 0 x 16 0 0 0 0 47 8 0 1\n"),
             "a.txt:2: field 3 is \"x\", expected a number");
@@ -391,14 +391,14 @@ TEST_F(Fences, WithoutAKeepInFenceTheWorldHoldsTheMission) {
   const ObstacleMap map = read_map(request);
   for (const Vec2 p : {Vec2{600, -20}, Vec2{-30, 700}, Vec2{-900, 10}})
     EXPECT_TRUE(holds(map.grid, p, 30.0)) << p.x << " " << p.y;
-  EXPECT_NEAR(map.frame.geo->latitude_deg, 47.3977, 1e-6) << "the plane stays where the file is";
+  EXPECT_NEAR(map.frame.geo->latitude_deg, 47.3977, 1e-6) << "the plane stays with the file";
   EXPECT_GE(map.frame.geo->worst_error_m, TangentPlane(at(0, 0)).worst_error_m(at(-900, 10)));
-  // What is on another continent, or cannot be read, is told by the one who reads the mission.
+  // Places on another continent, or unreadable ones, are reported by the reader of the mission.
   request.also_hold_m = {{1e7, 0}};
   request.also_hold_deg = {{-33.0, 151.0}};
   request.also_hold_path = folder_.file("none.csv");
   EXPECT_EQ(read_map(request).grid, alone);
-  // A keep-in fence is the world.
+  // A keep-in fence bounds the world.
   folder_.write("in.geojson", feature(polygon(square(0, 0, 200)), R"({"inclusion":true})"));
   request.file = folder_.file("in.geojson");
   request.also_hold_m = {{600, 0}};
@@ -420,17 +420,18 @@ TEST_F(Fences, ErrorsSayTheScenariosLineToo) {
   EXPECT_THAT(error(), StartsWith("s.toml:3: map.cell_m: 0.001 m cells on a map of 1"));
 }
 
-TEST_F(Fences, OtherFilesOfOursAreToldByName) {
+TEST_F(Fences, OtherFairwayFilesAreIdentified) {
   MapRequest request;
   request.file = folder_.write("s.toml", "[map]\nfile = \"a\"\n[mission]\nkind = \"goal\"\n");
   EXPECT_EQ(input_error_of([&] { (void)read_map(request); }),
-            "s.toml: is a scenario: `fairway plan` makes a plan of it");
+            "s.toml: is a scenario: `fairway plan` makes a plan from it");
 }
 
 TEST_F(Fences, FilesOfNoKnownKindAreRefused) {
   EXPECT_THAT(
       error("a.xyz", "hello"),
-      StartsWith("a.xyz: is of no known kind, expected ROS map_server .yaml, QGC waypoints, "));
+      StartsWith(
+          "a.xyz: has an unrecognised format; expected ROS map_server .yaml, QGC waypoints, "));
 }
 
 }  // namespace

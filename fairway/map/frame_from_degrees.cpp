@@ -31,19 +31,19 @@ FrameFromDegrees::FrameFromDegrees(const Frame& frame, const std::string& where)
   }
   if (!frame.projected_crs)
     throw InputError(where,
-                     "is in degrees, but the map does not say where on Earth it lies; expected x_m "
+                     "is in degrees, but the map is not georeferenced; expected x_m "
                      "and y_m in the map's metres");
   OGRSpatialReference from;
   OGRSpatialReference to;
   if (from.SetWellKnownGeogCS("WGS84") != OGRERR_NONE ||
       to.importFromWkt(frame.projected_crs->c_str()) != OGRERR_NONE)
-    throw InputError(where, "cannot be laid on the map: its reference system is unknown: " +
+    throw InputError(where, "cannot be placed on the map: unknown reference system: " +
                                 conversion_->session.message());
   from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   to.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   conversion_->projection.reset(OGRCreateCoordinateTransformation(&from, &to));
   if (!conversion_->projection)
-    throw InputError(where, "cannot be laid on the map: " + conversion_->session.message());
+    throw InputError(where, "cannot be placed on the map: " + conversion_->session.message());
 }
 
 FrameFromDegrees::~FrameFromDegrees() = default;
@@ -54,7 +54,7 @@ Vec2 FrameFromDegrees::point_m(const std::string& where, GeodeticPoint point) co
   double x = point.longitude_deg;
   double y = point.latitude_deg;
   if (!conversion_->projection->Transform(1, &x, &y) || !std::isfinite(x) || !std::isfinite(y))
-    throw InputError(where, "lies outside the map's reference system");
+    throw InputError(where, "is outside the map's reference system");
   return {x, y};
 }
 

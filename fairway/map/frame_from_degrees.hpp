@@ -1,4 +1,4 @@
-// Points in degrees on a map that knows where on Earth it lies.
+// Points in degrees on a georeferenced map.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace fairway {
 
-/// True when the map came from degrees, or from a projected raster.
+/// True when the map comes from degrees or from a projected raster.
 [[nodiscard]] bool has_geographic_frame(const ObstacleMap& map);
 
 class FrameFromDegrees {
@@ -24,7 +24,7 @@ class FrameFromDegrees {
   FrameFromDegrees(const FrameFromDegrees&) = delete;
   FrameFromDegrees& operator=(const FrameFromDegrees&) = delete;
 
-  /// Coordinates of the map's grid, metres. Throws InputError{where, ...} where none exist.
+  /// Coordinates of the map's grid, metres. Throws InputError{where, ...} where there are none.
   [[nodiscard]] Vec2 point_m(const std::string& where, GeodeticPoint point) const;
 
  private:

@@ -32,9 +32,9 @@ int max_value_of(GDALRasterBand& band) {
 }
 
 struct Layout {
-  ImageFormat format;                   // as the rows are handed on
+  ImageFormat format;                   // of the rows passed on
   std::vector<GDALColorEntry> palette;  // not empty: one band of indices
-  int bands = 1;                        // as the file has them
+  int bands = 1;                        // in the file
   bool white_is_zero = false;
 };
 
@@ -89,8 +89,8 @@ void apply_palette(const Layout& layout, std::span<const std::uint16_t> indices,
   std::size_t out = 0;
   for (const std::uint16_t index : indices) {
     if (index >= layout.palette.size())
-      throw InputError(file.string(), fmt::format("a pixel names colour {} of a palette of {}",
-                                                  index, layout.palette.size()));
+      throw InputError(file.string(), fmt::format("a pixel has colour {} of a palette of {}", index,
+                                                  layout.palette.size()));
     const GDALColorEntry& colour = layout.palette[index];
     for (const short c : {colour.c1, colour.c2, colour.c3})
       samples[out++] = static_cast<std::uint16_t>(std::clamp<short>(c, 0, 255));
@@ -99,7 +99,7 @@ void apply_palette(const Layout& layout, std::span<const std::uint16_t> indices,
   }
 }
 
-// Some files hold larger values than their bit depth promises; and white may be zero.
+// Some files have larger values than their bit depth allows; and white may be zero.
 void tidy_row(const Layout& layout, std::span<std::uint16_t> samples) {
   const auto max = static_cast<std::uint16_t>(layout.format.max_value);
   if (max != 255 && max != 65535)

@@ -16,7 +16,7 @@ GdalRaster::GdalRaster(const std::filesystem::path& file) : file_(file) {
   require_regular_file(file);
   const char* drivers[] = {"GTiff", "PNG", "BMP", "JPEG", nullptr};
   const char* options[] = {"GEOREF_SOURCES=INTERNAL", nullptr};
-  // An absolute name cannot be taken for a connection string or a virtual file.
+  // An absolute name cannot be mistaken for a connection string or a virtual file.
   const std::string name = std::filesystem::absolute(file).string();
   dataset_ = static_cast<GDALDataset*>(
       GDALOpenEx(name.c_str(), GDAL_OF_READONLY | GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, drivers,
@@ -56,7 +56,7 @@ GdalRaster::~GdalRaster() {
 }
 
 std::optional<std::array<double, 6>> GdalRaster::geotransform() {
-  // Only TIFF carries one inside; the other drivers would look for world files by themselves.
+  // Only TIFF has one inside; the other drivers would look for world files on their own.
   if (std::string_view(dataset_->GetDriverName()) != "GTiff") return std::nullopt;
   std::array<double, 6> transform{};
   if (dataset_->GetGeoTransform(transform.data()) != CE_None) return std::nullopt;
@@ -69,7 +69,7 @@ std::string GdalRaster::in_our_words(std::string said) const {
   for (std::size_t at = said.find(absolute); at != said.npos;
        at = said.find(absolute, at + given.size()))
     said.replace(at, absolute.size(), given);
-  const std::string twice = given + ":";  // where GDAL begins with the name, we do, too
+  const std::string twice = given + ":";  // GDAL may start with the name, as we do
   return said.starts_with(twice) ? std::string(trimmed(said.substr(twice.size()))) : said;
 }
 

@@ -1,4 +1,4 @@
-// One raster file opened through GDAL. For the readers' own sources: nothing of GDAL shows here.
+// One raster file opened through GDAL. For the readers only: hides GDAL's own headers.
 #pragma once
 
 #include <array>
@@ -25,18 +25,18 @@ class GdalRaster {
   GDALDataset& dataset() { return *dataset_; }
 
   /// The six numbers of GDAL's affine transform (corner-based: PixelIsPoint is already shifted),
-  /// for files that carry one inside.
+  /// for files that contain one.
   std::optional<std::array<double, 6>> geotransform();
 
-  /// What GDAL warned of so far, each with the file's name.
+  /// GDAL's warnings so far, each with the file's name.
   [[nodiscard]] std::vector<std::string> warnings() const;
 
-  /// Throws InputError: `what`, then what GDAL said last.
+  /// Throws InputError: `what`, then GDAL's last message.
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
   void require_modest_blocks() const;
-  /// GDAL's words, with the file's name as the user gave it.
+  /// GDAL's message, with the file's name as the user gave it.
   [[nodiscard]] std::string in_our_words(std::string said) const;
 
   GdalSession session_;

@@ -12,8 +12,8 @@ namespace fairway {
 
 namespace {
 
-// Only these formats: others may name further files or hosts (VRT, WMS), and registering all of
-// GDAL's plugins takes longer than reading a map.
+// Only these formats: others may refer to further files or hosts (VRT, WMS), and registering all
+// of GDAL's plugins takes longer than reading a map.
 void register_drivers_once() {
   static std::once_flag once;
   std::call_once(once, [] {
@@ -39,7 +39,7 @@ GdalSession::GdalSession() {
   CPLPushErrorHandlerEx(&take_error, this);
   CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", "NO");
   CPLSetThreadLocalConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");
-  // A GeoTIFF that says its rows run north is believed; by default GDAL reads it upside down.
+  // Accept a GeoTIFF that says its rows run north; by default GDAL reads it upside down.
   CPLSetThreadLocalConfigOption("GTIFF_HONOUR_NEGATIVE_SCALEY", "YES");
 }
 

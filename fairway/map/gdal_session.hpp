@@ -1,6 +1,6 @@
-// Manners for GDAL and GEOS while one of our calls runs in this thread: errors and warnings are
-// remembered, not printed; rasters may run south-up; no sidecar files are looked for; nothing is
-// fetched from a network.
+// Settings for GDAL and GEOS while one of our calls runs in this thread: errors and warnings are
+// stored, not printed; rasters may run south-up; sidecar files are ignored; nothing is fetched
+// from a network.
 #pragma once
 
 #include <string>
@@ -15,10 +15,10 @@ class GdalSession {
   GdalSession(const GdalSession&) = delete;
   GdalSession& operator=(const GdalSession&) = delete;
 
-  /// The last failure GDAL spoke of, or empty.
+  /// The last failure that GDAL reported, or empty.
   const std::string& message() const { return message_; }
 
-  /// Every different warning, in their order.
+  /// Every distinct warning, in order.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   void remember(const char* message) { message_ = message; }

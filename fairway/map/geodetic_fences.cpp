@@ -30,7 +30,7 @@ std::string shown_edge(const GeodeticPolygon& polygon, std::size_t r, std::size_
   return fmt::format("edge {} (vertex {} to {}){}", edge, edge, next, of_ring);
 }
 
-// Neighbouring vertices that are equal make no edge.
+// Equal neighbouring vertices do not form an edge.
 void drop_repeated(GeodeticRing& ring) {
   GeodeticRing kept;
   for (std::size_t i = 0; i < ring.points.size(); ++i) {
@@ -94,7 +94,7 @@ struct Box {
   }
 };
 
-// Calls visit(where, point) for every point a file names.
+// Calls visit(where, point) for every point in a file.
 template <typename Visit>
 void for_each_point(const GeodeticFences& fences, const Visit& visit) {
   for (const auto& polygon : fences.polygons)
@@ -133,7 +133,7 @@ TangentPlane choose_plane(const GeodeticFences& fences, std::optional<GeodeticPo
     const TangentPlane at_home(*fences.home);
     if (farthest_m(fences, at_home) <= tangent_plane_limit_m) return at_home;
     result.warnings.push_back(fmt::format(
-        "The home position ({}) is farther than {} km from the map; the middle of the map is the "
+        "The home position ({}) is more than {} km from the map; the centre of the map is the "
         "origin instead.",
         shown_point(*fences.home), tangent_plane_limit_m / 1e3));
   }
@@ -152,7 +152,7 @@ class PlaneBuilder {
                                    "at most {} km; are latitude and longitude swapped?",
                                    shown_point(p), (norm(at) + radius_m) / 1e3,
                                    shown_point(plane_.reference()), tangent_plane_limit_m / 1e3));
-    // The bound for the far side of a circle: the same function at a point as far away.
+    // The bound for the far side of a circle: the same function at a point that far away.
     const GeodeticPoint far = radius_m > 0.0 ? plane_.from_plane({0.0, norm(at) + radius_m}) : p;
     disc_error_m_ = std::max(disc_error_m_, plane_.worst_error_m(far));
     return at;
@@ -176,7 +176,7 @@ class PlaneBuilder {
   double worst_error_m() const { return disc_error_m_ + bend_error_m_; }
 
  private:
-  // An edge straight in degrees bends in the plane: halve it until the bend is small.
+  // An edge straight in degrees is curved in the plane: halve it until the curve is small.
   void divide(std::vector<Vec2>& out, GeodeticPoint from, Vec2 from_m, GeodeticPoint to, Vec2 to_m,
               int depth) {
     const GeodeticPoint middle{0.5 * (from.latitude_deg + to.latitude_deg),

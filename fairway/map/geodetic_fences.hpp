@@ -1,4 +1,4 @@
-// Fences in degrees, as the files have them, and the way from there to metres.
+// Fences in degrees, as in the files, and their conversion to metres.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace fairway {
 
-/// Vertices in order, without the repeated last one. `places` says where each stands in the file
+/// Vertices in order, without the repeated last one. `places` says where each is in the file
 /// ("FILE:LINE" or a path of keys), or is empty: then the index is added to the fence's `where`.
 struct GeodeticRing {
   std::vector<GeodeticPoint> points;
@@ -35,7 +35,7 @@ struct GeodeticCircle {
 struct GeodeticFences {
   std::vector<GeodeticPolygon> polygons;
   std::vector<GeodeticCircle> circles;
-  std::vector<GeodeticPoint> places;  ///< mission items and drawn lines: the world must hold them
+  std::vector<GeodeticPoint> places;  ///< mission items and drawn lines, to be in the world
   std::optional<GeodeticPoint> home;  ///< home position or return point
   std::vector<InputFile> inputs;
   std::vector<std::string> warnings;
@@ -45,9 +45,9 @@ struct GeodeticFences {
 void require_geodetic(const std::string& where, GeodeticPoint point);
 
 /// Checks (every ring has three corners, is simple, lies within 180 degrees of longitude; circles
-/// have a radius above 0) and lays everything in the tangent plane at `reference`, else at home,
-/// else at the centre of the bounding box. Edges are straight in degrees, as autopilots take them:
-/// they are divided until the plane's straight pieces are within 1 mm of them.
+/// have a radius above 0) and projects everything into the tangent plane at `reference`, else at
+/// home, else at the centre of the bounding box. Edges are straight in degrees, as autopilots
+/// interpret them: they are divided until the plane's straight pieces are within 1 mm of them.
 [[nodiscard]] FenceSet in_tangent_plane(const GeodeticFences& fences,
                                         std::optional<GeodeticPoint> reference);
 

@@ -35,7 +35,7 @@ class GeoJsonReader {
  private:
   void read_feature(const JsonPlace& feature) {
     if (feature.at("type").text() != "Feature")
-      feature.at("type").fail("is no Feature, the only kind a FeatureCollection holds");
+      feature.at("type").fail("is not a Feature, the only kind a FeatureCollection holds");
     const JsonPlace geometry = feature.at("geometry");
     if (geometry.value().is_null()) return;
     const JsonPlace properties =
@@ -55,7 +55,7 @@ class GeoJsonReader {
     fences.circles.resize(circles_before);
   }
 
-  // Heights in metres above what altitude_m is measured from; unknown heights stay obstacles.
+  // Heights in metres above the datum of altitude_m; unknown heights stay obstacles.
   bool is_low(const JsonPlace& properties) {
     if (!request_.altitude_m || !properties.is_object()) return false;
     for (const auto& [key, value] : properties.value().items()) {
@@ -145,11 +145,12 @@ class GeoJsonReader {
 void require_wgs84(const JsonPlace& root) {
   if (!root.has("crs") || root.at("crs").value().is_null()) return;
   const JsonPlace crs = root.at("crs");
-  if (!crs.has("properties") || !crs.at("properties").has("name")) crs.fail("names no system");
+  if (!crs.has("properties") || !crs.at("properties").has("name"))
+    crs.fail("does not name a system");
   const std::string name = crs.at("properties").at("name").text();
   if (name.find("CRS84") != name.npos || name.ends_with(":4326")) return;
   crs.fail(
-      fmt::format("is {}, expected WGS84 (RFC 7946 knows no other); convert it with "
+      fmt::format("is {}, expected WGS84 (the only one in RFC 7946); convert it with "
                   "ogr2ogr -t_srs EPSG:4326 -lco RFC7946=YES",
                   shown(name)));
 }
@@ -160,7 +161,7 @@ GeodeticFences read_geojson(const SourceText& source, const nlohmann::json& json
                             const MapRequest& request) {
   const JsonPlace root(json, source.file.string() + ": ");
   if (!root.is_object() || !root.has("type"))
-    throw InputError(source.file.string(), "is no GeoJSON, the key \"type\" is missing");
+    throw InputError(source.file.string(), "is not GeoJSON, the key \"type\" is missing");
   require_wgs84(root);
   GeoJsonReader reader(request);
   reader.read_any(root);
@@ -169,16 +170,16 @@ GeodeticFences read_geojson(const SourceText& source, const nlohmann::json& json
   const std::string name = source.file.string();
   if (reader.lines > 0)
     fences.warnings.push_back(
-        fmt::format("{}: {} lines are no obstacles (only areas, and points "
+        fmt::format("{}: {} lines are not obstacles (only areas, and points "
                     "with radius_m, are).",
                     name, reader.lines));
   if (reader.bare_points > 0)
     fences.warnings.push_back(
         fmt::format("{}: {} points without radius_m are ignored.", name, reader.bare_points));
   if (reader.untold_heights > 0)
-    fences.warnings.push_back(
-        fmt::format("{}: {} features have heights that cannot be; they are unknown, and obstacles.",
-                    name, reader.untold_heights));
+    fences.warnings.push_back(fmt::format(
+        "{}: {} features have impossible heights; they count as unknown, hence as obstacles.", name,
+        reader.untold_heights));
   if (reader.low_areas > 0)
     fences.warnings.push_back(fmt::format("{}: {} features are not higher than {} m and are free.",
                                           name, reader.low_areas,

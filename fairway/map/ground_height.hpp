@@ -1,4 +1,4 @@
-// Heights that can be meant, and those that programs write where they know none.
+// Plausible heights, and the values that programs write for unknown ones.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace fairway {
 /// above the highest mountain.
 inline bool can_be_ground(double height_m) { return height_m >= -12'000.0 && height_m <= 9'000.0; }
 
-/// True for the usual values that stand for "none", as a file has them (before scale and offset).
+/// True for the usual values for "none", as stored in the file (before scale and offset).
 inline bool stands_for_none(double sample) {
   constexpr std::array<double, 7> none{-999.0,    -9'999.0, -10'000.0, -32'767.0,
                                        -32'768.0, 32'767.0, 65'535.0};

@@ -1,5 +1,5 @@
-// Images as rows of samples: PGM and PPM by our own hand (GDAL knows neither the plain kinds nor
-// a maximum other than 255), PNG, BMP, JPEG and TIFF through GDAL.
+// Images as rows of samples: PGM and PPM with our own reader (GDAL supports neither the plain
+// kinds nor a maximum other than 255), PNG, BMP, JPEG and TIFF through GDAL.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct ImageFormat {
   int width = 0;
   int height = 0;
   int colours = 1;            ///< 1 grey, 3 red green blue; palettes arrive as colours
-  bool alpha = false;         ///< one more sample behind the colours; 0 is transparent
+  bool alpha = false;         ///< one more sample after the colours; 0 is transparent
   int max_value = 255;        ///< white, and opaque
   std::optional<int> nodata;  ///< grey value that means "no data"
   int channels() const { return colours + (alpha ? 1 : 0); }
@@ -28,9 +28,9 @@ struct ImageFormat {
 using TakeRow =
     std::function<void(const ImageFormat&, int row, std::span<const std::uint16_t> samples)>;
 
-/// Gives warnings: what a user should know of the file. Throws InputError: missing, malformed,
-/// truncated, no samples of 8 or 16 bits, or more than `max_pixels`, which is checked before
-/// anything is allocated.
+/// Returns warnings: what a user should know about the file. Throws InputError: missing,
+/// malformed, truncated, samples other than 8 or 16 bits, or more than `max_pixels`, which is
+/// checked before anything is allocated.
 [[nodiscard]] std::vector<std::string> read_image(const std::filesystem::path& file,
                                                   std::uint64_t max_pixels,
                                                   const TakeRow& take_row);
@@ -41,10 +41,10 @@ using TakeRow =
 /// True when the first bytes are those of a PNG, BMP, JPEG or TIFF file.
 [[nodiscard]] bool is_gdal_image(std::string_view head);
 
-/// True when the name says PGM, PPM, PNM or PBM, whatever the file begins with.
+/// True when the extension is PGM, PPM, PNM or PBM, regardless of the content.
 [[nodiscard]] bool is_pnm_file(const std::filesystem::path& file);
 
-/// The kinds by hand; `source` is the whole file. Gives warnings.
+/// The formats read here without GDAL; `source` is the whole file. Returns warnings.
 [[nodiscard]] std::vector<std::string> read_pnm(const SourceText& source, std::uint64_t max_pixels,
                                                 const TakeRow& take_row);
 

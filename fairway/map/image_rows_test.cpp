@@ -78,7 +78,7 @@ TEST(Pnm, EveryKindReadsTheSamePixels) {
             expected);
   EXPECT_EQ(load(folder.write("c.pgm", std::string("P5 2 1 1000\n\x00\x07\x03\xe8", 16))).samples,
             (std::vector<int>{7, 1000}))
-      << "above 255 two bytes, the high one first";
+      << "above 255: two bytes, high byte first";
   EXPECT_EQ(load(folder.write("d.ppm", "P3 1 1 9 1 2 3")).samples, (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(load(folder.write("e.ppm", "P6 1 1 255\nabc")).samples,
             (std::vector<int>{'a', 'b', 'c'}));
@@ -101,27 +101,27 @@ TEST(Pnm, BytesLeftOverAreWarnedAbout) {
   };
   for (const char* exact : {"P5 2 1 255\nab", "P2 2 1 255 1 2", "P2 2 1 255 1 2\n\n# end\n"})
     EXPECT_THAT(warnings(exact), ::testing::IsEmpty()) << exact;
-  // By the letter the comment is the first pixels, as other readers have it.
+  // Strictly, the comment is the first pixels, as in other readers.
   EXPECT_THAT(warnings("P5 2 1 255 # x\nab"),
               ::testing::ElementsAre(::testing::AllOf(
-                  HasSubstr("a.pgm: 4 bytes behind the last pixel are ignored"),
-                  HasSubstr("a comment behind the maximum value is taken for pixels"))));
+                  HasSubstr("a.pgm: 4 bytes after the last pixel are ignored"),
+                  HasSubstr("a comment after the maximum value is read as pixels"))));
   EXPECT_THAT(warnings("P5 2 1 255\r\nab"),
-              ::testing::ElementsAre(HasSubstr("1 byte behind the last pixel is ignored")));
+              ::testing::ElementsAre(HasSubstr("1 byte after the last pixel is ignored")));
   EXPECT_THAT(warnings("P2 2 1 255 1 2 3"), ::testing::ElementsAre(HasSubstr("1 byte")));
 }
 
-TEST(Pnm, AFileThatBeginsOtherwiseIsToldHowAPgmBegins) {
+TEST(Pnm, AFileThatStartsOtherwiseGivesAnErrorSayingHowAPgmStarts) {
   const ScratchFolder folder;
   for (const auto& [begin, shown] : {std::pair("# by hand\nP5 1 1 255\na", "\"# by hand\""),
                                      {"P4\n8 1\n\xff", "\"P4\""},
                                      {"\nP5 1 1 255\na", "\"\""},
                                      {"<html>", "\"<html>\""}})
     EXPECT_EQ(input_error_of([&] { (void)load(folder.write("a.PGM", begin)); }),
-              std::string("a.PGM:1: begins with ") + shown +
-                  ", a PGM begins with P5 or P2 and a PPM with P6 or P3, before any comment");
+              std::string("a.PGM:1: starts with ") + shown +
+                  "; a PGM starts with P5 or P2 and a PPM with P6 or P3, before any comment");
   EXPECT_THAT(input_error_of([&] { (void)load(folder.write("map.png", "# x\nP5 1 1 255\na")); }),
-              StartsWith("map.png:1: begins with \"# x\", a PGM begins with"));
+              StartsWith("map.png:1: starts with \"# x\"; a PGM starts with"));
 }
 
 TEST(Pnm, WhatIsWrongIsNamed) {
@@ -133,7 +133,7 @@ TEST(Pnm, WhatIsWrongIsNamed) {
             "a.pgm:1: is truncated: 3 bytes of pixels, expected 4 for 2 by 2 pixels");
   EXPECT_EQ(error("P5\n2 2\n255"), "a.pgm:3: ends before the pixels");
   EXPECT_EQ(error("P5\n2\n"), "a.pgm:3: ends before the height");
-  EXPECT_EQ(error("P5\n-2 2\n255\n"), "a.pgm:2: the width is no whole number");
+  EXPECT_EQ(error("P5\n-2 2\n255\n"), "a.pgm:2: the width is not a whole number");
   EXPECT_EQ(error("P5\n0 2\n255\n"), "a.pgm: the image is empty (0 by 2 pixels)");
   EXPECT_EQ(error("P5\n1 1\n0\na"), "a.pgm:3: the maximum value is 0, expected 1 to 65535");
   EXPECT_EQ(error("P5\n1 1\n70000\na"),
@@ -283,7 +283,7 @@ TEST(Occupancy, WhatTheAlphaChannelMakesOfPixelsIsWarnedAbout) {
   OccupancyRule scale;
   scale.mode = OccupancyRule::Mode::scale;
   EXPECT_THAT(warnings(2, {255, 0, 255, 255}, scale),
-              ::testing::ElementsAre(HasSubstr("alpha channel 1 pixels are not opaque")));
+              ::testing::ElementsAre(HasSubstr("1 pixels are not opaque (alpha channel)")));
 }
 
 TEST(Occupancy, DeepImagesAreReadLikeShallowOnesOfTheSameShade) {

@@ -15,7 +15,7 @@ namespace {
 
 std::string kind_of(const nlohmann::json& value) {
   if (value.is_null()) return "null";
-  if (value.is_string()) return "a text";
+  if (value.is_string()) return "a string";
   if (value.is_number()) return "a number";
   if (value.is_boolean()) return "true or false";
   return value.is_array() ? "a list" : "an object";
@@ -43,12 +43,12 @@ std::size_t JsonPlace::size() const {
 }
 
 JsonPlace JsonPlace::at(std::size_t index) const {
-  if (index >= size()) fail(fmt::format("has {} elements, expected more", size()));
+  if (index >= size()) fail(fmt::format("has only {} elements", size()));
   return {(*value_)[index], fmt::format("{}[{}]", where_, index)};
 }
 
 std::string JsonPlace::text() const {
-  if (!value_->is_string()) fail(fmt::format("is {}, expected a text", kind_of(*value_)));
+  if (!value_->is_string()) fail(fmt::format("is {}, expected a string", kind_of(*value_)));
   return value_->get<std::string>();
 }
 

@@ -1,4 +1,4 @@
-// JSON files with errors that say where: the line for broken syntax, the path of keys for the rest.
+// JSON files with located errors: the line for broken syntax, the path of keys for the rest.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace fairway {
 /// Strictly (base/strict_json.hpp), but to 64 levels: GeoJSON nests.
 [[nodiscard]] nlohmann::json parse_json(const SourceText& source);
 
-/// A value and where it stands: "FILE: geoFence.polygons[0]". Missing keys and wrong types throw
+/// A value and where it is: "FILE: geoFence.polygons[0]". Missing keys and wrong types throw
 /// InputError that names the path.
 class JsonPlace {
  public:

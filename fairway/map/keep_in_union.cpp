@@ -27,7 +27,7 @@ std::unique_ptr<OGRPolygon> ogr_polygon(const FencePolygon& polygon) {
   return result;
 }
 
-// Corners on the circle: the polygon lies inside, its edges bulge inwards by r (1 - cos(pi / n)).
+// Corners on the circle: the polygon lies inside, its edges at most r (1 - cos(pi / n)) away.
 FencePolygon inscribed(const FenceCircle& circle, double sagitta_m) {
   const double half_angle = std::acos(std::clamp(1.0 - sagitta_m / circle.radius_m, -1.0, 1.0));
   const double wanted = std::ceil(pi / std::max(half_angle, 1e-6));

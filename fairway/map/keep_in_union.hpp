@@ -1,4 +1,4 @@
-// Several keep-in fences of which one suffices, as one area.
+// Several keep-in fences, where being in any one is enough, as one area.
 #pragma once
 
 #include <vector>

@@ -14,7 +14,7 @@ struct MissionPlace {
 };
 
 /// Waypoint, loiter (unlimited, turns, time, to altitude), land, take off, spline waypoint, VTOL
-/// take off and land. Jumps, camera and servo commands and the like have no place.
+/// take off and land. Jumps, camera and servo commands and the like have no position.
 constexpr bool visits_a_place(int command) {
   return (command >= 16 && command <= 19) || command == 21 || command == 22 || command == 31 ||
          command == 82 || command == 84 || command == 85;

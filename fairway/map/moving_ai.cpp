@@ -25,7 +25,7 @@ int read_size(const SourceText& source, const Line& line, std::string_view value
   const auto number = parse_number(value);
   constexpr int largest = 1'000'000'000;
   if (!number || !(*number >= 1.0 && *number <= largest) || *number != std::floor(*number))
-    throw InputError(where, fmt::format("{} is no size, expected a whole number from 1 to {}",
+    throw InputError(where, fmt::format("{} is not a size, expected a whole number from 1 to {}",
                                         shown(value), largest));
   return static_cast<int>(*number);
 }
@@ -45,7 +45,7 @@ Header read_header(const SourceText& source, const std::vector<Line>& lines) {
       return header;
     }
     if (words.size() != 2)
-      throw InputError(where, fmt::format("{} is not expected here; a MovingAI map begins with "
+      throw InputError(where, fmt::format("unexpected {}; a MovingAI map starts with "
                                           "type, height, width and map",
                                           shown(lines[i].text)));
     if (words[0] == "type") {
@@ -62,7 +62,7 @@ Header read_header(const SourceText& source, const std::vector<Line>& lines) {
                                           shown(words[0])));
     }
   }
-  throw InputError(source.file.string(), "the line \"map\" is missing: no MovingAI map");
+  throw InputError(source.file.string(), "the line \"map\" is missing: not a MovingAI map");
 }
 
 void read_row(const SourceText& source, const Line& line, SourceRaster& raster, int row) {

@@ -77,9 +77,9 @@ TEST_F(MovingAi, WhatIsWrongIsNamedWithItsLine) {
   EXPECT_EQ(error("type hexagonal\nheight 1\nwidth 3\nmap\n...\n"),
             "city.map:1: type \"hexagonal\" is unknown, expected octile");
   EXPECT_EQ(error("type octile\nheight 0\nwidth 3\nmap\n"),
-            "city.map:2: \"0\" is no size, expected a whole number from 1 to 1000000000");
+            "city.map:2: \"0\" is not a size, expected a whole number from 1 to 1000000000");
   EXPECT_EQ(error("type octile\nheight nan\nwidth 3\nmap\n"),
-            "city.map:2: \"nan\" is no size, expected a whole number from 1 to 1000000000");
+            "city.map:2: \"nan\" is not a size, expected a whole number from 1 to 1000000000");
   EXPECT_EQ(error("type octile\nheight 1\nheight 1\nwidth 3\nmap\n...\n"),
             "city.map:3: the size occurs twice");
   EXPECT_EQ(error("type octile\nwidth 3\nmap\n...\n"),
@@ -87,7 +87,7 @@ TEST_F(MovingAi, WhatIsWrongIsNamedWithItsLine) {
   EXPECT_EQ(error("height 1\nwidth 3\nmap\n...\n"),
             "city.map:3: the line \"type octile\" is missing before \"map\"");
   EXPECT_EQ(error("type octile\nheight 1\nwidth 3\n...\n"),
-            "city.map:4: \"...\" is not expected here; a MovingAI map begins with type, height, "
+            "city.map:4: unexpected \"...\"; a MovingAI map starts with type, height, "
             "width and map");
   EXPECT_THAT(
       error("type octile\nheight 100000000\nwidth 100000000\nmap\n...\n"),

@@ -1,4 +1,4 @@
-// The map as planning sees it: a grid of cells, each obstacle or not, and where it came from.
+// The map as planning sees it: a grid of cells, each an obstacle or not, and where it came from.
 //
 // Properties that always hold: obstacle.size() == grid.size(); a cell is 1 if any obstacle point,
 // grown by the footprint, lies in it (conservative), else 0; the grid's frame is metres, x to the

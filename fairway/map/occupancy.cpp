@@ -9,7 +9,7 @@ namespace fairway {
 
 namespace {
 
-// Classes of all possible sums of a pixel's samples, found once; and how often each occurred.
+// Classes of all possible sums of a pixel's samples, computed once; and how often each occurred.
 class OccupancyTable {
  public:
   OccupancyTable(const ImageFormat& format, const OccupancyRule& rule)
@@ -34,7 +34,7 @@ class OccupancyTable {
     return classes_[sum];
   }
 
-  /// Where alpha is averaged in: what the colours alone would have given.
+  /// Where alpha is averaged in: the class from the colours alone.
   void compare(unsigned colours, Pixel with_alpha) {
     if (without_alpha_.empty() || with_alpha == without_alpha_[colours]) return;
     ++by_alpha_[static_cast<std::size_t>(with_alpha)];
@@ -46,7 +46,7 @@ class OccupancyTable {
                      std::vector<std::string>& warnings) const {
     if (transparent_ > 0)
       warnings.push_back(fmt::format(
-          "{}: by its alpha channel {} pixels are not opaque; they count as unknown in mode scale.",
+          "{}: {} pixels are not opaque (alpha channel); they count as unknown in mode scale.",
           image, transparent_));
     std::string made;
     for (const auto& [pixel, name] : {std::pair(Pixel::obstacle, "obstacles"),
@@ -57,7 +57,7 @@ class OccupancyTable {
     }
     if (made.empty()) return;
     warnings.push_back(
-        fmt::format("{}: the alpha channel, which mode trinary averages in as one more colour{}, "
+        fmt::format("{}: the alpha channel, which mode trinary averages in like a colour{}, "
                     "makes {} where "
                     "the colours alone would not; save the image without alpha.",
                     image, rule.negate ? " (with negate, opaque is occupied)" : "", made));
@@ -79,10 +79,10 @@ class OccupancyTable {
     for (std::size_t sum = 0; sum < counts_.size(); ++sum)
       if (classes_[sum] == Pixel::unknown) graded += counts_[sum];
     if (graded > 0)
-      warnings.push_back(fmt::format(
-          "{}: {} pixels are neither surely free nor surely occupied in mode {}; they count as "
-          "unknown.",
-          image, graded, rule.mode == OccupancyRule::Mode::raw ? "raw" : "scale"));
+      warnings.push_back(
+          fmt::format("{}: {} pixels are neither certainly free nor certainly occupied in mode {}; "
+                      "they count as unknown.",
+                      image, graded, rule.mode == OccupancyRule::Mode::raw ? "raw" : "scale"));
   }
 
  private:
@@ -91,7 +91,7 @@ class OccupancyTable {
       const double percent = std::round(255.0 * sum / top);
       return percent == 0.0 ? Pixel::free : percent == 100.0 ? Pixel::obstacle : Pixel::unknown;
     }
-    // One rounding: grey 205 gives the double nearest to 50 / 255.
+    // A single rounding: grey 205 gives the double nearest to 50 / 255.
     const double occ = static_cast<double>(rule.negate ? sum : top - sum) / top;
     if (occ > rule.occupied) return Pixel::obstacle;
     if (occ < rule.free) return Pixel::free;
@@ -102,7 +102,7 @@ class OccupancyTable {
 
   int averaged_;
   int grey_205_ = -1;
-  std::vector<Pixel> without_alpha_;  // by the sum of the colours; empty: alpha does not count
+  std::vector<Pixel> without_alpha_;  // by the sum of the colours; empty when alpha does not count
   std::array<std::uint64_t, 3> by_alpha_{};
   std::uint64_t transparent_ = 0;
   std::vector<Pixel> classes_;

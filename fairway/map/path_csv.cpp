@@ -67,7 +67,7 @@ class CsvReader {
   void take(const Line& line) {
     std::string_view text = trimmed(line.text);
     if (text.empty()) return;
-    if (text.starts_with('#')) {  // perhaps the header; other comments name no columns
+    if (text.starts_with('#')) {  // may be the header; other comments do not name columns
       if (!rows.empty()) return;
       while (text.starts_with('#')) text.remove_prefix(1);
       if (const auto found = columns_of(trimmed(text))) columns = *found;
@@ -79,7 +79,7 @@ class CsvReader {
       const auto found = columns_of(text);
       if (!found)
         throw InputError(where,
-                         fmt::format("the header {} names no columns x_m and y_m", shown(text)));
+                         fmt::format("the header {} has no columns x_m and y_m", shown(text)));
       columns = *found;
       return;
     }
@@ -104,7 +104,7 @@ class CsvReader {
     for (std::size_t i = 0; i < 2; ++i) {
       const std::string_view word = csv_field(words[i == 0 ? columns.first : columns.second]);
       const auto number = parse_number(word);
-      if (!number) throw InputError(where, fmt::format("{} is no number", shown(word)));
+      if (!number) throw InputError(where, fmt::format("{} is not a number", shown(word)));
       if (!std::isfinite(*number))
         throw InputError(where, fmt::format("{} is not finite", shown(word)));
       values[i] = *number;

@@ -1,4 +1,4 @@
-// A vertex of a path as its file has it.
+// A vertex of a path as given in its file.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Images that carry their place: a GeoTIFF's transform, a world file, or resolution_m alone; and
+// Images with a place: from a GeoTIFF's transform, a world file, or resolution_m alone; and
 // elevation rasters, cut at a flight altitude.
 
 #include <algorithm>
@@ -40,7 +40,7 @@ GeodeticPoint centre_of(const Transform& t, int width, int height) {
           t[0] + 0.5 * width * t[1] + 0.5 * height * t[2]};
 }
 
-// The zone's system on WGS84, EPSG; near the poles, where there are no zones, the polar one.
+// EPSG code of the UTM zone on WGS84; near the poles, where there are no zones, the polar system.
 int utm_epsg(GeodeticPoint p) {
   if (p.latitude_deg > 84.0) return 5041;
   if (p.latitude_deg < -80.0) return 5042;
@@ -62,7 +62,7 @@ std::string gdalwarp_advice(std::optional<GeodeticPoint> centre, const char* sou
                      utm_epsg(*centre));
 }
 
-/// Where on Earth a point of any system is; nothing when PROJ cannot tell.
+/// Where on Earth a point of any system is; nothing when PROJ cannot say.
 std::optional<GeodeticPoint> on_wgs84(const OGRSpatialReference& system, GeodeticPoint point) {
   const GdalSession quiet;
   OGRSpatialReference wgs84;
@@ -79,7 +79,7 @@ std::optional<GeodeticPoint> on_wgs84(const OGRSpatialReference& system, Geodeti
   return GeodeticPoint{y, x};
 }
 
-// Its metres are those of the equator: away from it lengths, and so turning radii, are too short.
+// Its metres hold at the equator; elsewhere lengths, and so turning radii, come out too short.
 void warn_of_mercator(const std::string& file, const OGRSpatialReference& system,
                       GeodeticPoint centre, Place& place) {
   const char* method = system.GetAttrValue("PROJECTION");
@@ -90,7 +90,7 @@ void warn_of_mercator(const std::string& file, const OGRSpatialReference& system
   const double scale = 1.0 / std::cos(there->latitude_deg * (pi / 180.0));
   if (scale < 1.01) return;
   place.warnings.push_back(
-      fmt::format("{}: is in Mercator's projection, where a metre on the ground is {:.2f} m of the "
+      fmt::format("{}: is in Mercator projection, where a metre on the ground is {:.2f} m on the "
                   "map; {}.",
                   file, scale, gdalwarp_advice(there)));
 }
@@ -118,9 +118,9 @@ void require_metres(const MapRequest& request, GDALDataset& dataset, Place& plac
   CPLFree(wkt);
 }
 
-// Without a reference system nothing says degrees, but small pixels on a place that has a latitude
-// and a longitude do: of less than a millimetre, and of less than 30 cm where they are heights. The
-// user's word on the size of a pixel, metres, is taken.
+// Without a reference system, degrees show only in small pixels at coordinates that are a valid
+// latitude and longitude: pixels below a millimetre, or below 30 cm for heights. If the user states
+// the size of a pixel in metres, that is accepted.
 void require_no_degrees_in_disguise(const MapRequest& request, const SourceRaster& raster,
                                     const Place& place) {
   if (!place.transform || place.projected_crs || request.resolution_m) return;
@@ -130,10 +130,9 @@ void require_no_degrees_in_disguise(const MapRequest& request, const SourceRaste
   if (pixel < (request.altitude_m ? 0.3 : 1e-3) && is_on_earth(centre) && is_on_earth({t[3], t[0]}))
     throw InputError(
         request.file.string(),
-        fmt::format(
-            "has pixels of {} units at ({}, {}): degrees where metres belong; {} (or say by "
-            "map.resolution_m that they are metres)",
-            t[1], t[0], t[3], gdalwarp_advice(centre, "-s_srs EPSG:4326 ")));
+        fmt::format("has pixels of {} units at ({}, {}): degrees instead of metres; {} (or set "
+                    "map.resolution_m if they are metres)",
+                    t[1], t[0], t[3], gdalwarp_advice(centre, "-s_srs EPSG:4326 ")));
 }
 
 Place find_place(const MapRequest& request, GdalRaster* raster) {
@@ -178,7 +177,7 @@ void put_in_place(SourceRaster& raster, const Place& place, const MapRequest& re
       throw InputError(request.file.string(), "has a geotransform that is not finite");
   if (t[2] != 0.0 || t[4] != 0.0)
     throw InputError(request.file.string(),
-                     "is turned or sheared, expected rows along x; straighten "
+                     "is rotated or sheared, expected rows along x; straighten "
                      "it with gdalwarp");
   if (t[1] == 0.0 || t[5] == 0.0)
     throw InputError(request.file.string(), "has a geotransform with pixels of size 0");
@@ -190,8 +189,8 @@ void put_in_place(SourceRaster& raster, const Place& place, const MapRequest& re
   flip(raster, t[1]<0.0, t[5]> 0.0);
 }
 
-// Heights that stand for none: what no ground on Earth has, and the values that programs write
-// where they know nothing, when no tag of the file says so.
+// Heights that mean "none": impossible for ground on Earth, or values that programs write for
+// unknown heights, when no tag of the file says so.
 class Voids {
  public:
   Voids(const MapRequest& request, GDALRasterBand& band) : file_(request.file.string()) {
@@ -200,7 +199,7 @@ class Voids {
     has_nodata_ = has_nodata != 0;
   }
 
-  /// `sample` as the file has it, `height_m` what it means.
+  /// `sample` as stored in the file, `height_m` its meaning.
   bool take(double sample, double height_m) {
     if (has_nodata_ && (sample == nodata_ || (std::isnan(sample) && std::isnan(nodata_))))
       return true;
@@ -215,8 +214,8 @@ class Voids {
   void warn(std::vector<std::string>& warnings) const {
     if (untagged_ == 0) return;
     warnings.push_back(
-        fmt::format("{}: {} pixels have heights that cannot be ground ({}) and that no nodata tag "
-                    "names; they are unknown. To tag them: gdal_edit.py -a_nodata {} {}",
+        fmt::format("{}: {} pixels have heights that cannot be ground ({}), without a nodata tag "
+                    "for them; they count as unknown. To tag them: gdal_edit.py -a_nodata {} {}",
                     file_, untagged_, fmt::join(values_, ", "), values_.front(), file_));
   }
 
@@ -230,8 +229,8 @@ class Voids {
 
 GDALRasterBand& band_of_heights(GDALDataset& dataset, const std::string& file) {
   if (dataset.GetRasterCount() != 1)
-    throw InputError(
-        file, fmt::format("has {} bands, an elevation raster has one", dataset.GetRasterCount()));
+    throw InputError(file, fmt::format("has {} bands, expected one in an elevation raster",
+                                       dataset.GetRasterCount()));
   GDALRasterBand& band = *dataset.GetRasterBand(1);
   if (GDALDataTypeIsComplex(band.GetRasterDataType()))
     throw InputError(file, "has complex samples, expected heights");
@@ -280,7 +279,8 @@ SourceRaster read_placed_raster(const MapRequest& request) {
   const Place place = find_place(request, gdal ? &*gdal : nullptr);
   SourceRaster raster;
   if (request.altitude_m) {
-    if (!gdal) throw InputError(request.file.string(), "is no elevation raster (map.altitude_m)");
+    if (!gdal)
+      throw InputError(request.file.string(), "is not an elevation raster (map.altitude_m)");
     raster = read_elevation(request, *gdal);
   } else {
     raster = read_occupancy(request.file, OccupancyRule{}, request.max_pixels);

@@ -49,7 +49,7 @@ void write_tiff(const std::filesystem::path& file, const Tiff& tiff,
             CE_None);
 }
 
-// A GeoTIFF byte by byte, as GDAL would not write it: three by two heights, its scale as given.
+// A GeoTIFF written byte by byte, as GDAL would not: three by two heights, with the scale given.
 std::string tiff_with_scale(double scale_x, double scale_y, const std::vector<float>& heights) {
   std::string bytes("II*\0\x08\0\0\0", 8);
   const auto append = [&](auto value) {
@@ -143,7 +143,7 @@ TEST_F(PlacedRaster, RowsAndColumnsMayRunEitherWay) {
   EXPECT_EQ(map.obstacle, (std::vector<std::uint8_t>{0, 0, 0, 1, 1, 0}));
 }
 
-TEST_F(PlacedRaster, AScaleThatRunsNorthIsBelieved) {
+TEST_F(PlacedRaster, AScaleThatRunsNorthIsAccepted) {
   const std::vector<float> heights = {10, 20, 30, 40, 50, 60};  // the first row first
   folder_.write("a.tif", tiff_with_scale(2.0, 2.0, heights));
   const ObstacleMap north_up = read_map(at_altitude(45.0));
@@ -169,17 +169,16 @@ TEST_F(PlacedRaster, WarningsOfGdalArePassedOn) {
                                            HasSubstr("not sorted in ascending order"))));
 }
 
-TEST_F(PlacedRaster, HeightsThatCannotBeGroundAreUnknownWithAWord) {
+TEST_F(PlacedRaster, HeightsThatCannotBeGroundAreUnknownWithAWarning) {
   for (const double none : {-32768.0, -32767.0, -9999.0, -99999.0, -3.4028234663852886e38, 1e20,
                             32767.0, std::nan(""), -HUGE_VAL}) {
     write_tiff(folder_.file("a.tif"), {}, {none, 20, none, 10, 10, 10});
     MapRequest request = at_altitude(1e9);  // above every number
     const ObstacleMap map = read_map(request);
     EXPECT_EQ(map.obstacle, (std::vector<std::uint8_t>{0, 0, 0, 1, 0, 1})) << none;
-    EXPECT_THAT(map.warnings,
-                ::testing::ElementsAre(AllOf(HasSubstr("a.tif: 2 pixels have heights that cannot "
-                                                       "be ground ("),
-                                             HasSubstr("gdal_edit.py -a_nodata"))))
+    EXPECT_THAT(map.warnings, ::testing::ElementsAre(AllOf(
+                                  HasSubstr("a.tif: 2 pixels have heights that cannot be ground ("),
+                                  HasSubstr("gdal_edit.py -a_nodata"))))
         << none;
     request.unknown_is_obstacle = false;
     EXPECT_EQ(read_map(request).obstacle, std::vector<std::uint8_t>(6, 0));
@@ -217,14 +216,14 @@ TEST_F(PlacedRaster, DegreesAreRefusedWithAdvice) {
   tiff.epsg = 0;
   write_tiff(folder_.file("a.tif"), tiff);
   EXPECT_THAT(error(at_altitude(45.0)),
-              AllOf(HasSubstr("degrees where metres belong"),
+              AllOf(HasSubstr("degrees instead of metres"),
                     HasSubstr("gdalwarp -s_srs EPSG:4326 -t_srs EPSG:32719 IN OUT")));
-  // Half a minute of arc to a pixel; far north there are no zones.
+  // Half a minute of arc per pixel; far north there are no zones.
   tiff.transform = {20.0, 0.5 / 60.0, 0.0, 85.0, 0.0, -0.5 / 60.0};
   write_tiff(folder_.file("a.tif"), tiff);
   EXPECT_THAT(error(at_altitude(45.0)), HasSubstr("EPSG:5041"));
   MapRequest metres = at_altitude(45.0);
-  metres.resolution_m = 0.5 / 60.0;  // the user's word
+  metres.resolution_m = 0.5 / 60.0;  // stated by the user
   metres.cell_m = 0.5 / 60.0;
   EXPECT_EQ(error(metres), "no error");
 }
@@ -240,7 +239,7 @@ TEST_F(PlacedRaster, OtherUnitsTurnedRastersAndFloatsWithoutAltitudeAreRefused) 
   tiff.transform = {600000.0, 2.0, 0.1, 5200000.0, 0.1, -2.0};
   write_tiff(folder_.file("a.tif"), tiff);
   EXPECT_EQ(error(at_altitude(45.0)),
-            "a.tif: is turned or sheared, expected rows along x; straighten it with gdalwarp");
+            "a.tif: is rotated or sheared, expected rows along x; straighten it with gdalwarp");
   write_tiff(folder_.file("a.tif"), {});
   EXPECT_EQ(error(request("a.tif")),
             "a.tif: has samples of type Float32, expected 8 or 16 bits; elevations need a flight "
@@ -253,9 +252,9 @@ TEST_F(PlacedRaster, MercatorsMetresAreWarnedAbout) {
   tiff.transform = {1000000.0, 2.0, 0.0, 6000000.0, 0.0, -2.0};  // 47.4 degrees north
   write_tiff(folder_.file("a.tif"), tiff);
   EXPECT_THAT(read_map(at_altitude(45.0)).warnings,
-              ::testing::ElementsAre(AllOf(HasSubstr("is 1.48 m of the map"),
+              ::testing::ElementsAre(AllOf(HasSubstr("is 1.48 m on the map"),
                                            HasSubstr("gdalwarp -t_srs EPSG:32632 IN OUT"))));
-  tiff.transform = {1000000.0, 2.0, 0.0, 100000.0, 0.0, -2.0};  // by the equator
+  tiff.transform = {1000000.0, 2.0, 0.0, 100000.0, 0.0, -2.0};  // near the equator
   write_tiff(folder_.file("a.tif"), tiff);
   EXPECT_THAT(read_map(at_altitude(45.0)).warnings, ::testing::IsEmpty());
 }
@@ -283,14 +282,14 @@ TEST_F(PlacedRaster, AWorldFilePlacesABareImage) {
     std::filesystem::remove(file);
   }
   folder_.write("a.pmw", "2.0\n0\nnorth\n-2.0\n11.0\n21.0\n");
-  EXPECT_EQ(error(request("a.pgm")), "a.pmw:3: \"north\" is no finite number");
+  EXPECT_EQ(error(request("a.pgm")), "a.pmw:3: \"north\" is not a finite number");
   folder_.write("a.pmw", "2.0\n0\n0\n");
-  EXPECT_EQ(error(request("a.pgm")), "a.pmw: has 3 numbers, a world file has six");
+  EXPECT_EQ(error(request("a.pgm")), "a.pmw: has 3 numbers, expected six in a world file");
   folder_.write("a.pmw", "2.0\n1\n1\n-2.0\n11.0\n21.0\n");
-  EXPECT_THAT(error(request("a.pgm")), HasSubstr("is turned or sheared"));
+  EXPECT_THAT(error(request("a.pgm")), HasSubstr("is rotated or sheared"));
   folder_.write("a.pmw", "0.00002\n0\n0\n-0.00002\n8.5\n47.3\n");
   EXPECT_THAT(error(request("a.pgm")),
-              AllOf(HasSubstr("degrees where metres belong"), HasSubstr("EPSG:32632")));
+              AllOf(HasSubstr("degrees instead of metres"), HasSubstr("EPSG:32632")));
 }
 
 TEST_F(PlacedRaster, ABareImageNeedsAResolutionAndLiesAtTheOrigin) {
@@ -303,10 +302,10 @@ TEST_F(PlacedRaster, ABareImageNeedsAResolutionAndLiesAtTheOrigin) {
   EXPECT_EQ(read_map(request).grid, (Grid{4, 2, 0.0, 0.0, 2.0}));
 }
 
-TEST_F(PlacedRaster, APathInDegreesIsLaidOnAProjectedMap) {
+TEST_F(PlacedRaster, APathInDegreesIsPlacedOnAProjectedMap) {
   write_tiff(folder_.file("a.tif"), {});
   const ObstacleMap map = read_map(at_altitude(45.0));
-  // Two points of the map, converted to degrees by the projection's own library.
+  // Two points of the map, converted to degrees by PROJ itself.
   OGRSpatialReference utm;
   OGRSpatialReference wgs84;
   utm.importFromEPSG(32632);

@@ -11,7 +11,7 @@ namespace fairway {
 
 namespace {
 
-// Tokens of a header or of plain samples: blanks separate, '#' to the end of the line is a comment.
+// Tokens of a header or of plain samples, separated by blanks; '#' starts a comment.
 class PnmReader {
  public:
   explicit PnmReader(const SourceText& source) : source_(source), at_(2) {}
@@ -24,28 +24,28 @@ class PnmReader {
     while (at_ < source_.text.size() && is_digit(source_.text[at_]))
       value = std::min(value * 10 + (source_.text[at_++] - '0'), std::int64_t{1} << 40);
     if (at_ == begin || (at_ < source_.text.size() && !is_blank_or_comment(source_.text[at_])))
-      fail(fmt::format("the {} is no whole number", what));
+      fail(fmt::format("the {} is not a whole number", what));
     if (value > max)
       fail(fmt::format("the {} is {}, expected at most {}", what,
                        std::string_view(source_.text).substr(begin, at_ - begin), max));
     return static_cast<int>(value);
   }
 
-  // Exactly one blank stands between the header and binary samples; a comment that touches the last
-  // number is that blank, up to and with its line end.
+  // Exactly one blank separates the header from binary samples; a comment directly after the last
+  // number takes its place, up to and including the line end.
   std::string_view binary_rest() {
     if (at_ < source_.text.size() && source_.text[at_] == '#') skip_comment();
     if (at_ >= source_.text.size()) fail("ends before the pixels");
     return std::string_view(source_.text).substr(at_ + 1);
   }
 
-  // True behind the last number of the header when blanks and a comment follow in its line.
+  // True after the last number of the header when blanks and a comment follow on its line.
   bool has_comment_for_pixels() const {
     const std::size_t from = source_.text.find_first_not_of(" \t", at_);
     return from != std::string::npos && from > at_ && source_.text[from] == '#';
   }
 
-  // What stands behind the last value of a plain file, but blanks and comments.
+  // What follows the last value of a plain file, except blanks and comments.
   std::size_t left_over() {
     skip_blanks_and_comments();
     return source_.text.size() - at_;
@@ -85,7 +85,7 @@ class PnmReader {
 
 void take_plain_rows(PnmReader& reader, const ImageFormat& format, std::size_t bytes,
                      const TakeRow& take_row) {
-  // Each value takes a digit and a blank: too short a file is refused before memory is taken.
+  // Each value takes a digit and a blank: a file that is too short is refused before allocating.
   const double values = static_cast<double>(format.width) * format.height * format.colours;
   if (2.0 * values - 1.0 > static_cast<double>(bytes))
     reader.fail(fmt::format("is truncated: {} bytes cannot hold {} by {} pixels", bytes,
@@ -99,7 +99,7 @@ void take_plain_rows(PnmReader& reader, const ImageFormat& format, std::size_t b
   }
 }
 
-// Gives how many bytes stand behind the last sample.
+// Returns how many bytes follow the last sample.
 std::size_t take_binary_rows(PnmReader& reader, const ImageFormat& format,
                              const TakeRow& take_row) {
   const std::string_view bytes = reader.binary_rest();
@@ -130,14 +130,14 @@ std::size_t take_binary_rows(PnmReader& reader, const ImageFormat& format,
   return bytes.size() - needed;
 }
 
-// Readers of the format agree that the pixels begin one blank behind the maximum value, so that a
-// comment there, or a line end of two bytes, moves the image and leaves as many bytes over.
+// Readers of the format agree that the pixels start one blank after the maximum value, so a
+// comment there, or a two-byte line ending, shifts the image and leaves as many bytes over.
 std::string left_over_words(const SourceText& source, std::size_t bytes, bool comment) {
-  return fmt::format("{}: {} byte{} behind the last pixel {} ignored; {}", source.file.string(),
+  return fmt::format("{}: {} byte{} after the last pixel {} ignored; {}", source.file.string(),
                      bytes, bytes == 1 ? "" : "s", bytes == 1 ? "is" : "are",
-                     comment ? "a comment behind the maximum value is taken for pixels and moves "
+                     comment ? "a comment after the maximum value is read as pixels and shifts "
                                "the image: put it before that line."
-                             : "is the image moved by as much, or has it another size?");
+                             : "is the image shifted by as much, or is its size wrong?");
 }
 
 std::string shown_begin(std::string_view text) {
@@ -172,7 +172,7 @@ std::vector<std::string> read_pnm(const SourceText& source, std::uint64_t max_pi
                                   const TakeRow& take_row) {
   if (!is_pnm(source.text))
     throw InputError(at_line(source.file, 1),
-                     fmt::format("begins with {}, a PGM begins with P5 or P2 and a PPM with P6 or "
+                     fmt::format("starts with {}; a PGM starts with P5 or P2 and a PPM with P6 or "
                                  "P3, before any comment",
                                  shown_begin(source.text)));
   PnmReader reader(source);

@@ -1,6 +1,6 @@
 // QGroundControl .plan: JSON with geoFence (polygons, circles), mission and plannedHomePosition.
 // Positions are [latitude, longitude], rings are not closed, null stands for NaN, unknown keys are
-// other people's business.
+// ignored.
 
 #include <fmt/format.h>
 
@@ -42,7 +42,7 @@ void read_simple_item(const JsonPlace& item, std::vector<MissionPlace>& places) 
   const GeodeticPoint point{params.at(4).number(), params.at(5).number()};
   if (is_current_place(point.latitude_deg, point.longitude_deg)) return;
   if (item.has("frame") && !is_global_frame(item.at("frame").whole_number()))
-    item.at("frame").fail("is no global frame, expected latitude and longitude");
+    item.at("frame").fail("is not a global frame, expected latitude and longitude");
   require_geodetic(params.where(), point);
   places.push_back({params.where(), point});
 }
@@ -69,7 +69,7 @@ void read_items(const JsonPlace& items, std::vector<MissionPlace>& places) {
 JsonPlace root_of(const SourceText& source, const nlohmann::json& json) {
   JsonPlace root(json, source.file.string() + ": ");
   if (!is_qgc_plan(json))
-    throw InputError(source.file.string(), "is no plan, expected \"fileType\": \"Plan\"");
+    throw InputError(source.file.string(), "is not a plan, expected \"fileType\": \"Plan\"");
   return root;
 }
 

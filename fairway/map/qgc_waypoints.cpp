@@ -1,4 +1,4 @@
-// QGC WPL 110: a line per item, twelve fields separated by tabs: index, current, frame, command,
+// QGC WPL 110: one line per item, twelve fields separated by tabs: index, current, frame, command,
 // four parameters, latitude, longitude, altitude, autocontinue. Item 0 is the home position.
 // Fence items (MAV_CMD_NAV_FENCE...) are 5000 return point, 5001 and 5002 corners of a keep-in and
 // a keep-out polygon (parameter 1: how many corners), 5003 and 5004 circles (parameter 1: radius).
@@ -47,7 +47,7 @@ std::vector<Item> read_items(const SourceText& source) {
   const std::vector<Line> lines = lines_of(source.text);
   if (lines.empty() || trimmed(lines.front().text) != magic)
     throw InputError(at_line(source.file, 1),
-                     fmt::format("{} is no waypoint file, expected \"{}\"",
+                     fmt::format("{} is not a waypoint file, expected \"{}\"",
                                  shown(lines.empty() ? "" : lines.front().text), magic));
   std::vector<Item> items;
   for (std::size_t i = 1; i < lines.size(); ++i) {
@@ -68,10 +68,10 @@ std::vector<Item> read_items(const SourceText& source) {
   return items;
 }
 
-// Files of fences alone may begin with a fence item, which is no home.
+// Files with only fences may start with a fence item, which is not a home position.
 bool is_home(const Item& item) { return item.index == 0 && item.command == 16; }
 
-// Corners of one polygon follow each other; each says how many there are.
+// The corners of a polygon are consecutive; each says how many there are.
 std::size_t read_fence_polygon(const std::vector<Item>& items, std::size_t first,
                                GeodeticFences& fences) {
   const Item& head = items[first];
@@ -85,7 +85,7 @@ std::size_t read_fence_polygon(const std::vector<Item>& items, std::size_t first
   for (std::size_t i = first; i < first + corners; ++i) {
     if (i >= items.size() || items[i].command != head.command)
       throw InputError(i < items.size() ? items[i].where : items.back().where,
-                       fmt::format("the polygon that begins at {} has {} corners, expected {}",
+                       fmt::format("the polygon that starts at {} has {} corners, expected {}",
                                    head.where, i - first, corners));
     require_geodetic(items[i].where, items[i].point);
     ring.points.push_back(items[i].point);
@@ -101,8 +101,8 @@ std::vector<MissionPlace> mission_of(const std::vector<Item>& items) {
     if (is_home(item) || !visits_a_place(item.command)) continue;
     if (is_current_place(item.point.latitude_deg, item.point.longitude_deg)) continue;
     if (!is_global_frame(item.frame))
-      throw InputError(item.where, fmt::format("frame {} is no global frame, expected latitude and "
-                                               "longitude",
+      throw InputError(item.where, fmt::format("frame {} is not a global frame, "
+                                               "expected latitude and longitude",
                                                item.frame));
     require_geodetic(item.where, item.point);
     places.push_back({item.where, item.point});

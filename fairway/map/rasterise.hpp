@@ -9,8 +9,8 @@
 //      `cell_slack` of a cell is added outwards, so that rounding never frees a cell.
 //   3. The grid starts at the map's lower-left corner and has ceil(width / cell_m) columns; with
 //      `outside_is_obstacle` the world beyond the map is an obstacle too, grown like any other,
-//      and one ring of obstacle cells lies around the grid (the origin moves by -cell_m).
-// Cost: linear in pixels plus cells, or in cells plus rows crossed by edges; R does not matter.
+//      and a ring of obstacle cells surrounds the grid (the origin moves by -cell_m).
+// Cost: linear in pixels plus cells, or in cells plus rows crossed by edges; independent of R.
 #pragma once
 
 #include <cstdint>
@@ -30,15 +30,15 @@ struct RasteriseOptions {
   double growth_m = 0.0;  ///< >= 0, the radius R
   bool unknown_is_obstacle = true;
   bool outside_is_obstacle = true;
-  double least_world_margin_m = 0.0;  ///< >= 0, of the default margin; fences only
+  double least_world_margin_m = 0.0;  ///< >= 0, lower bound of the default margin; fences only
   std::uint64_t max_cells = std::uint64_t{1} << 28;
 };
 
 /// Throws InputError{"map.cell_m", ...} when the grid would have more than max_cells cells.
 [[nodiscard]] ObstacleMap rasterise(const SourceRaster& source, const RasteriseOptions& options);
 
-/// `inclusion` is needed when there are several keep-in fences; `world_margin_m` (default see
-/// MapRequest) when there is none. Throws InputError as above, and when nothing bounds the world.
+/// `inclusion` is required with several keep-in fences; `world_margin_m` (default: see MapRequest)
+/// applies without one. Throws InputError as above, and when nothing bounds the world.
 [[nodiscard]] ObstacleMap rasterise(const FenceSet& fences, const RasteriseOptions& options,
                                     Inclusion inclusion, std::optional<double> world_margin_m);
 

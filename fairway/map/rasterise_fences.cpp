@@ -44,7 +44,7 @@ std::string name_of_map(const FenceSet& fences) {
   return fences.inputs.empty() ? std::string("map") : fences.inputs.front().path;
 }
 
-// The box around the keep-in set; without one, around everything named, with room about it.
+// The box around the keep-in set; without one, around everything in the file, plus a margin.
 MapExtent world_of(const FenceSet& fences, const RasteriseOptions& options, Inclusion inclusion,
                    std::optional<double> world_margin_m) {
   std::vector<Bounds> keep_in;
@@ -70,7 +70,7 @@ MapExtent world_of(const FenceSet& fences, const RasteriseOptions& options, Incl
   for (const auto& circle : fences.keep_out_circles) world.hold(circle.center_m, circle.radius_m);
   for (const Vec2 p : fences.places_m) world.hold(p);
   if (world.holds_nothing())
-    throw InputError(name_of_map(fences), "has neither fence, obstacle nor mission item");
+    throw InputError(name_of_map(fences), "has no fence, obstacle or mission item");
   const double longer_m = std::max(world.x_high - world.x_low, world.y_high - world.y_low);
   const double margin_m =
       options.growth_m + world_margin_m.value_or(std::max({0.1 * longer_m, 10.0 * options.cell_m,
@@ -80,7 +80,7 @@ MapExtent world_of(const FenceSet& fences, const RasteriseOptions& options, Incl
   return world.extent();
 }
 
-// An interval of x that grows; empty at first.
+// A growing interval of x, empty at first.
 struct Span {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -119,7 +119,7 @@ class FenceRasteriser {
     });
   }
 
-  // A cell stays free when its farthest corner is nearer than r - R.
+  // A cell stays free when its farthest corner is closer than r - R.
   void keep_in(const FenceCircle& circle) {
     const Vec2 center = circle.center_m - origin_;
     const double reach_m = circle.radius_m - radius_m_;
@@ -223,7 +223,7 @@ class FenceRasteriser {
     }
   }
 
-  // Cells away from every edge are inside or outside as a whole: their centre tells.
+  // Cells away from every edge are entirely inside or outside, as their centre shows.
   void fill(const FencePolygon& polygon, bool inside) {
     std::vector<std::vector<double>> crossings(static_cast<std::size_t>(grid_.ny));
     for (const auto& ring : polygon.rings_m)

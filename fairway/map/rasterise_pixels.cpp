@@ -57,9 +57,9 @@ class PixelRasteriser {
     });
   }
 
-  // For each row of cells the nearest obstacle pixel below and the nearest above in each column of
-  // pixels decide: a pixel with vertical gap g reaches sqrt(R^2 - g^2) to either side. Two sweeps
-  // with the nearest rows carried along make the cost independent of R.
+  // For each row of cells, only the nearest obstacle pixels below and above in each column of
+  // pixels matter: a pixel with vertical gap g reaches sqrt(R^2 - g^2) to either side. Two sweeps
+  // that carry the nearest rows along make the cost independent of R.
   void with_growth() {
     const auto rows_per_piece =
         static_cast<std::size_t>(16.0 + std::min(1e6, 4.0 * options_.growth_m / grid_.cell_m));
@@ -121,7 +121,7 @@ class PixelRasteriser {
     }
   }
 
-  // `covered` is a difference array: +1 where a covered run of cells begins, -1 behind its end.
+  // `covered` is a difference array: +1 where a covered run of cells starts, -1 after its end.
   template <typename Gap>
   void mark_row(int iy, const std::vector<int>& nearest, std::vector<int>& covered,
                 const Gap& gap_m) {

@@ -103,7 +103,7 @@ TEST(RasterisePixels, AgreesWithTheDefinitionOnRandomRasters) {
 }
 
 TEST(RasterisePixels, CellsAsLargeAsPixelsReproduceTheImage) {
-  // Sides that have no exact binary form, and grids long enough to gather rounding.
+  // Sides without an exact binary form, and grids long enough to accumulate rounding.
   for (const double pixel_m : {0.05, 0.1, 1.0 / 3.0, 0.0504, 2.0}) {
     Random random(7);
     SourceRaster raster = random_raster(random, 997, 3, 0.3);
@@ -156,7 +156,7 @@ TEST(RasterisePixels, TheOutsideIsARingOfObstaclesOrNothing) {
   options.cell_m = 2.0;
   const ObstacleMap closed = rasterise(raster, options);
   EXPECT_EQ(closed.grid, (Grid{4, 4, 8.0, 18.0, 2.0}));
-  // The upper row of cells sticks out beyond the 3 m high map.
+  // The upper row of cells extends beyond the 3 m high map.
   const std::vector<std::uint8_t> expected = {1, 1, 1, 1,  //
                                               1, 0, 0, 1,  //
                                               1, 1, 1, 1,  //
@@ -212,7 +212,7 @@ double distance_to_edges_m(const FencePolygon& polygon, Vec2 p) {
   return nearest;
 }
 
-// How far a point is from what must not be touched; 0 inside of it.
+// How far a point is from what must not be touched; 0 inside it.
 double clearance_m(const FenceSet& fences, Inclusion inclusion, Vec2 p) {
   double clearance = 1e300;
   for (const auto& polygon : fences.keep_out)
@@ -231,11 +231,11 @@ double clearance_m(const FenceSet& fences, Inclusion inclusion, Vec2 p) {
     in_all = std::min(in_all, room);
     in_any = std::max(in_any, room);
   }
-  // For a union the largest room is a lower bound only; enough where one fence decides.
+  // For a union, the largest clearance is only a lower bound; enough where one fence decides.
   return std::min(clearance, in_any < 0.0 ? 1e300 : inclusion == Inclusion::all ? in_all : in_any);
 }
 
-// Simple by construction: corners at growing angles about a centre.
+// Simple by construction: corners at increasing angles about a centre.
 std::vector<Vec2> random_star(Random& random, Vec2 center, double size_m) {
   const int corners = 3 + static_cast<int>(random.below(7));
   std::vector<Vec2> ring;
@@ -272,7 +272,7 @@ FenceSet random_fences(Random& random, bool several_keep_in) {
   return fences;
 }
 
-// Points of a cell, its corners among them; the nearest sample is at most `step` from any point.
+// Points of a cell, including its corners; the nearest sample is at most `step` from any point.
 template <typename Visit>
 void for_samples(const Grid& grid, Cell cell, int per_side, const Visit& visit) {
   for (int i = 0; i <= per_side; ++i)
@@ -300,7 +300,7 @@ void expect_conservative_and_tight(const FenceSet& fences, const RasteriseOption
       if (!blocked) {  // no point of a free cell may be within the growth
         ASSERT_GT(least, options.growth_m - 1e-6) << "seed " << seed << " " << ix << "," << iy;
       } else if (has_keep_in || !options.outside_is_obstacle) {
-        // A blocked cell has a point about as near; samples miss it by 0.71 steps at most.
+        // A blocked cell has a point about that close; samples miss it by at most 0.71 steps.
         ASSERT_LE(least, options.growth_m + 0.75 * step_m + 2e-3 * options.cell_m)
             << "seed " << seed << " " << ix << "," << iy;
       }
@@ -356,7 +356,7 @@ TEST(RasteriseFences, SeveralKeepInFencesMeanTheirUnionWithAny) {
       if (map.obstacle[i] == 0) {
         ASSERT_FALSE(sampled_outside) << seed;
       } else {
-        // Blocked cells hold a point near the outside: none of the fences holds the cell with room.
+        // Blocked cells have a point near the outside: no fence contains the cell with clearance.
         const double room = clearance_m(fences, Inclusion::any, map.grid.center(cell));
         ASSERT_LE(room, 0.7072 * options.cell_m * 1.01) << seed;
       }

@@ -54,8 +54,8 @@ RasteriseOptions options_of(const MapRequest& request) {
           request.max_cells};
 }
 
-// Where no keep-in fence bounds the world, the mission belongs to it. What lies beyond the plane is
-// left to the one who reads the mission, and so is a path that cannot be read.
+// Where no keep-in fence bounds the world, it includes the mission. Places beyond the plane, and
+// paths that cannot be read, are left to the reader of the mission.
 void hold_mission(const MapRequest& request, FenceSet& fences) {
   if (!fences.geo || !fences.names_a_place()) return;
   const TangentPlane plane({fences.geo->latitude_deg, fences.geo->longitude_deg});
@@ -78,7 +78,7 @@ void hold_mission(const MapRequest& request, FenceSet& fences) {
   }
 }
 
-// Keep-in fences are many only by the user's word on what that means.
+// Several keep-in fences need the user's word on what they mean together.
 ObstacleMap rasterise_fences(const GeodeticFences& fences, const MapRequest& request) {
   FenceSet in_metres = in_tangent_plane(fences, request.reference);
   const std::size_t keep_ins = in_metres.keep_in.size() + in_metres.keep_in_circles.size();
@@ -97,8 +97,8 @@ ObstacleMap rasterise_fences(const GeodeticFences& fences, const MapRequest& req
 
 void require_no_altitude(const MapRequest& request) {
   if (request.altitude_m)
-    throw InputError("map.altitude_m", "has no meaning for " + request.file.string() +
-                                           ", only for elevation rasters and GeoJSON heights");
+    throw InputError("map.altitude_m", "does not apply to " + request.file.string() +
+                                           ", only to elevation rasters and GeoJSON heights");
 }
 
 GeodeticFences read_json_fences(const MapRequest& request) {
@@ -131,13 +131,13 @@ struct Head {
   }
 };
 
-// A kind of map file. The first that recognises a file reads it; reader, errors, help and the
-// scenario's documentation name what stands here.
+// A kind of map file. The first that recognises a file reads it; the errors, the help and the
+// scenario's documentation are made from these rows.
 struct MapKind {
   const char* name;
   bool (*recognises)(const Head&);
   ObstacleMap (*reads)(const MapRequest&);
-  bool knows_heights;  // else map.altitude_m has no meaning
+  bool knows_heights;  // else map.altitude_m does not apply
 };
 
 constexpr MapKind map_kinds[] = {
@@ -186,7 +186,7 @@ const MapKind& kind_of(const std::filesystem::path& file) {
   for (const MapKind& kind : map_kinds)
     if (kind.recognises(head)) return kind;
   refuse_other_kind(MappedFile(file).bytes(), FileKind::unknown, file.string());
-  throw InputError(file.string(), "is of no known kind, expected " + map_kinds_text());
+  throw InputError(file.string(), "has an unrecognised format; expected " + map_kinds_text());
 }
 
 ObstacleMap read_kind(const MapRequest& request) {
@@ -195,7 +195,7 @@ ObstacleMap read_kind(const MapRequest& request) {
   return kind.reads(request);
 }
 
-// An error of a map that a scenario names, with the scenario's line.
+// An error in a map that a scenario names, with the scenario's line.
 [[noreturn]] void refuse_with_place(const MapRequest& request, const InputError& error) {
   const bool of_a_key = error.where().starts_with("map.");
   const std::string place = request.place_of(of_a_key ? error.where() : "map.file");

@@ -2,19 +2,19 @@
 //
 //   ROS map_server .yaml (trinary, scale, raw), MovingAI .map, GeoJSON, QGroundControl .plan,
 //   ArduPilot fence text, QGC WPL 110, and images (PGM, PPM, PNG, BMP, JPEG, TIFF, GeoTIFF) with a
-//   geotransform, a world file or `resolution_m`. The kind is told by content, then by extension.
+//   geotransform, a world file or `resolution_m`. The kind is found by content, then by extension.
 //
-// Frames: ROS maps and rasters keep their own world coordinates; a ROS map whose origin is turned
-// is laid in the map's own frame, lower-left corner at (0, 0), and `world_from_grid` says how it
-// stands in the world; maps without a scale of their own have their lower-left corner at (0, 0);
+// Frames: ROS maps and rasters keep their own world coordinates; a ROS map whose origin is rotated
+// is placed in the map's own frame, lower-left corner at (0, 0), and `world_from_grid` gives its
+// pose in the world; maps without a scale of their own have their lower-left corner at (0, 0);
 // degrees become metres in a local tangent plane about a recorded reference point, x east, y north.
 //
 // Properties that always hold of the result:
 //   1. Conservative: a cell that any obstacle point grown by the footprint touches is an obstacle.
 //      For pixels, "touches" means that the interiors overlap, so that cells as large as pixels
-//      reproduce the image. Rounding of at most 1e-9 of a pixel adds no row and no column.
+//      reproduce the image. Rounding of at most 1e-9 of a pixel adds no rows or columns.
 //   2. With `outside_is_obstacle` the grid has a ring of one obstacle cell on each side, and the
-//      footprint grows the outside too; without, cells that stick out beyond the map are free
+//      outside grows by the footprint too; without, cells that extend beyond the map are free
 //      there.
 //   3. The result depends only on the files and the request, never on the number of threads.
 #pragma once
@@ -32,8 +32,7 @@
 
 namespace fairway {
 
-/// What several keep-in fences mean together. Autopilots and people disagree, so it is never
-/// guessed.
+/// What several keep-in fences mean together. Autopilots and people disagree, so we never guess.
 enum class Inclusion {
   all,  ///< the vehicle must stay in every one of them (intersection)
   any   ///< the vehicle must stay in at least one of them (union)
@@ -46,7 +45,7 @@ struct GeodeticPoint {
   friend constexpr bool operator==(const GeodeticPoint&, const GeodeticPoint&) = default;
 };
 
-/// Everything a map needs beside its file. Names follow the scenario's [map] keys.
+/// Everything a map needs besides its file. Names follow the scenario's [map] keys.
 struct MapRequest {
   std::filesystem::path file;
   double cell_m = 1.0;                 ///< side of a plan cell, > 0
@@ -59,23 +58,23 @@ struct MapRequest {
   /// Elevation rasters and GeoJSON with heights: obstacle where height > altitude_m - margin_m.
   std::optional<double> altitude_m;
   double margin_m = 0.0;  ///< >= 0, height to keep above the ground
-  /// Free room around obstacles and mission when no keep-in fence bounds the world, >= 0;
+  /// Free margin around obstacles and mission when no keep-in fence bounds the world, >= 0;
   /// by default a tenth of the longer side of their bounding box, at least ten cells, and at least
-  /// `least_world_margin_m` (>= 0), which is for what the caller knows: how wide the vehicle turns.
+  /// `least_world_margin_m` (>= 0), which the caller derives from how wide the vehicle turns.
   std::optional<double> world_margin_m;
   double least_world_margin_m = 0.0;
-  /// The mission: where no keep-in fence bounds the world it holds these places, too, in metres of
-  /// the map's plane, in degrees, and the vertices of a path file (read_path.hpp).
+  /// The mission: where no keep-in fence bounds the world, it also contains these places, in metres
+  /// of the map's plane, in degrees, and the vertices of a path file (read_path.hpp).
   std::vector<Vec2> also_hold_m;
   std::vector<GeodeticPoint> also_hold_deg;
   std::optional<std::filesystem::path> also_hold_path;
-  /// "FILE:LINE" of a key such as "map.file", when a scenario asks: errors then say it.
+  /// "FILE:LINE" of a key such as "map.file", when called for a scenario: errors then include it.
   std::function<std::string(std::string_view key)> place_of;
   std::uint64_t max_pixels = std::uint64_t{1} << 28;  ///< larger images are refused unread
   std::uint64_t max_cells = std::uint64_t{1} << 28;   ///< larger grids are refused unallocated
 };
 
-/// Every kind of file that is read, for messages and documentation: "ROS map_server .yaml, ...".
+/// All supported kinds of file, for messages and documentation: "ROS map_server .yaml, ...".
 [[nodiscard]] std::string map_kinds_text();
 
 /// Throws InputError naming the file and the line, key or feature. Cost: linear in pixels plus

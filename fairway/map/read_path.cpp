@@ -24,7 +24,7 @@ std::vector<PathVertex> from_mission(const SourceText& source, const ObstacleMap
   return vertices;
 }
 
-// The parts of one line: more than one where it was cut at the antimeridian (RFC 7946, 3.1.9).
+// The parts of one line: more than one if it was cut at the antimeridian (RFC 7946, 3.1.9).
 using Parts = std::vector<JsonPlace>;
 
 bool goes_on_beyond_antimeridian(const JsonPlace& part, const JsonPlace& next) {
@@ -105,7 +105,7 @@ void require_on_map(const std::vector<PathVertex>& vertices, const Grid& grid) {
   }
 }
 
-// Degrees taken for metres shrink a path to a dot.
+// Degrees mistaken for metres shrink a path to a dot.
 void require_extent(const std::vector<Vec2>& vertices, const std::filesystem::path& file,
                     double cell_m) {
   const auto [left, right] = std::minmax_element(vertices.begin(), vertices.end(),
@@ -116,7 +116,7 @@ void require_extent(const std::vector<Vec2>& vertices, const std::filesystem::pa
   if (extent_m < cell_m)
     throw InputError(file.string(),
                      fmt::format("the path spans {} m, less than a cell of {} m; are these "
-                                 "degrees where metres belong?",
+                                 "degrees instead of metres?",
                                  length_text(extent_m), length_text(cell_m)));
 }
 
@@ -137,10 +137,10 @@ std::vector<Vec2> read_path(const std::filesystem::path& file, const ObstacleMap
     if (path.empty() || path.back() != vertex.point_m) path.push_back(vertex.point_m);
   if (closed)
     while (path.size() > 1 && path.back() == path.front()) path.pop_back();
-  if (path.empty()) throw InputError(file.string(), "has no vertex, a path has at least two");
+  if (path.empty()) throw InputError(file.string(), "has no vertices, expected at least two");
   if (path.size() == 1)
     throw InputError(vertices.back().where,
-                     fmt::format("the path has no length: it ends at {} and was nowhere else, "
+                     fmt::format("the path has no length: every vertex is {}, "
                                  "expected at least two distinct vertices",
                                  place_text(path.front())));
   require_extent(path, file, frame.grid.cell_m);

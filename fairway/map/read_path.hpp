@@ -1,10 +1,9 @@
-// Reads the line a path mission follows: CSV, GeoJSON LineString, QGC WPL 110 or a .plan's mission.
+// Reads the line that a path mission follows: CSV, GeoJSON LineString, QGC WPL 110 or a .plan.
 //
 // CSV: columns x_m and y_m by name when there is a header (a '#' line or plain), else the first
 // two; separated by commas, semicolons, tabs or blanks; further columns are ignored. Coordinates
-// are those of the grid of `frame`. Columns of latitude and longitude, WPL and .plan files are
-// degrees and need a map that has a geographic frame. GeoJSON is [lon, lat] on such a map, else
-// metres.
+// are those of the grid of `frame`. Columns of latitude and longitude, WPL and .plan files are in
+// degrees and need a georeferenced map. GeoJSON is [lon, lat] on such a map, else in metres.
 #pragma once
 
 #include <filesystem>
@@ -15,14 +14,13 @@
 
 namespace fairway {
 
-/// Vertices in the frame of `frame.grid`, metres; consecutive equal vertices are one, and with
-/// `closed` a last vertex equal to the first is left out. At least two distinct vertices, all
-/// finite, all on the grid; throws InputError naming the line or item that is not so.
+/// Vertices in the frame of `frame.grid`, metres; consecutive equal vertices count once, and with
+/// `closed` a last vertex equal to the first is dropped. At least two distinct vertices, all
+/// finite, all on the grid; otherwise throws InputError naming the line or item.
 [[nodiscard]] std::vector<Vec2> read_path(const std::filesystem::path& file,
                                           const ObstacleMap& frame, bool closed = false);
 
-/// Its vertices as they stand in the file, wherever they lie; nothing is asked of them but that
-/// they can be read.
+/// The vertices as they are in the file, wherever they lie; they only have to be readable.
 [[nodiscard]] std::vector<Vec2> path_vertices(const std::filesystem::path& file,
                                               const ObstacleMap& frame);
 

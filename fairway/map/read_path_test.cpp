@@ -36,12 +36,12 @@ class ReadPath : public ::testing::Test {
   ObstacleMap geographic_;
 };
 
-TEST_F(ReadPath, HeadersAndSeparatorsOfTheWildAreUnderstood) {
+TEST_F(ReadPath, HeadersAndSeparatorsFoundInPracticeAreRead) {
   const std::vector<Vec2> expected = {{1.5, 2.0}, {30.0, -4.0}};
   for (const char* text : {
            "1.5,2\n30,-4\n",                             // no header
            "x_m,y_m\n1.5,2\n30,-4\n",                    // as documented
-           "\xef\xbb\xbfx_m,y_m\r\n1.5,2\r\n30,-4\r\n",  // a spreadsheet's
+           "\xef\xbb\xbfx_m,y_m\r\n1.5,2\r\n30,-4\r\n",  // from a spreadsheet
            "\"x_m\", \"y_m\"\n1.5, 2\n30, -4",           // quoted
            "y_m,x_m\n2,1.5\n-4,30\n",                    // in any order
            "# x_m, y_m, w_tr_right_m, w_tr_left_m\n1.5, 2, 1, 1\n30, -4, 1, 1\n",
@@ -78,14 +78,14 @@ TEST_F(ReadPath, AClosedPathDropsARepeatedFirstVertex) {
 }
 
 TEST_F(ReadPath, WhatIsWrongIsNamedWithItsLine) {
-  EXPECT_EQ(error(""), "line.csv: has no vertex, a path has at least two");
+  EXPECT_EQ(error(""), "line.csv: has no vertices, expected at least two");
   EXPECT_EQ(error("x_m,y_m\n1,2\n3,nan\n"), "line.csv:3: \"nan\" is not finite");
   EXPECT_EQ(error("x_m,y_m\n1,2\n3,1e999\n"), "line.csv:3: \"1e999\" is not finite");
-  EXPECT_EQ(error("x_m,y_m\n1,2\n3,four\n"), "line.csv:3: \"four\" is no number");
+  EXPECT_EQ(error("x_m,y_m\n1,2\n3,four\n"), "line.csv:3: \"four\" is not a number");
   EXPECT_EQ(error("x_m,y_m\n1,2\n3\n"), "line.csv:3: has 1 columns, expected 2");
   EXPECT_EQ(error("x_m,y_m\n1,2\n3,4,5\n"), "line.csv:3: has 3 columns, expected 2");
   EXPECT_EQ(error("speed,time\n1,2\n3,4\n"),
-            "line.csv:1: the header \"speed,time\" names no columns x_m and y_m");
+            "line.csv:1: the header \"speed,time\" has no columns x_m and y_m");
   EXPECT_EQ(
       error("0,0\n20,0\n95,0\n"),
       "line.csv:3: vertex 2 (95, 0) is outside the map, expected x in [-10, 90] and y in [-5, 45]");
@@ -95,7 +95,7 @@ TEST_F(ReadPath, WhatIsWrongIsNamedWithItsLine) {
 
 TEST_F(ReadPath, APathWithoutLengthIsRefusedWhereItEnds) {
   const std::string what =
-      ": the path has no length: it ends at (1, 2) and was nowhere else, expected at least two "
+      ": the path has no length: every vertex is (1, 2), expected at least two "
       "distinct vertices";
   EXPECT_EQ(error("x_m,y_m\n1,2\n"), "line.csv:2" + what);
   EXPECT_EQ(error("1,2\n1,2\n\n1,2\n"), "line.csv:4" + what);
@@ -105,17 +105,16 @@ TEST_F(ReadPath, APathWithoutLengthIsRefusedWhereItEnds) {
   EXPECT_EQ(input_error_of(closed), "line.csv:2" + what);
 }
 
-TEST_F(ReadPath, DegreesWhereMetresBelongAreRefused) {
-  EXPECT_EQ(
-      error("lat,lon\n47.39,8.54\n47.40,8.55\n"),
-      "line.csv: is in degrees, but the map does not say where on Earth it lies; expected x_m "
-      "and y_m in the map's metres");
+TEST_F(ReadPath, DegreesInsteadOfMetresAreRefused) {
+  EXPECT_EQ(error("lat,lon\n47.39,8.54\n47.40,8.55\n"),
+            "line.csv: is in degrees, but the map is not georeferenced; expected x_m "
+            "and y_m in the map's metres");
   EXPECT_EQ(error("8.54,30.39\n8.55,30.40\n"),
-            "line.csv: the path spans 0.01 m, less than a cell of 1 m; are these degrees where "
-            "metres belong?");
+            "line.csv: the path spans 0.01 m, less than a cell of 1 m; are these degrees instead "
+            "of metres?");
 }
 
-TEST_F(ReadPath, DegreesAreLaidOnAGeographicMap) {
+TEST_F(ReadPath, DegreesArePlacedOnAGeoreferencedMap) {
   const TangentPlane plane(zurich);
   const std::vector<Vec2> expected = {{0.0, 0.0}, {50.0, 20.0}, {80.0, -4.0}};
   std::string csv = "time,longitude,latitude\n";
@@ -135,7 +134,7 @@ TEST_F(ReadPath, DegreesAreLaidOnAGeographicMap) {
     wpl += text;
   }
   json += "]}}";
-  wpl += "4\t0\t3\t177\t1\t-1\t0\t0\t0\t0\t0\t1\n";  // a jump has no place
+  wpl += "4\t0\t3\t177\t1\t-1\t0\t0\t0\t0\t0\t1\n";  // a jump has no position
   for (const auto& [name, text] : {std::pair<std::string, std::string>{"a.csv", csv},
                                    {"a.geojson", json},
                                    {"a.waypoints", wpl}}) {

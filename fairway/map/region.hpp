@@ -1,4 +1,4 @@
-// The paper's complete map M (paper 1, Algorithm 1): what each cell of the world is.
+// The paper's complete map M (paper 1, Algorithm 1): the class of each cell of the world.
 #pragma once
 
 #include <cstdint>

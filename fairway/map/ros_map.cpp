@@ -33,11 +33,11 @@ class RosYaml {
     } catch (const YAML::Exception& e) {
       throw InputError(
           e.mark.is_null() ? source.file.string() : at_line(source.file, line_of(e.mark)),
-          "is no YAML: " + e.msg);
+          "is not YAML: " + e.msg);
     }
     if (!root_.IsMap())
       throw InputError(at_line(source.file, 1),
-                       "is no ROS map, expected keys image, resolution, origin ...");
+                       "is not a ROS map, expected keys image, resolution, origin ...");
     index_keys();
   }
 
@@ -55,14 +55,14 @@ class RosYaml {
 
   std::string text(const std::string& key) const {
     const YAML::Node node = at(key);
-    if (!node.IsScalar()) fail(node, fmt::format("{} is no plain value", key));
+    if (!node.IsScalar()) fail(node, fmt::format("{} is not a plain value", key));
     return node.Scalar();
   }
 
   double number(const std::string& key) const { return number(at(key), key); }
 
   double number(const YAML::Node& node, const std::string& key) const {
-    if (!node.IsScalar()) fail(node, fmt::format("{} is no number", key));
+    if (!node.IsScalar()) fail(node, fmt::format("{} is not a number", key));
     const std::string& scalar = node.Scalar();
     auto value = parse_number(scalar);
     if (!value && (lower(scalar) == ".nan" || lower(scalar).ends_with(".inf")))
@@ -82,11 +82,11 @@ class RosYaml {
     return mark.is_null() ? 1 : static_cast<std::size_t>(mark.line) + 1;
   }
 
-  // YAML says a mapping's keys differ; the parser keeps both and would use the first in silence.
+  // YAML requires distinct keys in a mapping; the parser keeps both and silently uses the first.
   void index_keys() {
     std::map<std::string, std::size_t> first_line;
     for (const auto& entry : root_) {
-      if (!entry.first.IsScalar()) fail(entry.first, "a key is no plain word");
+      if (!entry.first.IsScalar()) fail(entry.first, "a key is not a plain word");
       const std::string key = entry.first.Scalar();
       const std::size_t line = line_of(entry.first.Mark());
       const auto [at, fresh] = first_line.emplace(key, line);
@@ -141,19 +141,19 @@ RosMap read_keys(const SourceText& source) {
   RosMap map;
   const std::string image = yaml.text("image");
   if (image.empty() || image.find('\0') != std::string::npos)
-    yaml.fail(yaml.at("image"), "image names no file");
+    yaml.fail(yaml.at("image"), "image does not name a file");
   map.image = source.file.parent_path() / image;
   std::error_code ignored;
   if (!std::filesystem::exists(map.image, ignored))
     yaml.fail(yaml.at("image"),
-              fmt::format("the image {} does not exist beside this file", shown(image)));
+              fmt::format("the image {} does not exist next to this file", shown(image)));
   map.resolution_m = yaml.number("resolution");
   if (map.resolution_m <= 0.0)
     yaml.fail(yaml.at("resolution"),
               fmt::format("resolution is {}, expected metres per pixel above 0", map.resolution_m));
   const YAML::Node origin = yaml.at("origin");
   if (!origin.IsSequence() || origin.size() != 3)
-    yaml.fail(origin, "origin is no list of three numbers [x, y, yaw]");
+    yaml.fail(origin, "origin is not a list of three numbers [x, y, yaw]");
   for (std::size_t i = 0; i < 3; ++i) map.origin[i] = yaml.number(origin[i], "origin");
   map.rule = read_rule(yaml);
   for (const auto& [key, value] : yaml.values())
@@ -177,7 +177,7 @@ SourceRaster read_ros_map(const SourceText& yaml, const MapRequest& request) {
   } else {
     raster.world_from_grid = {map.origin[0], map.origin[1], map.origin[2]};
     raster.warnings.push_back(
-        fmt::format("{}: the origin is turned by {} rad; all coordinates are in the map's own "
+        fmt::format("{}: the origin is rotated by {} rad; all coordinates are in the map's own "
                     "frame, lower-left corner at (0, 0); in the world that corner is at ({}, {}).",
                     yaml.file.string(), map.origin[2], map.origin[0], map.origin[1]));
   }

@@ -62,7 +62,7 @@ class RosMap : public ::testing::Test {
     return read_map(request());
   }
 
-  // Which pixels of the row block, with unknown as obstacle (#) and as free: '.', '?', '#'.
+  // Which pixels of the row block, with unknown as obstacle and as free: '.', '?', '#'.
   std::string classes(const std::string& text) {
     folder_.write("map.yaml", text);
     MapRequest strict = request();
@@ -87,7 +87,7 @@ TEST_F(RosMap, TrinaryThresholdsAreStrict) {
   // occ = (255 - grey) / 255; 89 gives 0.65098, 90 gives 0.64706, 205 gives 0.196078.
   write_row({0, 89, 90, 204, 205, 206, 255});
   EXPECT_EQ(classes(yaml()), "##???..");
-  // Exactly at a threshold is neither: occ of 153 is 0.4, of 204 is 0.2.
+  // Exactly at a threshold is neither: occ is 0.4 for 153, 0.2 for 204.
   write_row({152, 153, 154, 203, 204, 205});
   EXPECT_EQ(classes(yaml({{"occupied_thresh", "occupied_thresh: 0.4"},
                           {"free_thresh", "free_thresh: 0.2"}})),
@@ -112,7 +112,8 @@ TEST_F(RosMap, ScaleKeepsOnlyTheSureEnds) {
                           {"free_thresh", "free_thresh: 0.0"}});
   // 254 and 1 round to 0 and 100 percent, as in the reader of ROS 2.
   EXPECT_EQ(classes(text), "##?..");
-  EXPECT_THAT(read(text).warnings, ::testing::Contains(HasSubstr("1 pixels are neither surely")));
+  EXPECT_THAT(read(text).warnings,
+              ::testing::Contains(HasSubstr("1 pixels are neither certainly")));
 }
 
 TEST_F(RosMap, RawTakesTheValueAsPercentageAndIgnoresNegate) {
@@ -136,7 +137,7 @@ TEST_F(RosMap, SaverGrey205ReadAsFreeIsWarnedAbout) {
 }
 
 TEST_F(RosMap, TrinaryAveragesAlphaInAndScaleTakesWhatIsNotOpaqueAsUnknown) {
-  // Grey PNGs with alpha are made in image_rows_test; here the arithmetic by PPM without alpha.
+  // Grey PNGs with alpha are in image_rows_test; here the arithmetic, with PPM without alpha.
   std::string image = "P6 2 1 255\n";
   for (const int v : {255, 0, 0, 10, 20, 30}) image += static_cast<char>(v);
   folder_.write("map.pgm", image);
@@ -157,7 +158,7 @@ TEST_F(RosMap, TheOriginIsTheLowerLeftCornerAndTheFirstImageRowTheTop) {
   EXPECT_EQ(map.frame.world_from_grid.yaw_rad, 0.0);
 }
 
-TEST_F(RosMap, ATurnedOriginIsHonoured) {
+TEST_F(RosMap, ARotatedOriginIsHonoured) {
   write_row({0, 255});
   const ObstacleMap map = read(yaml({{"origin", "origin: [2.0, 3.0, 1.5]"}}));
   EXPECT_EQ(map.grid, (Grid{2, 1, 0.0, 0.0, 1.0}));
@@ -165,7 +166,7 @@ TEST_F(RosMap, ATurnedOriginIsHonoured) {
   EXPECT_EQ(map.frame.world_from_grid.y_m, 3.0);
   EXPECT_EQ(map.frame.world_from_grid.yaw_rad, 1.5);
   ASSERT_EQ(map.warnings.size(), 1U);
-  EXPECT_THAT(map.warnings[0], HasSubstr("turned by 1.5 rad"));
+  EXPECT_THAT(map.warnings[0], HasSubstr("rotated by 1.5 rad"));
 }
 
 TEST_F(RosMap, TheOriginMayBeABlockList) {
@@ -199,24 +200,24 @@ TEST_F(RosMap, WrongValuesAreNamedWithTheirLine) {
   EXPECT_EQ(error(yaml({{"resolution", "resolution: -0.05"}})),
             "map.yaml:2: resolution is -0.05, expected metres per pixel above 0");
   EXPECT_EQ(error(yaml({{"resolution", "resolution: [1]"}})),
-            "map.yaml:2: resolution is no number");
+            "map.yaml:2: resolution is not a number");
   EXPECT_EQ(error(yaml({{"origin", "origin: [0, 1e999, 0]"}})),
             "map.yaml:3: origin is \"1e999\", expected a finite number");
   EXPECT_EQ(error(yaml({{"origin", "origin: [0, 0]"}})),
-            "map.yaml:3: origin is no list of three numbers [x, y, yaw]");
+            "map.yaml:3: origin is not a list of three numbers [x, y, yaw]");
   EXPECT_EQ(error(yaml({{"occupied_thresh", "occupied_thresh: 65"}})),
             "map.yaml:5: occupied_thresh is 65, expected 0 to 1");
   EXPECT_EQ(error(yaml({{"free_thresh", "free_thresh: 0.7"}})),
             "map.yaml:6: free_thresh 0.7 is not below occupied_thresh 0.65");
   EXPECT_EQ(error(yaml({{"image", "image: other.pgm"}})),
-            "map.yaml:1: the image \"other.pgm\" does not exist beside this file");
+            "map.yaml:1: the image \"other.pgm\" does not exist next to this file");
 }
 
 TEST_F(RosMap, AnOriginTooFarAwayToTellCellsApartIsRefused) {
   write_row({255});
   EXPECT_EQ(
       error(yaml({{"origin", "origin: [1e300, 0, 0]"}})),
-      "map.cell_m: the map's corner is at 1e+300 m: too far from 0 to tell cells of 1 m apart");
+      "map.cell_m: the map's corner is at 1e+300 m: too far from 0 to distinguish cells of 1 m");
 }
 
 TEST_F(RosMap, AKeyThatOccursTwiceIsRefused) {
@@ -231,10 +232,10 @@ TEST_F(RosMap, AnUnknownKeyIsWarnedAbout) {
               ::testing::ElementsAre(HasSubstr("the key \"colour\" is unknown")));
 }
 
-TEST_F(RosMap, TextThatIsNoYamlIsRefusedWithItsLine) {
+TEST_F(RosMap, TextThatIsNotYamlIsRefusedWithItsLine) {
   write_row({0});
-  EXPECT_THAT(error("image: [map.pgm\nresolution: 1\n"), StartsWith("map.yaml:2: is no YAML: "));
-  EXPECT_THAT(error("- a\n- b\n"), StartsWith("map.yaml:1: is no ROS map"));
+  EXPECT_THAT(error("image: [map.pgm\nresolution: 1\n"), StartsWith("map.yaml:2: is not YAML: "));
+  EXPECT_THAT(error("- a\n- b\n"), StartsWith("map.yaml:1: is not a ROS map"));
   EXPECT_EQ(error(""), "map.yaml: is empty");
 }
 
@@ -261,15 +262,17 @@ TEST_F(RosMap, TheRequestIsCheckedToo) {
             "map.yaml: has pixels of 1 m, but map.resolution_m is 0.5; leave it out");
   EXPECT_EQ(error_with([](MapRequest& r) { r.resolution_m = 1.0; }), "no error");
   EXPECT_THAT(error_with([](MapRequest& r) { r.altitude_m = 10.0; }),
-              StartsWith("map.altitude_m: has no meaning for "));
+              StartsWith("map.altitude_m: does not apply to "));
   EXPECT_EQ(error_with([](MapRequest& r) { r.file += ".gone"; }), "map.yaml.gone: no such file");
   EXPECT_THAT(error_with([](MapRequest& r) { r.file = r.file.parent_path(); }),
               HasSubstr("is a folder, expected a file"));
-  EXPECT_EQ(error_with([](MapRequest& r) { r.file = "http://example.org/map.yaml"; }),
-            "http://example.org/map.yaml: is no local file; download it first, nothing is fetched");
-  EXPECT_EQ(error_with([](MapRequest& r) { r.file = "/vsicurl/http://example.org/map.tif"; }),
-            "/vsicurl/http://example.org/map.tif: is no local file; download it first, nothing is "
-            "fetched");
+  EXPECT_EQ(
+      error_with([](MapRequest& r) { r.file = "http://example.org/map.yaml"; }),
+      "http://example.org/map.yaml: is not a local file; download it first, nothing is fetched");
+  EXPECT_EQ(
+      error_with([](MapRequest& r) { r.file = "/vsicurl/http://example.org/map.tif"; }),
+      "/vsicurl/http://example.org/map.tif: is not a local file; download it first, nothing is "
+      "fetched");
 }
 
 }  // namespace

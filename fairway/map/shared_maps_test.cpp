@@ -1,5 +1,5 @@
-// Every real map, fence and path that lies beside the project is read; its cells are held against
-// facts known of the file.
+// Reads every real map, fence and path in the folder next to the project, and compares its cells
+// with facts known about the file.
 
 #include <algorithm>
 #include <filesystem>
@@ -21,7 +21,7 @@ class SharedMaps : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!std::filesystem::is_directory(FAIRWAY_SHARED_MAPS))
-      GTEST_SKIP() << "no folder of shared maps beside the project";
+      GTEST_SKIP() << "no folder of shared maps next to the project";
   }
 
   static std::filesystem::path shared(const std::string& name) {
@@ -81,7 +81,7 @@ TEST_F(SharedMaps, AThresholdThatFreesTheUnknownIsWarnedAbout) {
   request.cell_m = 0.5;
   EXPECT_THAT(read_map(request).warnings, ::testing::Contains(HasSubstr("grey 205")));
   request.file = shared("ros_mit_racecar/basement_fixed.map.yaml");
-  EXPECT_THAT(read_map(request).warnings, ::testing::Contains(HasSubstr("turned by 3.14 rad")));
+  EXPECT_THAT(read_map(request).warnings, ::testing::Contains(HasSubstr("rotated by 3.14 rad")));
 }
 
 TEST_F(SharedMaps, EveryMovingAiMapIsReadAndItsScenariosEndsAreFree) {
@@ -119,7 +119,7 @@ TEST_F(SharedMaps, EveryRaceTracksLinesLieOnItsFreeCells) {
   for (const auto& file : files("_map.yaml")) {
     MapRequest request;
     request.file = file;
-    std::ifstream yaml(file);  // cells of pixel size: larger ones may touch a wall beside the line
+    std::ifstream yaml(file);  // cells of pixel size: larger ones may touch a wall next to the line
     for (std::string key; yaml >> key;)
       if (key == "resolution:") yaml >> request.cell_m;
     const ObstacleMap map = read_map(request);
@@ -167,11 +167,11 @@ TEST_F(SharedMaps, AMissionInsideItsFenceIsAPathOnFreeCells) {
   const auto path = read_path(request.file, map);
   ASSERT_EQ(path.size(), 4U);
   for (const Vec2 p : path) EXPECT_EQ(map.obstacle[map.grid.index(map.grid.cell_of(p))], 0);
-  // Two maps of one airfield: the fence's own map carries the circuit flown inside it.
+  // Two maps of one airfield: the fence's own map includes the circuit flown inside it.
   request.file = shared("uav_plans/CMAC-fence.txt");
   const ObstacleMap cmac = read_map(request);
   const auto circuit = read_path(shared("uav_plans/CMAC-circuit.txt"), cmac);
-  ASSERT_EQ(circuit.size(), 5U) << "the last two waypoints are one place";
+  ASSERT_EQ(circuit.size(), 5U) << "the last two waypoints are the same place";
   for (const Vec2 p : circuit) EXPECT_EQ(cmac.obstacle[cmac.grid.index(cmac.grid.cell_of(p))], 0);
 }
 
@@ -184,7 +184,7 @@ TEST_F(SharedMaps, BuildingsAndTheHeightRasterOverThemAgree) {
   request.altitude_m = 4.0;
   request.file = shared("geo_buildings_alexandria/hag.tif");
   const ObstacleMap heights = read_map(request);
-  // Trees are high too, so only one direction: the outline of a large building is high ground.
+  // Trees are high, too, so only one direction: the outline of a large building is high ground.
   const auto roof = std::filesystem::temp_directory_path() / "fairway-shared-maps-roof.csv";
   std::ofstream(roof) << "lon,lat\n-77.051400,38.812100\n-77.051300,38.811700\n";
   const auto on_heights = read_path(roof, heights);

@@ -73,7 +73,7 @@ std::optional<EdgeContact> find_contact(const std::vector<std::vector<Vec2>>& ri
   for (std::size_t r = 0; r < rings.size(); ++r)
     for (std::size_t i = 0; i < rings[r].size(); ++i)
       edges.push_back({rings[r][i], rings[r][(i + 1) % rings[r].size()], r, i, rings[r].size()});
-  // Sweep along x: an edge is held against those that still overlap it in x.
+  // Sweep along x: an edge is compared with those that still overlap it in x.
   const auto low_x = [](const Edge& e) { return std::min(e.a.x, e.b.x); };
   const auto high_x = [](const Edge& e) { return std::max(e.a.x, e.b.x); };
   std::stable_sort(edges.begin(), edges.end(),

@@ -1,4 +1,4 @@
-// Whether rings are simple: no edge meets another except neighbours in their common corner.
+// Whether rings are simple: edges meet only where neighbours share a corner.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ struct EdgeContact {
   Vec2 at;  ///< a common point, in the rings' units
 };
 
-/// The first contact found that a simple polygon must not have: within a ring any meeting of edges
-/// beyond neighbours in their corner; between rings a crossing (holes may touch). Rings have at
-/// least three vertices, neighbours differ. The sign of each turn is exact for the rounded
-/// differences of coordinates. Cost: n log n and the pairs that overlap in x.
+/// The first contact found that a simple polygon must not have: within a ring, edges that meet
+/// other than as neighbours in their corner; between rings, a crossing (holes may touch). Rings
+/// have at least three vertices, neighbours differ. The sign of each turn is exact for the rounded
+/// differences of coordinates. Cost: n log n plus the pairs that overlap in x.
 [[nodiscard]] std::optional<EdgeContact> find_contact(const std::vector<std::vector<Vec2>>& rings);
 
 }  // namespace fairway

@@ -12,7 +12,7 @@ namespace {
 
 using Ring = std::vector<Vec2>;
 
-// Exact on small whole numbers: do the closed segments share a point?
+// Exact for small integers: do the closed segments share a point?
 bool share_a_point(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const auto side = [](Vec2 p, Vec2 q, Vec2 r) {
     const double det = cross(q - p, r - p);

@@ -1,4 +1,4 @@
-// What every image reader gives: pixels that are free, obstacle or unknown, and where they lie.
+// What every image reader returns: pixels that are free, obstacle or unknown, and where they lie.
 //
 // Row 0 is the top, as in image files. Pixel (column, row) covers, from `lower_left_m`,
 // [column * pixel_width_m, ...] to the right and [(height - 1 - row) * pixel_height_m, ...]

@@ -25,7 +25,7 @@ void require_regular_file(const std::filesystem::path& file) {
   const auto status = std::filesystem::status(file, error);
   if (status.type() == std::filesystem::file_type::not_found)
     throw InputError(name, name.find("://") != std::string::npos || name.starts_with("/vsi")
-                               ? "is no local file; download it first, nothing is fetched"
+                               ? "is not a local file; download it first, nothing is fetched"
                                : "no such file");
   if (error) throw InputError(name, "cannot be opened: " + error.message());
   if (status.type() == std::filesystem::file_type::directory)
@@ -114,7 +114,7 @@ std::optional<double> parse_number(std::string_view text) {
   const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (digits.empty() || end != digits.data() + digits.size()) return std::nullopt;
   if (problem == std::errc::result_out_of_range) {
-    // Too large or too small for a double: only the large ones are of interest.
+    // Too large or too small for a double: only the large ones matter.
     const bool tiny = digits.find("e-") != digits.npos || digits.find("E-") != digits.npos ||
                       digits.starts_with("0.") || digits.starts_with("-0.");
     return tiny ? 0.0 : std::numeric_limits<double>::infinity();

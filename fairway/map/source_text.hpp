@@ -13,7 +13,7 @@
 
 namespace fairway {
 
-/// Text formats larger than this are refused: a map of that size is a mistake.
+/// Larger text files are refused: a map of that size is a mistake.
 inline constexpr std::uint64_t max_text_bytes = std::uint64_t{512} << 20;
 
 struct SourceText {
@@ -23,23 +23,23 @@ struct SourceText {
 };
 
 /// The whole file as plain text (base/plain_text.hpp); the digest is that of its bytes. Throws
-/// InputError when `file` is missing, no regular file, unreadable or larger than `max_bytes`.
+/// InputError when `file` is missing, not a regular file, unreadable or larger than `max_bytes`.
 [[nodiscard]] SourceText read_source(const std::filesystem::path& file,
                                      std::uint64_t max_bytes = max_text_bytes);
 
 /// The same, byte for byte.
 [[nodiscard]] SourceText read_bytes(const std::filesystem::path& file, std::uint64_t max_bytes);
 
-/// Throws InputError unless `file` is a regular file; names with schemes of networks are not.
+/// Throws InputError unless `file` is a regular file; names with network schemes are not.
 void require_regular_file(const std::filesystem::path& file);
 
-/// "FILE:LINE", the place of an error.
+/// "FILE:LINE", the location of an error.
 [[nodiscard]] std::string at_line(const std::filesystem::path& file, std::size_t line);
 
-/// What an error says, without the place in front.
+/// The text of an error, without its location.
 [[nodiscard]] std::string reason_of(const InputError& error);
 
-/// One line of a plain text without its end; numbers count from 1.
+/// One line of a plain text without its line ending; numbers start at 1.
 struct Line {
   std::size_t number = 0;
   std::string_view text;
@@ -48,11 +48,11 @@ struct Line {
 
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
-/// Pieces between `separator`s, trimmed; with ' ' runs of blanks and tabs separate.
+/// Pieces between `separator`s, trimmed; with ' ', runs of blanks and tabs separate.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 
-/// The whole of `text` as a decimal number in the C locale; inf and nan are numbers here, so that
-/// the caller can name them. Nothing when it is no number.
+/// The whole of `text` as a decimal number in the C locale; inf and nan count as numbers, so that
+/// the caller can name them. Nothing when it is not a number.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
 /// Lower-case copy, ASCII only.

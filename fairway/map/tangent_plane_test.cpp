@@ -64,7 +64,7 @@ TEST(TangentPlane, NoDistanceInADiscIsFartherOffThanTheStatedError) {
     EXPECT_LE(error_m, 1.01 * bound_m + 1e-7);
     largest_share = std::max(largest_share, error_m / bound_m);
   }
-  EXPECT_GT(largest_share, 0.3) << "the bound should not be idle";
+  EXPECT_GT(largest_share, 0.3) << "the bound should not be vacuous";
 }
 
 TEST(TangentPlane, EdgesStraightInDegreesStayWithinTheStatedErrorOfThePlanesPieces) {

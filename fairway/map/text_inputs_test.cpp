@@ -1,5 +1,5 @@
-// Every text that a map or a path comes in is read the same with a byte order mark, and with any of
-// the three kinds of line ends.
+// Every text format of maps and paths reads the same with a byte order mark, and with any of the
+// three line endings.
 
 #include <string>
 
@@ -32,7 +32,7 @@ TEST(TextInputs, MapsReadTheSame) {
   struct Input {
     const char* name;
     const char* text;
-    const char* map;  // the file to read, where that is another
+    const char* map;  // the file to read, if it is a different one
   };
   for (const Input& input :
        {Input{"a.yaml",
@@ -109,7 +109,7 @@ TEST(TextInputs, AMapsSizeHasItsRangeInTheMessage) {
     request.file = folder.write("a.map", std::string("type octile\nheight ") + size + "\n");
     EXPECT_EQ(input_error_of([&] { (void)read_map(request); }),
               std::string("a.map:2: \"") + size +
-                  "\" is no size, expected a whole number from 1 to 1000000000");
+                  "\" is not a size, expected a whole number from 1 to 1000000000");
   }
 }
 

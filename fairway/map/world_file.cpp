@@ -13,7 +13,7 @@ namespace fairway {
 
 namespace {
 
-/// The names that a world file of `image` may have, in small letters.
+/// The possible names of the world file of `image`, in lower case.
 std::vector<std::string> candidates(const std::filesystem::path& image) {
   const std::string extension = image.extension().string();  // with its dot
   std::vector<std::string> endings;
@@ -39,13 +39,14 @@ WorldFile read_world_file(const std::filesystem::path& file) {
     const auto number = parse_number(text);
     if (!number || !std::isfinite(*number))
       throw InputError(at_line(file, line.number),
-                       fmt::format("{} is no finite number", shown(text)));
+                       fmt::format("{} is not a finite number", shown(text)));
     if (count == 6)
       throw InputError(at_line(file, line.number), "has more than the six numbers of a world file");
     values[count++] = *number;
   }
   if (count != 6)
-    throw InputError(file.string(), fmt::format("has {} numbers, a world file has six", count));
+    throw InputError(file.string(),
+                     fmt::format("has {} numbers, expected six in a world file", count));
   // Lines are A, D, B, E, C, F; C and F name the centre of the upper-left pixel.
   const auto [a, d, b, e, c, f] = values;
   return {{c - 0.5 * a - 0.5 * b, a, b, f - 0.5 * d - 0.5 * e, d, e}, source.input};
@@ -54,8 +55,7 @@ WorldFile read_world_file(const std::filesystem::path& file) {
 }  // namespace
 
 std::optional<WorldFile> find_world_file(const std::filesystem::path& image) {
-  // Names differ in case from system to system; of several the one of the image's own case comes
-  // first.
+  // Systems differ in the case of names; of several files, the one in the image's own case wins.
   const std::vector<std::string> names = candidates(image);
   const std::filesystem::path folder = image.has_parent_path() ? image.parent_path() : ".";
   const std::string stem = image.stem().string();

@@ -16,9 +16,9 @@ struct WorldFile {
   InputFile input;
 };
 
-/// The world file beside `image`: its name with .wld, or with the image's extension shortened to
-/// first and last letter plus w (.png: .pgw), or with a w behind the extension (.pngw), in any
-/// case. Nothing when there is none; throws InputError with the line when it is malformed.
+/// The world file next to `image`: its name with .wld, or with the image's extension shortened to
+/// first and last letter plus w (.png: .pgw), or with a w after the extension (.pngw), in upper or
+/// lower case. Nothing when there is none; throws InputError with the line when it is malformed.
 [[nodiscard]] std::optional<WorldFile> find_world_file(const std::filesystem::path& image);
 
 }  // namespace fairway

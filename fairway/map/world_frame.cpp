@@ -12,7 +12,7 @@ namespace fairway {
 
 namespace {
 
-// Columns (or rows) before `first` and from `last` on touch the grown outside.
+// Columns (or rows) before `first`, and those from `last` on, touch the grown outside.
 struct InsideRange {
   int first = 0;
   int last = 0;
@@ -33,7 +33,7 @@ Grid grid_over(const MapExtent& extent, const RasteriseOptions& options) {
   const double columns = std::max(1.0, std::ceil(extent.width_m / options.cell_m - cell_slack));
   const double rows = std::max(1.0, std::ceil(extent.height_m / options.cell_m - cell_slack));
   const double ring = options.outside_is_obstacle ? 2.0 : 0.0;
-  // Written so that NaN is refused too.
+  // Written so that NaN is refused, too.
   if (!((columns + ring) * (rows + ring) <= static_cast<double>(options.max_cells)) ||
       columns + ring > 2147483647.0 || rows + ring > 2147483647.0)
     throw InputError(
@@ -45,11 +45,9 @@ Grid grid_over(const MapExtent& extent, const RasteriseOptions& options) {
             length_text(columns + ring), length_text(rows + ring), options.max_cells));
   for (const double corner_m : {extent.lower_left_m.x, extent.lower_left_m.y})
     if (!(std::abs(corner_m) <= 1e12 * options.cell_m))
-      throw InputError(
-          "map.cell_m",
-          fmt::format("the map's corner is at {} m: too far from 0 to tell cells of {} "
-                      "m apart",
-                      corner_m, options.cell_m));
+      throw InputError("map.cell_m", fmt::format("the map's corner is at {} m: too far from 0 to "
+                                                 "distinguish cells of {} m",
+                                                 corner_m, options.cell_m));
   return {static_cast<int>(columns), static_cast<int>(rows), extent.lower_left_m.x,
           extent.lower_left_m.y, options.cell_m};
 }

@@ -1,4 +1,4 @@
-// The grid laid over a map's rectangle, and what the world beyond it does to the cells.
+// The grid over a map's rectangle, and the effect of the world beyond it on the cells.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@ struct MapExtent {
   double height_m = 0.0;
 };
 
-/// The cells over the extent, without the ring. Throws InputError when there are too many (the
-/// ring counted) or none.
+/// The cells over the extent, without the ring. Throws InputError when there are too many
+/// (counting the ring) or none.
 [[nodiscard]] Grid grid_over(const MapExtent& extent, const RasteriseOptions& options);
 
-/// With options.outside_is_obstacle: marks the cells of `inner` that the world beyond the extent,
-/// grown, touches, and puts the ring around. Returns the finished grid; `cells` is [iy][ix].
+/// With options.outside_is_obstacle: marks the cells of `inner` touched by the grown world beyond
+/// the extent, and adds the ring around. Returns the finished grid; `cells` is [iy][ix].
 [[nodiscard]] Grid close_world(const Grid& inner, const MapExtent& extent,
                                const RasteriseOptions& options, std::vector<std::uint8_t>& cells);
 

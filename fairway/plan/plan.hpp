@@ -2,8 +2,8 @@
 //
 // Properties that always hold: the three arrays have grid.size() entries, [iy][ix]; a heading is
 // in (-pi, pi] or NaN (no command: crossed straight); cost_m is >= 0 or +inf (unreachable); the
-// heading is a number wherever cost_m is finite and the cell is not an obstacle; a goal that asks
-// for a heading lies on the grid.
+// heading is a number wherever cost_m is finite and the cell is not an obstacle; a goal with a
+// heading lies on the grid.
 #pragma once
 
 #include <optional>
@@ -25,8 +25,8 @@ struct Plan {
   PlanRecord record;
 };
 
-/// Where the plan's mission wants the vehicle, and with which heading; none when its goal has no
-/// heading, it follows a path, or the plan is of other origin.
+/// Where the plan's mission sends the vehicle, and with which heading; none when its goal has no
+/// heading, it follows a path, or the plan was not made by Fairway.
 [[nodiscard]] inline std::optional<State> goal_pose_of(const Plan& plan) {
   if (!plan.record.mission) return {};
   const auto* goal = std::get_if<GoalMission>(&*plan.record.mission);

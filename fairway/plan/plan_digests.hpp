@@ -1,5 +1,5 @@
-// Which plan something belongs to: the SHA-256 of its arrays, as plan files and certificates keep
-// them.
+// Which plan something belongs to: the SHA-256 of its arrays, as stored in plan files and
+// certificates.
 #pragma once
 
 #include <string>

@@ -78,8 +78,8 @@ bool is_on(const Grid& grid, Vec2 p) {
          p.y <= grid.y0_m + grid.height_m();
 }
 
-/// Nearer to its axis than that (0 alone: no other axis is so near to a float) a command is neither
-/// on it nor told from it by the arithmetic of the proof.
+/// Closer to its axis than this (only 0: no float is so close to another axis) a command is not on
+/// the axis, but the arithmetic of the proof cannot distinguish it from the axis.
 bool is_beside_axis(double heading_rad) {
   return heading_rad != 0.0 && std::abs(heading_rad) < 0x1p-52;
 }
@@ -159,7 +159,7 @@ void require_digest(const json& digests, const Tensor& tensor, const std::string
   const std::string place = where + ".sha256";
   if (text_member(digests, tensor.name.c_str(), place) != found) {
     throw InputError(place + "." + tensor.name,
-                     "is not the digest of the array: the file was damaged or altered");
+                     "does not match the array: the file was damaged or altered");
   }
 }
 
@@ -188,9 +188,9 @@ std::string plan_defect(const Plan& plan) {
   }
   const std::size_t n = plan.grid.size();
   if (plan.heading_rad.size() != n || plan.region.size() != n || plan.cost_m.size() != n) {
-    return "an array has not one entry per cell";
+    return "an array does not have one entry per cell";
   }
-  std::atomic<std::size_t> first{n};  // the lowest, whichever thread sees it
+  std::atomic<std::size_t> first{n};  // the lowest, whichever thread finds it
   for_ranges(n, 1 << 16, [&](std::size_t begin, std::size_t end) {
     std::size_t i = begin;
     while (i < end && cell_valid(plan, i)) ++i;
@@ -205,7 +205,7 @@ std::string plan_defect(const Plan& plan) {
 
 void write_plan(const Plan& plan, const std::filesystem::path& path, Existing existing) {
   if (const std::string defect = plan_defect(plan); !defect.empty()) {
-    throw PreconditionViolation("a plan to be written: " + defect);
+    throw PreconditionViolation("cannot write a plan: " + defect);
   }
   AtomicFile file(path, existing);
   const std::vector<Tensor> tensors = tensors_of(plan);
@@ -224,7 +224,7 @@ Plan plan_of_bytes(std::span<const std::byte> bytes, const std::string& where) {
   const std::string place = where + ": fairway";
   json record = parse_strict_json(text->second, place);
   if (file.tensors.size() > 3) {
-    throw InputError(where, "has arrays beside heading_rad, cost_m and region");
+    throw InputError(where, "has arrays other than heading_rad, cost_m and region");
   }
 
   const std::size_t heading = tensor_at(file, "heading_rad", "F32", where);

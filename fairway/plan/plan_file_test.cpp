@@ -89,8 +89,8 @@ TEST(PlanFile, EdgesOfTheValueRangesPass) {
   EXPECT_TRUE(same_bits(read_bytes(bytes_of(plan)).heading_rad, plan.heading_rad));
 }
 
-// A file taken apart: the header's JSON, the metadata's JSON, the arrays; joined again without any
-// of the writer's care, so that every kind of damage can be made.
+// A file taken apart: the header's JSON, the metadata's JSON, the arrays; reassembled without any
+// of the writer's checks, so that every kind of damage can be made.
 struct Parts {
   json header;
   json record;
@@ -111,7 +111,7 @@ struct Parts {
         const auto end = header[name]["data_offsets"][1].get<std::size_t>();
         const std::string data = arrays.substr(begin, end - begin);
         record["sha256"][name] = sha256_hex(std::as_bytes(std::span(data.data(), data.size())));
-      } catch (const std::exception&) {  // offsets that are damaged on purpose
+      } catch (const std::exception&) {  // offsets damaged on purpose
       }
     }
     if (header.contains("__metadata__") && header["__metadata__"].contains("fairway")) {
@@ -185,12 +185,12 @@ TEST(PlanFile, EveryFieldThatIsWrongIsRefusedByName) {
       {"\"cost_m\".data_offsets", header("cost_m", "data_offsets", {160, 80})},
       {"\"cost_m\".data_offsets", header("cost_m", "data_offsets", {80})},
       {"\"cost_m\".data_offsets", header("cost_m", "data_offsets", {80, 1e30})},
-      {"without holes", header("cost_m", "data_offsets", {84, 164})},
-      {"without holes", header("cost_m", "data_offsets", {0, 80})},
+      {"must be contiguous", header("cost_m", "data_offsets", {84, 164})},
+      {"must be contiguous", header("cost_m", "data_offsets", {0, 80})},
       {"unknown key", header("cost_m", "stride", 4)},
       {"lacks the array \"region\"",
        [](Parts& p) { p.header.erase("region"), p.arrays.resize(160); }},
-      {"arrays beside",
+      {"arrays other than",
        [](Parts& p) {
          p.header["x"] = {{"dtype", "I8"}, {"shape", {0}}, {"data_offsets", {0, 0}}};
        }},
@@ -245,7 +245,7 @@ TEST(PlanFile, EveryFieldThatIsWrongIsRefusedByName) {
   }
 }
 
-TEST(PlanFile, DigestsThatDoNotFitAreRefused) {
+TEST(PlanFile, DigestMismatchesAreRefused) {
   const std::string good = bytes_of(random_plan(5, 4, 2));
   for (const char* name : {"heading_rad", "cost_m", "region"}) {
     Parts parts(good);

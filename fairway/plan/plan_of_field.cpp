@@ -6,7 +6,7 @@
 namespace fairway {
 
 Plan plan_of_field(Field&& field, const Vehicle& vehicle, PlanRecord record) {
-  // Nearer to 0 than a plan may say, a command is put on its axis.
+  // A command closer to 0 than a plan allows is put on its axis.
   for (float& heading_rad : field.heading_rad) {
     if (heading_rad != 0.0F && std::abs(heading_rad) < 0x1p-52F) heading_rad = 0.0F;
   }

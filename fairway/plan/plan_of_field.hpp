@@ -6,7 +6,7 @@
 
 namespace fairway {
 
-/// The field becomes a plan; its arrays move. Commands nearer to 0 than a plan may have become 0.
+/// The field becomes a plan; its arrays move. Commands closer to 0 than a plan allows become 0.
 [[nodiscard]] Plan plan_of_field(Field&& field, const Vehicle& vehicle, PlanRecord record = {});
 
 }  // namespace fairway

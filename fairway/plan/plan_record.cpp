@@ -30,14 +30,14 @@ std::vector<InputFile> inputs_of(const json& value, const std::string& where) {
 }  // namespace
 
 json json_of(const PlanRecord& record) {
-  json value = object_of(record.more_json, "more_json is one JSON object");
+  json value = object_of(record.more_json, "more_json is a JSON object");
   for (const char* key : {"program", "mission", "options", "inputs", "frame"}) {
     require(!value.contains(key), "more_json leaves out what the record holds");
   }
   if (record.program) value["program"] = *record.program;
   if (record.mission) value["mission"] = json_of(*record.mission);
   if (!record.options_json.empty()) {
-    value["options"] = object_of(record.options_json, "options_json is one JSON object");
+    value["options"] = object_of(record.options_json, "options_json is a JSON object");
   }
   if (record.inputs) {
     json& inputs = value["inputs"] = json::array();
@@ -58,7 +58,7 @@ PlanRecord plan_record_of(json value, const std::string& where) {
     value.erase(found);
   };
   take("program", [&](const json& found, const std::string& place) {
-    if (!found.is_string()) throw InputError(place, "expected a text, found " + shown(found));
+    if (!found.is_string()) throw InputError(place, "expected a string, found " + shown(found));
     record.program = found.get<std::string>();
   });
   take("mission", [&](const json& found, const std::string& place) {

@@ -1,7 +1,7 @@
-// How a plan came about: what its file says beside the arrays (docs/formats.md).
+// How a plan was made: everything in its file except the arrays (docs/formats.md).
 //
-// A plan that Fairway made has every member. One of other origin may lack any of them, and may
-// have members that Fairway does not know: they are kept, so that a file is written as it was read.
+// A plan made by Fairway has every member. Other plans may lack any of them, and may have members
+// unknown to Fairway: these are kept, so that a file is written as it was read.
 #pragma once
 
 #include <optional>
@@ -23,10 +23,10 @@ struct PlanRecord {
   std::string more_json;     ///< members of other programs, one JSON object; empty: none
 };
 
-/// The record as one JSON object, as the plan's file holds it, with sorted keys.
+/// The record as one JSON object with sorted keys, as in the plan's file.
 [[nodiscard]] std::string json_text(const PlanRecord& record);
 
-/// The grid's frame; that of no other place than the grid's own when the record has none.
+/// The grid's frame; the default frame, the grid's own, when the record has none.
 [[nodiscard]] inline Frame frame_in(const PlanRecord& record) {
   return record.frame.value_or(Frame{});
 }

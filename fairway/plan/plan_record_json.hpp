@@ -12,7 +12,7 @@ namespace fairway {
 
 [[nodiscard]] nlohmann::json json_of(const PlanRecord& record);
 
-/// Throws InputError{where, ...} when a member that Fairway knows is damaged. `value` is an object.
+/// Throws InputError{where, ...} when a member known to Fairway is damaged. `value` is an object.
 [[nodiscard]] PlanRecord plan_record_of(nlohmann::json value, const std::string& where);
 
 }  // namespace fairway

@@ -266,15 +266,15 @@ TEST(Scenario, AnotherKindOfFileIsToldByName) {
   EXPECT_EQ(error("a.plan", "{\"fileType\": \"Plan\"}"),
             "a.plan: is a QGroundControl plan: name it in a scenario, as map.file");
   EXPECT_EQ(error("p.safetensors", safetensors_header({{{"fairway", "{\"cell_m\":1}"}}, {}})),
-            "p.safetensors: is a plan, expected a scenario: `fairway simulate` flies it");
+            "p.safetensors: is a plan, expected a scenario: use it with `fairway simulate`");
   EXPECT_NE(error("s.toml", "[map\n").find("s.toml:1: is not TOML"), std::string::npos);
   const std::filesystem::path scenario = folder.write("s.toml", whole);
   EXPECT_EQ(input_error_of([&] { (void)read_plan(scenario); }),
-            "s.toml: is a scenario: `fairway plan` makes a plan of it");
+            "s.toml: is a scenario: `fairway plan` makes a plan from it");
   EXPECT_EQ(input_error_of([&] { (void)read_certificate(scenario); }),
-            "s.toml: is a scenario: `fairway plan` makes a plan of it");
+            "s.toml: is a scenario: `fairway plan` makes a plan from it");
   EXPECT_EQ(input_error_of([&] { (void)product_kind(scenario); }),
-            "s.toml: is a scenario: `fairway plan` makes a plan of it");
+            "s.toml: is a scenario: `fairway plan` makes a plan from it");
   EXPECT_EQ(input_error_of([&] { (void)read_certificate(folder.file("p.safetensors")); }),
             "p.safetensors: is a plan: `fairway verify` makes its certificate");
 }

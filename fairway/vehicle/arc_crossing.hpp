@@ -10,11 +10,11 @@
 
 namespace fairway::cell_enclosure {
 
-/// An event on an arc: the heading there tells its order. For one that is `possible` also where
-/// the side is left.
+/// An event on an arc: its heading there gives the order of events. For a `possible` one, also
+/// where the side is left.
 struct ArcEvent {
   IntervalVec2 heading;
-  bool possible = false;  ///< some state may meet it as its first
+  bool possible = false;  ///< it may be the first for some state
   bool certain = false;   ///< every state meets it or another before turning 90 degrees
   Side side = Side::right;
   bool low_corner = false;
@@ -33,7 +33,7 @@ struct Turn {
   IntervalVec2 centre_m;
 };
 
-/// Outward and tangential part of the headings with which a side is crossed.
+/// Outward and tangential parts of the headings with which a side is crossed.
 struct ExitHeading {
   Interval across;
   Interval along;
@@ -42,7 +42,7 @@ struct ExitHeading {
   IntervalVec2 of(Side side) const {
     return from_parts(is_far(side) ? across : -across, along, side);
   }
-  /// Keeps what lies on the unit circle: each part bounds the other.
+  /// Keeps what lies on the unit circle: each part limits the other.
   void to_circle() {
     if (empty()) return;
     across = intersection(across, sqrt(Interval(1.0) - square(along)));
@@ -54,8 +54,8 @@ struct ExitHeading {
 };
 
 /// Keeps the headings from the entry's to the command's. Along an arc of less than 90 degrees a
-/// component runs from one end's value to the other's, unless the arc passes that axis; it does not
-/// when the other component has one sign at both ends.
+/// component goes from its value at one end to that at the other, unless the arc passes that axis,
+/// which it does not when the other component has the same sign at both ends.
 inline void cut_at_command(const Turn& turn, Side side, ExitHeading& exit) {
   const IntervalVec2& u = turn.entry.heading;
   const IntervalVec2& c = turn.order.heading;
@@ -86,7 +86,7 @@ inline void crossing(const Turn& turn, Side side, ArcEvent& event) {
   exit.across = sqrt(Interval(1.0) - square(exit.along));
   Interval offset = (-k * r * outwards) * exit.across;
   Interval place = along(turn.centre_m, side) + offset;
-  // Off the side: whoever gets there has left through another side before.
+  // Off the side: a state that gets there has already left through another side.
   if (place.hi < 0.0 || place.lo > d) return;
   event.heading = exit.of(side);
   const Interval turned = with_sign(turn.sign, cross(turn.entry.heading, event.heading));
@@ -105,14 +105,14 @@ inline void crossing(const Turn& turn, Side side, ArcEvent& event) {
   event.low_corner = place.lo <= corner_reach_m(d);
   event.high_corner = place.hi >= d - corner_reach_m(d);
   if (event.low_corner || event.high_corner) {
-    // What passes between the corners tells the headings that do ...
+    // What passes between the corners determines the headings that do ...
     exit.across = intersection(
         exit.across, (event.along_m - along(turn.centre_m, side)) / Interval(-k * r * outwards));
     exit.to_circle();
     if (exit.empty()) return;
     offset = (-k * r * outwards) * exit.across;
   }
-  // ... and the centres: along the side at once, across it through the heading.
+  // ... and the centres: along the side directly, across it through the heading.
   const Interval centre_along = intersection(along(turn.centre_m, side), event.along_m - offset);
   const Interval centre_across =
       intersection(across(turn.centre_m, side), line - (k * r) * exit.along);

@@ -1,5 +1,5 @@
 // What to steer at a state: the command of its cell, and the bang-bang turn towards it (paper 1,
-// Eq. 8 in the buffer; the law that is proved). No heap, no exceptions.
+// Eq. 8 in the buffer; the law under proof). No heap, no exceptions.
 #pragma once
 
 #include <cmath>
@@ -17,12 +17,12 @@ struct HeadingCommand {
 };
 
 /// `heading_rad`: [ny, nx], the plan's. No command outside the grid, nor for a state that is not
-/// finite. Exactly opposite headings turn to either side, as rounding has it (docs/model.md).
+/// finite. Exactly opposite headings turn to either side, depending on rounding (docs/model.md).
 inline HeadingCommand bang_bang(const Grid& grid, const Vehicle& vehicle, const float* heading_rad,
                                 double x_m, double y_m, double h_rad) noexcept {
   HeadingCommand answer;
   if (!std::isfinite(x_m) || !std::isfinite(y_m) || !std::isfinite(h_rad)) return answer;
-  // What lies far outside would not fit into the index of a cell.
+  // Positions far outside would overflow the index of a cell.
   const double far_m = 0x1p30 * grid.cell_m;
   if (!(std::abs(x_m - grid.x0_m) < far_m && std::abs(y_m - grid.y0_m) < far_m)) return answer;
   const Cell cell = grid.cell_of({x_m, y_m});

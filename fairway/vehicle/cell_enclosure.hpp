@@ -1,5 +1,5 @@
 // Where a set of states can leave a cell, and how: an enclosure of the exact motion (docs/model.md)
-// in intervals. Of all that the proof rests on, this alone knows how the vehicle moves inside a
+// in intervals. In the code behind the proof, only this file knows how the vehicle moves inside a
 // cell (ARCHITECTURE.md, "What knows the motion"); what builds on it knows only "these states
 // enter, these may leave".
 //
@@ -10,17 +10,17 @@
 // the motion crosses the side's line outwards, and there, by (a),
 //     right, left:  u_y =  k (line - C_x) / r,  u_x = +-sqrt(1 - u_y^2),  y = C_y - k r u_x, (b)
 //     top, bottom:  u_x = -k (line - C_y) / r,  u_y = +-sqrt(1 - u_x^2),  x = C_x + k r u_y. (c)
-// A state inside a convex cell leaves it by the first of these four, unless it aligns before; and
+// A state inside a convex cell leaves it by the first of these four, unless it aligns first; and
 // in one cell it turns by less than 90 degrees (its chord is at most sqrt(2) cell_m < sqrt(2) r),
-// so that the order of two events is the sign of the cross product of their headings.
+// so the order of two events is the sign of the cross product of their headings.
 //
-// Properties that always hold, when cell_m < turn_radius_m and no `too_wide`:
+// Properties that always hold, when cell_m < turn_radius_m and not `too_wide`:
 //   1. Every state of the entry leaves as one of the departures says, or never leaves; it always
 //      leaves when there is a command or a heading to go straight on.
 //   2. At the exactly opposite heading both turns are followed; a touch of a side is a departure;
 //      a set that straddles a corner departs through both sides, each part cut at the corner.
-//   3. length_m bounds what any state flies inside the cell.
-// No include but the standard's and the project's own toolboxes, no heap, no exception. Lemmas 2
+//   3. length_m bounds the distance that any state flies inside the cell.
+// Includes only standard headers and the project's own toolboxes; no heap, no exceptions. Lemmas 2
 // and 3 of docs/trust.md are about this file and the two it builds on, cell_sets.hpp and
 // arc_crossing.hpp.
 #pragma once
@@ -39,7 +39,7 @@ namespace fairway {
 namespace cell_enclosure {
 
 /// Straight on from `from` (a part of the closed cell) along `model.heading` to every side that may
-/// be met first; each departure is `model` but for where it leaves.
+/// be met first; each departure is `model` except for where it leaves.
 inline void leave_straight(const IntervalVec2& from, const CellDeparture& model,
                            const CellShape& shape, CellDepartures& departures) {
   const double d = shape.cell_m;
@@ -56,7 +56,7 @@ inline void leave_straight(const IntervalVec2& from, const CellDeparture& model,
     if (speed.positive()) {
       place = start + gap * (pace / speed);
       leave.length_m = above(std::min((gap / speed).hi, 1.5 * d));
-    } else {  // perhaps along the side: far along it, unless already on it
+    } else {  // possibly along the side: far along it, unless already on it
       leave.grazes = true;
       if (speed.hi == 0.0 && gap.lo > 0.0) continue;
       const double least = gap.lo <= 0.0 ? 0.0 : gap.lo / speed.hi * 0.5;  // |pace| > 1 / 2
@@ -73,7 +73,7 @@ inline void leave_straight(const IntervalVec2& from, const CellDeparture& model,
     }
     leave.along_m = intersection(place, {0.0, d});
     if (leave.along_m.empty()) continue;
-    // What runs along the side on it ends at the corner where the side ahead is left, too.
+    // A state running along the side, on it, ends at the corner, where the side ahead is left, too.
     const bool on_side = speed.lo == 0.0 && speed.hi == 0.0;
     leave.low_corner = !on_side && place.lo <= corner_reach_m(d);
     leave.high_corner = !on_side && place.hi >= d - corner_reach_m(d);
@@ -90,7 +90,7 @@ inline bool keeps_quadrant(const IntervalVec2& u, const IntervalVec2& c) {
   return one_sign(u.x, c.x) && one_sign(u.y, c.y);
 }
 
-/// Where the turn ends that reaches the command: (a).
+/// Where the turn that reaches the command ends: (a).
 inline IntervalVec2 aligned_at(const Turn& turn) {
   const IntervalVec2& c = turn.order.heading;
   const double kr = turn.sign * turn.shape.turn_radius_m;
@@ -118,7 +118,7 @@ inline void leave_aligned(const Turn& turn, const IntervalVec2& at, CellDepartur
 inline void leave_turning(const Turn& turn, CellDepartures& departures) {
   const double r = turn.shape.turn_radius_m;
   if (turn.must_align && keeps_quadrant(turn.entry.heading, turn.order.heading)) {
-    // x and y run one way along the arc: it stays inside when its end does.
+    // x and y are monotone along the arc: it stays inside when its end does.
     const IntervalVec2 at = aligned_at(turn);
     if (is_inside(at, turn.shape.cell_m)) {
       leave_aligned(turn, at, departures);
@@ -133,9 +133,9 @@ inline void leave_turning(const Turn& turn, CellDepartures& departures) {
     align.possible = true;
   }
   for (const Side side : {Side::right, Side::top, Side::left, Side::bottom}) {
-    // Every heading on an arc of at most 90 degrees is a sum of its ends with weights >= 0, the
-    // last's > 0 but at the start: it points out of a side nowhere when the first end does not
-    // and the last points in. (A touch at the very start is for those who brought the state.)
+    // Every heading on an arc of at most 90 degrees is a sum of its ends with weights >= 0, that
+    // of the last > 0 except at the start: it never points out of a side when the first end does
+    // not and the last points in. (A touch at the very start is the business of the caller.)
     const double k = turn.sign;
     const Interval first = outward_part(turn.entry.heading, side);
     const Interval last = turn.must_align ? outward_part(turn.order.heading, side)

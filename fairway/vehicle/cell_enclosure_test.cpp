@@ -18,7 +18,7 @@ namespace {
 using Vec = WideVec<Wide>;
 constexpr double pi = std::numbers::pi;
 
-/// But for the oracle's own rounding.
+/// Except for the oracle's own rounding.
 bool holds(const Interval& x, const Wide& exact) {
   const Wide own(1e-30);
   return Wide(x.lo) - own <= exact && exact <= Wide(x.hi) + own;
@@ -42,13 +42,13 @@ IntervalVec2 headings_between(double low_rad, double high_rad) {
   return all;
 }
 
-/// A set of states as they may enter a cell, with how to draw one of them.
+/// A set of states as they may enter a cell, with a way to draw one of them.
 struct Draw {
   CellShape size;
   double command_rad = 0.0;
   bool has_command = true;
   bool already_there = false;
-  int turn = 0;  // the states are given by their centres when it is known
+  int turn = 0;  // when known, the states are given by their centres
   Interval x, y;
   double low_rad = 0.0, high_rad = 0.0;
 
@@ -139,7 +139,7 @@ Draw draw(Random& random) {
   double x = place(random, 1.0);
   double y = place(random, 1.0);
   if (random.below(3) == 0) {
-    // Through a corner: from it backwards along an arc of its radius.
+    // Through a corner: backwards from it along an arc of the turning radius.
     const double k = random.below(2) == 0 ? 1.0 : -1.0;
     const double turned = random.uniform(0.0, 0.9);
     const double r = d.size.turn_radius_m;
@@ -193,7 +193,7 @@ bool tells(const CellDeparture& told, const WideExit<Wide>& exit, bool has_comma
   return exit.length <= static_cast<long double>(told.length_m) * (1 + 1e-16L) + 1e-24L;
 }
 
-/// An exit through a corner may be told as one through the other side that ends there.
+/// An exit through a corner may be reported as one through the other side that ends there.
 bool tells_corner(const CellDeparture& told, const WideExit<Wide>& exit, double d) {
   const Wide near(1e-24);
   const auto at = [&](const Wide& q, double end) { return abs(Wide(q - end)) < near; };
@@ -209,7 +209,7 @@ std::string text_of(const CellDepartures& told) {
   std::ostringstream out;
   out.precision(17);
   for (const CellDeparture& d : told) {
-    out << "\n  told: side " << static_cast<int>(d.side) << " along [" << d.along_m.lo << ", "
+    out << "\n  reported: side " << static_cast<int>(d.side) << " along [" << d.along_m.lo << ", "
         << d.along_m.hi << "] heading [" << d.heading.x.lo << ", " << d.heading.x.hi << "] ["
         << d.heading.y.lo << ", " << d.heading.y.hi << "] turn " << d.turn << " aligned "
         << d.aligned << " length " << d.length_m << (d.low_corner ? " low" : "")
@@ -224,7 +224,7 @@ struct Count {
   int too_wide = 0;
 };
 
-/// Every drawn state leaves as told.
+/// Every drawn state leaves as reported.
 void expect_told(Random& random, const Draw& d, Count& count) {
   const CellDepartures told = enclose_departures(d.entry(), d.order(), d.size);
   ++count.sets;
@@ -288,7 +288,7 @@ TEST(CellEnclosure, HoldsEveryExactMotionOfStatesDrawnFromTheEntry) {
   EXPECT_LT(count.too_wide, count.sets / 5);
 }
 
-TEST(CellEnclosure, TellsOfOneStateNoMoreThanItDoes) {
+TEST(CellEnclosure, ReportsForOneStateOnlyWhatItDoes) {
   Random random(2);
   int several = 0;
   constexpr int draws = 2000;
@@ -322,7 +322,7 @@ TEST(CellEnclosure, BoundsTheAngleBetweenAnyTwoHeadings) {
       ASSERT_LE(bound, turned * 1.03 + 1e-7) << a << " " << turned;
     }
   }
-  // Sets so wide that opposite headings are in them: a bound, and a number.
+  // Sets so wide that they contain opposite headings: still a bound, and a number.
   const IntervalVec2 any{{-1.0, 1.0}, {-1.0, 1.0}};
   EXPECT_GE(cell_enclosure::angle_bound(any, any), pi);
   EXPECT_GE(cell_enclosure::angle_bound(unit_enclosure(0.0), unit_enclosure(pi)), pi);
@@ -345,7 +345,7 @@ TEST(CellEnclosure, FollowsBothTurnsFromTheOppositeHeading) {
   }
 }
 
-TEST(CellEnclosure, TellsOfTheTouchOfASide) {
+TEST(CellEnclosure, ReportsTheTouchOfASide) {
   for (const double radius : {1.25, 2.0, 8.0}) {
     // Rises, turning right, to heading 0 exactly at the top, and on down.
     Draw d;

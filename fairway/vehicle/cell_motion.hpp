@@ -1,23 +1,24 @@
 // The exact motion of the vehicle through one cell under the bang-bang law (docs/model.md; paper 2,
 // section "motion inside a cell"): at most one arc, then a straight line.
 //
-// Coordinates are the cell's own, (0, 0) at its lower left corner, so that rounding stays that of
-// numbers as small as the cell. A heading is kept as an angle and as a unit vector: geometry uses
-// the vector and square roots, only lengths use angles (chord_angle.hpp, at most once a crossing).
+// Coordinates are the cell's own, (0, 0) at its lower left corner, so that numbers, and rounding
+// errors, stay as small as the cell. A heading is kept as an angle and as a unit vector: geometry
+// uses the vector and square roots, only lengths use angles (chord_angle.hpp, at most once a
+// crossing).
 //
 // Properties that always hold, for a state in the closed cell and cell_m < turn_radius_m:
 //   1. The exit lies on the closed border: the coordinate across its side is exactly 0 or cell_m,
 //      the other one in [0, cell_m].
 //   2. In one cell the vehicle turns by less than 90 degrees: the cell is convex, so the chord of
 //      an arc inside is at most sqrt(2) cell_m < sqrt(2) r, and a chord is 2 r sin(angle / 2).
-//   3. After aligning, the heading is the command, the same bits.
+//   3. After aligning, the heading is the command, bit for bit.
 //   4. A heading along a border keeps its zero component exactly; 0 stays 0.
 //   5. A touch (the arc's extreme point on the border) is an exit whose heading runs along it.
-//   6. Mirroring or turning the cell by 90 degrees changes the answer by rounding only.
+//   6. Mirroring or rotating the cell by 90 degrees changes the result only by rounding.
 // Error (observed over random draws against long double, see the test): the exit point lies within
 // 2e-14 turn radii of where the exact motion is after length_m(). Where an exit grazes its side,
-// the length itself is only as certain as the square root of rounding.
-// `&` and `|` join conditions that are cheap and that no branch predictor foresees: one jump then,
+// the length itself is only accurate to the square root of the rounding error.
+// `&` and `|` join conditions that are cheap and unpredictable for the branch predictor: one jump,
 // where `&&` and `||` would have several.
 #pragma once
 
@@ -35,7 +36,7 @@
 
 namespace fairway {
 
-/// A direction twice: unit vector and angle in (-pi, pi].
+/// A direction in two forms: unit vector and angle in (-pi, pi].
 struct Direction {
   Vec2 unit{1.0, 0.0};
   double rad = 0.0;
@@ -61,7 +62,7 @@ struct CellState {
 };
 
 struct CellExit {
-  CellState state;  ///< on the border that is left, in the coordinates of the cell that is left
+  CellState state;  ///< on the border crossed, in the coordinates of the cell that is left
   Vec2 arc_end_m;   ///< where the arc ends (the start when there is none)
   double arc_m = 0.0;
   double straight_m = 0.0;
@@ -102,13 +103,13 @@ inline double angle_between(double a_rad, double b_rad) {
 namespace cell_motion {
 
 /// From the start to the end of an arc of radius r that turns from u to c: r tan(angle / 2) along
-/// u + c. The difference left(u) - left(c) would lose the part across a short arc to rounding.
+/// u + c. In the difference left(u) - left(c), rounding would swamp the part across a short arc.
 inline Vec2 arc_move(Vec2 u, Vec2 c, double r) {
   return (r * std::abs(cross(u, c)) / (1.0 + dot(u, c))) * (u + c);
 }
 
-/// `p` with its coordinate across `side` put exactly on that side. Rounding may have carried the
-/// other one past a corner by an ulp of cell_m: there the exit is that corner.
+/// `p` with its coordinate across `side` set exactly to that side. Rounding may have carried the
+/// other one past a corner by an ulp of cell_m: then the exit is that corner.
 inline Vec2 on_side(Vec2 p, Side side, double cell_m) {
   const bool vertical = side == Side::right || side == Side::left;
   const double at = side == Side::right || side == Side::top ? cell_m : 0.0;
@@ -117,7 +118,7 @@ inline Vec2 on_side(Vec2 p, Side side, double cell_m) {
 }
 
 /// Straight from p along u to the first border. Compares gap_x / |u_x| with gap_y / |u_y| by
-/// cross-multiplying: no division by zero, and one division in all.
+/// cross-multiplying: no division by zero, and only one division.
 inline void exit_straight(Vec2 p, Vec2 u, double cell_m, CellExit& exit) {
   const double gap_x = u.x > 0.0 ? cell_m - p.x : p.x;
   const double gap_y = u.y > 0.0 ? cell_m - p.y : p.y;
@@ -133,8 +134,8 @@ inline void exit_straight(Vec2 p, Vec2 u, double cell_m, CellExit& exit) {
   exit.state.position_m = on_side(p + exit.straight_m * u, exit.side, cell_m);
 }
 
-/// The symmetry of the square that makes every turn a left turn from a heading in [0, 90) degrees:
-/// axes `ahead` and `above` with u between them, `above` being where the heading turns to.
+/// The symmetry of the square that maps every turn to a left turn from a heading in [0, 90)
+/// degrees: axes `ahead` and `above` with u between them, where the heading turns towards `above`.
 struct Canonical {
   int ahead_side;
   int turn;
@@ -142,7 +143,7 @@ struct Canonical {
   Vec2 above;
 
   Canonical(Vec2 u, int turn_) : turn(turn_) {
-    // Signs of u.x and u.y pick the axis that u lies on or has just passed.
+    // The signs of u.x and u.y select the axis that u lies on or has just passed.
     static constexpr std::array<std::array<std::int8_t, 9>, 2> sides{{
         // y:  -      0       +      (x -, 0, + in each)
         {2, 3, 3, 2, 0, 0, 1, 1, 0},  // turning left
@@ -151,7 +152,7 @@ struct Canonical {
     const int column = (u.x > 0.0) - (u.x < 0.0) + 1;
     const int row = (u.y > 0.0) - (u.y < 0.0) + 1;
     ahead_side = sides[turn > 0 ? 0 : 1][static_cast<std::size_t>(3 * row + column)];
-    // Of whole quarter turns, exactly; a sine is minus the cosine one quarter turn on.
+    // Exact, for whole quarter turns; a sine is minus the cosine one quarter turn on.
     static constexpr std::array<double, 5> cosines{1.0, 0.0, -1.0, 0.0, 1.0};
     const auto k = static_cast<std::size_t>(ahead_side);
     ahead = {cosines[k], -cosines[k + 1]};
@@ -159,7 +160,7 @@ struct Canonical {
   }
   Vec2 into(Vec2 v) const { return {dot(v, ahead), dot(v, above)}; }
   Vec2 out_of(Vec2 v) const { return v.x * ahead + v.y * above; }
-  /// The world's side that is side `s` (0 ahead, 1 above, 2 behind) here.
+  /// The side in the world that is side `s` (0 ahead, 1 above, 2 behind) here.
   Side side(int s) const { return static_cast<Side>((ahead_side + s * turn) & 3); }
 };
 
@@ -175,14 +176,14 @@ inline double square_at_right(Vec2 u, double k) { return u.x * u.x - k * (2.0 * 
 /// The first exit of a left arc of radius r with unit heading u, u.x > 0, u.y >= 0, from a point
 /// with gaps `ahead` (right side), `above` (top) and `behind` (left side).
 ///
-/// On the arc the heading w and the displacement m are tied by w - u = left(m) / r:
+/// On the arc the heading w and the displacement m satisfy w - u = left(m) / r:
 ///   w.x = u.x - m.y / r,   w.y = u.y + m.x / r,
 /// and m is along u + w (the chord halves the angle). So a side fixes one component of m, hence one
-/// of w; the other is a square root, written without 1 - w^2, which would lose it when it is small:
+/// of w; the other is a square root, written without 1 - w^2, which is inaccurate when small:
 ///   w.y^2 = u.y^2 + g (2 u.x - g)  with g = m.y / r;   w.x^2 = u.x^2 - g (2 u.y + g), g = m.x / r.
-/// Turning less than 90 degrees (property 2) the heading stays in [0, 180): y grows all the way
-/// (so never the bottom), x grows up to heading 90 degrees and falls after it. Hence the order of
-/// the tests: top before 90 degrees, right, top after it, left.
+/// Turning less than 90 degrees (property 2), the heading stays in [0, 180): y always grows (so
+/// the exit is never the bottom), x grows up to heading 90 degrees and falls after it. Hence the
+/// order of the tests: top before 90 degrees, right, top after it, left.
 inline ArcExit first_arc_exit(Vec2 u, const CellShape& shape, double ahead, double above,
                               double behind) {
   const double g = above * shape.per_radius;
@@ -201,7 +202,7 @@ inline ArcExit first_arc_exit(Vec2 u, const CellShape& shape, double ahead, doub
   return {2, {-behind, std::min(above, shape.turn_radius_m * (u.x - v.x))}, v};
 }
 
-/// A turn that leaves the heading's quadrant, or the cell before it is done.
+/// A turn that leaves the heading's quadrant, or leaves the cell before it ends.
 inline void exit_turning(const CellState& s, const Direction& command, const CellShape& shape,
                          CellExit& exit) {
   const double d = shape.cell_m;

@@ -30,7 +30,7 @@ std::ostream& operator<<(std::ostream& out, const Draw& d) {
 
 Direction direction(double rad) { return Direction::of(Heading::from_rad(rad)); }
 
-/// The bang-bang motion in long double from angles alone: nothing of the kernel's geometry.
+/// The bang-bang motion in long double from angles alone, without the kernel's geometry.
 struct Truth {
   Wide x0, y0, h, r, turn, angle;
 
@@ -61,7 +61,7 @@ struct Truth {
     const Wide rest = turn == 0 ? length : length - r * a;
     return {x + rest * std::cos(w), y + rest * std::sin(w)};
   }
-  /// Lengths at which the arc heads along an axis: where x or y is extreme.
+  /// Lengths at which the arc heads along an axis, where x or y is extreme.
   std::vector<Wide> extremes(Wide until) const {
     std::vector<Wide> lengths;
     for (int k = -8; turn != 0 && k <= 8; ++k) {
@@ -72,8 +72,8 @@ struct Truth {
   }
 };
 
-/// What makes an exit right: it lies on the border, on the motion, the motion was inside before,
-/// and heads outwards (or touches) there.
+/// What makes an exit correct: it lies on the border and on the motion, which was inside before and
+/// heads outwards (or touches) there.
 void expect_exit(const Draw& draw) {
   SCOPED_TRACE(::testing::PrintToString(draw));
   const double d = draw.shape.cell_m;
@@ -113,7 +113,7 @@ void expect_exit(const Draw& draw) {
   ASSERT_GE(outwards, 0.0);
 }
 
-/// A number in [0, d] with ends, middles and near misses on purpose.
+/// A number in [0, d], with ends, midpoints and near misses on purpose.
 double coordinate(Random& random, double d) {
   switch (random.below(12)) {
     case 0:
@@ -199,7 +199,7 @@ TEST(CellMotion, ExitsWhereTheExactMotionDoes) {
   }
 }
 
-/// By every symmetry of the square: `map` must be exact in floating point on vectors.
+/// Under every symmetry of the square: `map` must be exact in floating point on vectors.
 struct Symmetry {
   double angle;  // added
   bool mirror;   // y to -y, first
@@ -243,7 +243,7 @@ TEST(CellMotion, TurnsAndMirrorsWithItsCell) {
                              symmetry.direction(draw.state.heading)};
       const CellExit other = cross_cell(turned, symmetry.direction(draw.command), draw.shape);
       const Vec2 off = other.state.position_m - symmetry.point(exit.state.position_m, d);
-      // The square root of rounding where the exit grazes the border, rounding elsewhere.
+      // The square root of the rounding error where the exit grazes the border, else that error.
       const double grazing =
           std::min(std::abs(exit.state.heading.unit.x), std::abs(exit.state.heading.unit.y));
       const double tolerance = 1e-14 * draw.shape.turn_radius_m / std::max(grazing, 1e-7);
@@ -285,8 +285,8 @@ TEST(CellMotion, ReturnsThroughTheSideItCameInByWithTheMirroredHeading) {
 }
 
 TEST(CellMotion, ReportsATouchOfCircleAndSideOrPassesIt) {
-  // Circles whose extreme point lies on the right side but for rounding: some touch exactly, some
-  // cross, some miss. Whatever they do, the point is the extreme one, or a later exit.
+  // Circles whose extreme point lies on the right side up to rounding: some touch exactly, some
+  // cross, some miss. In each case, the point is the extreme one, or a later exit.
   Random random(13);
   int touches = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -318,7 +318,7 @@ TEST(CellMotion, KnowsACorner) {
 TEST(ChordAngle, IsTwiceTheArcSineOverTheWholeHalfTurn) {
   Random random(17);
   for (int i = 0; i < 200'000; ++i) {
-    // Small and large alike, and about s = 1/2, where the polynomial ends.
+    // Small and large, and around s = 1/2, where the polynomial ends.
     const double wanted = i % 3 == 0   ? std::pow(10.0, random.uniform(-12.0, 0.0))
                           : i % 3 == 1 ? random.uniform(0.0, 1.0)
                                        : 0.5 + random.uniform(-1e-12, 1e-12);
@@ -328,7 +328,7 @@ TEST(ChordAngle, IsTwiceTheArcSineOverTheWholeHalfTurn) {
     const Wide s = std::hypot(static_cast<Wide>(chord.x), static_cast<Wide>(chord.y)) /
                    static_cast<Wide>(diameter);
     const Wide exact = 2 * std::asin(std::min<Wide>(1, s));
-    // What rounding of s makes of the angle, and a little.
+    // The effect of rounding s on the angle, and a little more.
     const Wide tolerance = 6e-16L * (s / std::sqrt(std::max<Wide>(1e-16L, 1 - s * s)) + exact);
     ASSERT_NEAR(chord_angle(chord, 1.0 / diameter), static_cast<double>(exact),
                 static_cast<double>(tolerance))

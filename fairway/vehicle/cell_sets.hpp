@@ -15,15 +15,15 @@ namespace fairway {
 struct CellEntry {
   IntervalVec2 position_m;
   IntervalVec2 heading;   ///< unit vectors
-  int turn = 0;           ///< +1, -1: every state is on its circle of this sign; 0: none is known
+  int turn = 0;           ///< +1, -1: every state is on its circle of this sign; 0: unknown
   IntervalVec2 centre_m;  ///< of those circles
 };
 
-/// What the cell tells its states to do.
+/// What the cell commands its states to do.
 struct CellOrder {
   IntervalVec2 heading;        ///< unit vectors, one direction
   bool has_command = true;     ///< false: straight on
-  bool already_there = false;  ///< the states' heading is the command itself, the same number
+  bool already_there = false;  ///< the states' heading is exactly the command, the same number
 };
 
 struct CellDeparture {
@@ -32,7 +32,7 @@ struct CellDeparture {
   bool low_corner = false;   ///< may pass through the corner at 0 ...
   bool high_corner = false;  ///< ... or at cell_m
   bool grazes = false;       ///< may run along the side, straight
-  bool aligned = false;      ///< the heading is the command itself
+  bool aligned = false;      ///< the heading is exactly the command
   IntervalVec2 heading;
   int turn = 0;  ///< as in CellEntry
   IntervalVec2 centre_m;
@@ -41,7 +41,7 @@ struct CellDeparture {
 
 struct CellDepartures {
   ShortList<CellDeparture, 16> of;
-  bool too_wide = false;  ///< the entry is too large to say anything
+  bool too_wide = false;  ///< the entry is too large for any conclusion
 
   const CellDeparture* begin() const { return of.begin(); }
   const CellDeparture* end() const { return of.end(); }
@@ -61,8 +61,8 @@ inline const Interval& along(const IntervalVec2& v, Side s) { return is_vertical
 inline IntervalVec2 from_parts(Interval across, Interval along, Side s) {
   return is_vertical(s) ? IntervalVec2{across, along} : IntervalVec2{along, across};
 }
-/// Places this near an end of a side count as its corner too, so that other arithmetic, whose
-/// rounding differs, sees no corner that was not reckoned with.
+/// Places this near an end of a side also count as its corner, so that other arithmetic, whose
+/// rounding differs, never hits a corner this code did not account for.
 inline double corner_reach_m(double cell_m) { return cell_m * 0x1p-34; }
 inline double line_of(Side side, double cell_m) { return is_far(side) ? cell_m : 0.0; }
 /// Outward component.
@@ -76,7 +76,7 @@ inline double angle_bound(const IntervalVec2& a, const IntervalVec2& b) {
   const double cosine = std::clamp(dot(a, b).lo, -1.0, 1.0);
   const double half_cos = below(std::sqrt(below(0.5 * below(1.0 + cosine))));
   const double half_sin = above(std::sqrt(above(0.5 * above(1.0 - cosine))));
-  if (!(half_cos >= 0.1)) return 3.2;  // perhaps not a number: the root of less than 0
+  if (!(half_cos >= 0.1)) return 3.2;  // possibly NaN, the root of a negative number
   return above(2.0 / 3.0 * above(above(2.0 * half_sin) + above(half_sin / half_cos)));
 }
 

@@ -1,4 +1,4 @@
-// The angle of an arc from its chord, where a call to asin would cost a third of crossing a cell.
+// The angle of an arc from its chord: calling asin would cost a third of a cell crossing.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline double chord_angle(Vec2 chord, double per_diameter) {
   const double s = std::sqrt(z);
   if (z > 0.25) [[unlikely]]
     return 2.0 * std::asin(std::min(1.0, s));
-  // In pairs, then pairs of pairs: twelve terms one after the other would be a long wait.
+  // In pairs, then pairs of pairs: evaluating twelve terms in sequence would have a long latency.
   const double z2 = z * z;
   const double z4 = z2 * z2;
   const double p0 = (0.1666666666666665 + 0.07500000000020764 * z) +

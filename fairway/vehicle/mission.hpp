@@ -16,8 +16,8 @@ struct GoalMission {
   friend bool operator==(const GoalMission&, const GoalMission&) = default;
 };
 
-/// Follow a polyline of at least two distinct vertices, from the first to the last; `closed` joins
-/// the last to the first again. The tolerances say when a state counts as on the path (Eq. 5).
+/// Follow a polyline of at least two distinct vertices, from the first to the last; `closed` also
+/// joins the last to the first. The tolerances say when a state counts as on the path (Eq. 5).
 struct PathMission {
   std::vector<Vec2> vertices_m;
   bool closed = false;

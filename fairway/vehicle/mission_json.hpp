@@ -1,4 +1,4 @@
-// A mission as the records of plans and pages hold it (docs/formats.md).
+// A mission in the records of plans and pages (docs/formats.md).
 // Private to the library: nlohmann/json is not part of its interface.
 #pragma once
 

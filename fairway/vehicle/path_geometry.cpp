@@ -22,7 +22,7 @@ bool edge_in_box(Vec2 a, Vec2 b, Vec2 p, double limit) {
   };
   if (!clip(a.x - p.x, b.x - a.x) || !clip(a.y - p.y, b.y - a.y) || low > high) return false;
   if (low < high) return true;
-  // One point in common with the closed box: an end of the edge inside, or a touch, which is not.
+  // One common point with the closed box: an end of the edge inside it, or a touch, not counted.
   const Vec2 q = a + low * (b - a);
   return std::abs(q.x - p.x) < limit && std::abs(q.y - p.y) < limit;
 }

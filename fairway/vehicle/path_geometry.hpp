@@ -1,5 +1,5 @@
-// The geometry of a path mission's polyline: its pieces, the point nearest to another, and whether
-// a state is on it (paper 1, Eq. 5).
+// The geometry of a path mission's polyline: its pieces, its point nearest to a given one, and
+// whether a state is on it (paper 1, Eq. 5).
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace fairway {
 
-/// A straight piece of a path; its length is not 0.
+/// A straight piece of a path, of nonzero length.
 struct PathPiece {
   Vec2 from;
   Vec2 to;
@@ -24,8 +24,8 @@ struct PathPiece {
 };
 
 /// Calls visit(PathPiece) in the order of travel, the closing piece of a closed path last; repeated
-/// vertices give none. Throws PreconditionViolation when the path has fewer than two vertices, as
-/// do the functions below.
+/// vertices give no pieces. Throws PreconditionViolation when the path has fewer than two vertices,
+/// as do the functions below.
 template <typename Visit>
 void for_pieces(const PathMission& path, const Visit& visit) {
   const std::vector<Vec2>& v = path.vertices_m;
@@ -40,7 +40,7 @@ void for_pieces(const PathMission& path, const Visit& visit) {
 /// From the first vertex to the end, the closing piece of a closed path included.
 [[nodiscard]] double length_of(const PathMission& path);
 
-/// The point of a path nearest to another point; of several the first along the path.
+/// The point of a path nearest to a given point; if several, the first along the path.
 struct PathPoint {
   Vec2 position_m;
   Heading tangent;

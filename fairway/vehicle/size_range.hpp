@@ -1,5 +1,5 @@
-// The sizes that Fairway reckons with: one range, for plans, certificates, and the vehicle's side.
-// docs/formats.md says it, and fairway-check has the same.
+// The sizes that Fairway supports: one range for plans, certificates and queries in the vehicle.
+// docs/formats.md gives it, and fairway-check has the same.
 #pragma once
 
 #include <cmath>
@@ -13,13 +13,13 @@ inline constexpr double least = 1e-15;     ///< of a cell in metres, and of the 
 inline constexpr double most = 1e15;       ///< of these, and of the origin's coordinates
 inline constexpr double most_cells = 1e9;  ///< in a turning radius, or from zero to the origin
 
-/// Of a cell's side or the speed; false for what is not a number.
+/// For a cell's side or the speed; false for NaN.
 inline bool holds(double size) { return size >= least && size <= most; }
 
 inline bool holds_radius(double turn_radius_m, double cell_m) {
   return turn_radius_m > cell_m && turn_radius_m <= most_cells * cell_m;
 }
-/// Beyond it neighbouring borders run together.
+/// Beyond it neighbouring borders coincide.
 inline bool holds_origin(double coordinate_m, double cell_m) {
   return std::abs(coordinate_m) <= most && std::abs(coordinate_m) <= most_cells * cell_m;
 }

@@ -1,4 +1,4 @@
-// A vehicle as plan files and pages hold it (docs/formats.md).
+// A vehicle in plan files and pages (docs/formats.md).
 // Private to the library: nlohmann/json is not part of its interface.
 #pragma once
 

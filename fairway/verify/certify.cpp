@@ -16,10 +16,10 @@ namespace fairway {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::size_t least_samples = 1000;  // a share of fewer says nothing
+constexpr std::size_t least_samples = 1000;  // fewer give a meaningless share
 
-/// The states that measure volumes: the same number in every cell that is neither obstacle nor
-/// target, one in each of equal slices of heading.
+/// The states that measure volumes: equally many in every cell that is neither obstacle nor target,
+/// one in each of equal slices of heading.
 std::vector<Place> sampled_states(const Flow& flow, const CertifyOptions& options) {
   std::vector<Place> states;
   std::size_t cells = 0;
@@ -44,7 +44,7 @@ std::vector<Place> sampled_states(const Flow& flow, const CertifyOptions& option
   return states;
 }
 
-/// The volumes, by looking up again the states not decided before.
+/// The volumes, by querying the states again that were not decided before.
 class VolumeMeter {
  public:
   VolumeMeter(const Flow& flow, const std::vector<bool>& is_free, const CertifyOptions& options)
@@ -79,7 +79,7 @@ class VolumeMeter {
     const std::size_t each = cells == 0 ? 0 : states_.size() / cells;
     std::size_t free_count = 0;
     std::size_t commanded_count = 0;
-    std::size_t i = 0;  // the states stand cell by cell, as they were drawn
+    std::size_t i = 0;  // the states are ordered by cell, as they were drawn
     for (std::size_t c = 0; c < flow_.grid.size(); ++c) {
       if (flow_.kind[c] != CellKind::ordinary) continue;
       for (std::size_t k = 0; k < each; ++k, ++i) {
@@ -114,8 +114,8 @@ class VolumeMeter {
   std::vector<VerdictSet> found_;
 };
 
-/// The last levels decided next to nothing, or little for many more leaves: what is left does not
-/// get easier by smaller ones.
+/// The last levels decided almost nothing, or little for many more leaves: smaller leaves do not
+/// make the rest any easier.
 bool has_stalled(const std::vector<LevelRecord>& levels, int without_gain) {
   const auto since = [&](std::size_t n, double share, double growth) {
     if (levels.size() <= n) return false;

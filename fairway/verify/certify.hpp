@@ -1,10 +1,10 @@
-// The certified method: a proved verdict for all states, by proving the section
+// The certified method: proves verdicts for all states by proving the section
 // (section_flight.hpp) and refining what is left undecided.
 //
 // Properties that always hold:
 //   1. Every verdict is proved (docs/trust.md); more work only turns undecided into proved.
-//   2. The answer depends on the plan and the options alone, not on threads; a time limit is the
-//      one exception, and the answer says that it was what stopped the work.
+//   2. The result depends only on the plan and the options, not on threads, with one exception: a
+//      time limit, and the result says that the limit stopped the work.
 #pragma once
 
 #include <array>
@@ -24,12 +24,12 @@ struct CertifyOptions {
   double time_limit_s = 0.0;           ///< 0: none
   std::size_t memory_limit_bytes = 0;  ///< 0: none
   std::size_t samples =
-      1000000;  ///< states that measure the volumes; at least 1000, and one a cell
+      1000000;  ///< sampled states to measure volumes; at least 1000, and one per cell
   std::uint64_t seed = 1;
   int most_crossings = usual_most_crossings;  ///< of borders, in one flight to the section
-  int first_level = 2;                        ///< a section begins as 2^first_level leaves
-  int stall_levels = 5;                       ///< levels without any gain after which to stop
-  int last_level = 26;                        ///< and no leaf is smaller than cell_m / 2^last_level
+  int first_level = 2;                        ///< a section starts as 2^first_level leaves
+  int stall_levels = 5;                       ///< stop after so many levels without gain
+  int last_level = 26;                        ///< no leaf is smaller than cell_m / 2^last_level
 };
 
 enum class StoppedBy : std::uint8_t {
@@ -41,13 +41,13 @@ enum class StoppedBy : std::uint8_t {
 };
 const char* name_of(StoppedBy reason);
 
-/// Shares of the configuration volume by verdict, [Verdict]; each sums to 1, or to 0 when there is
-/// no such cell. Measured by proved queries of sampled states, the same number in every cell.
+/// Shares of the configuration volume by verdict, [Verdict]; each sums to 1, or to 0 when there
+/// are no such cells. Measured by proved queries of sampled states, equally many in each cell.
 struct VolumeFractions {
-  std::array<double, verdict_count> all{};        ///< cells neither obstacle nor target
+  std::array<double, verdict_count> all{};        ///< cells that are neither obstacle nor target
   std::array<double, verdict_count> free{};       ///< of these, the safe-start cells
-  std::array<double, verdict_count> commanded{};  ///< of those, the ones that have a command
-  std::array<double, verdict_count> buffer{};     ///< and those of the buffer
+  std::array<double, verdict_count> commanded{};  ///< of those, the ones with a command
+  std::array<double, verdict_count> buffer{};     ///< and the buffer cells
   std::size_t samples = 0;
   double worst_time_s = 0.0;  ///< largest bound of a sampled state proved to reach
 };
@@ -69,8 +69,8 @@ struct Certified {
 /// Called after every level.
 using CertifyProgress = std::function<void(const LevelRecord&)>;
 
-/// `is_free[cell]`: a safe-start cell (for the fractions alone). `start`: an earlier answer for the
-/// same flow to go on from, or empty.
+/// `is_free[cell]`: a safe-start cell (only for the fractions). `start`: an earlier result for the
+/// same flow to continue from, or empty.
 Certified certify(const Flow& flow, const std::vector<bool>& is_free, const CertifyOptions& options,
                   SectionVerdicts start = {}, const CertifyProgress& progress = {});
 

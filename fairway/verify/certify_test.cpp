@@ -29,7 +29,7 @@ CertifyOptions options_to(int level) {
   return options;
 }
 
-/// A certified plan that can be asked.
+/// A certified plan that can be queried.
 struct Proof {
   const Plan& plan;
   PlanFlow plan_flow;
@@ -80,7 +80,7 @@ Plan plan_of(int nx, int ny, double cell_m, double turn_radius_m,
   return plan;
 }
 
-TEST(Certify, ProvesOfAUniformFieldWhatItsClosedFormSays) {
+TEST(Certify, ProvesForAUniformFieldWhatItsClosedFormSays) {
   // Heading 0 everywhere, a wall of targets on the right: a state turns to 0, then flies on.
   Plan plan = plan_of(24, 10, 1.0, 3.0, [](Vec2) { return 0.0; });
   for (int iy = 0; iy < 10; ++iy) plan.region[plan.grid.index({23, iy})] = Region::goal;
@@ -205,7 +205,7 @@ TEST(Certify, AgreesWithExactFlightsOverRandomPlansAndBoundsTheirTime) {
   EXPECT_GT(decided, 10000);
 }
 
-/// The plan seen in a mirror along the x axis; exact, as a float's sign is.
+/// The plan mirrored in the x axis; exact, because only signs of floats change.
 Plan mirrored(const Plan& plan) {
   Plan image = plan;
   image.grid.y0_m = -plan.grid.y0_m - plan.grid.height_m();
@@ -218,7 +218,7 @@ Plan mirrored(const Plan& plan) {
   return image;
 }
 
-/// Turned by 90 degrees about the origin; headings round to floats.
+/// Rotated by 90 degrees about the origin; headings round to floats.
 Plan turned(const Plan& plan) {
   Plan image = plan;
   image.grid.nx = plan.grid.ny;
@@ -235,7 +235,7 @@ Plan turned(const Plan& plan) {
   return image;
 }
 
-TEST(Certify, SaysOfTheMirroredPlanTheSameMirrored) {
+TEST(Certify, GivesTheMirroredVerdictsForTheMirroredPlan) {
   int decided = 0;
   int differ = 0;
   for (std::uint64_t number = 600; number < 618; ++number) {
@@ -263,10 +263,10 @@ TEST(Certify, SaysOfTheMirroredPlanTheSameMirrored) {
     }
   }
   EXPECT_GT(decided, 3500);
-  EXPECT_LT(differ, decided / 100);  // one undecided: leaves begin at the other end
+  EXPECT_LT(differ, decided / 100);  // one undecided: leaves start at the other end
 }
 
-TEST(Certify, SaysOfTheTurnedPlanTheSameTurned) {
+TEST(Certify, GivesTheRotatedVerdictsForTheRotatedPlan) {
   int decided = 0;
   int contradict = 0;
   for (std::uint64_t number = 624; number < 642; ++number) {
@@ -288,11 +288,11 @@ TEST(Certify, SaysOfTheTurnedPlanTheSameTurned) {
     }
   }
   EXPECT_GT(decided, 3500);
-  // Commands that are axes in one plan and floats beside them in the other decide a few states.
+  // Commands that are axes in one plan and neighbouring floats in the other affect a few states.
   EXPECT_LT(contradict, decided / 50);
 }
 
-TEST(Certify, RefinedOnlyDecidesMoreAndChangesNoVerdict) {
+TEST(Certify, RefiningOnlyDecidesMoreAndChangesNoVerdict) {
   for (std::uint64_t number = 700; number < 712; ++number) {
     const Plan plan = random_plan(number);
     const std::vector<Place> places = random_places(plan, 400, number);
@@ -419,7 +419,7 @@ TEST(Certify, ReachesNothingWithoutATarget) {
   }
 }
 
-TEST(Certify, SaysWhatStoppedItAndWhatItHasIsProvedAllTheSame) {
+TEST(Certify, SaysWhatStoppedItAndWhatItHasIsStillProved) {
   const Plan plan = random_plan(3);
   CertifyOptions options = options_to(20);
   options.time_limit_s = 1e-9;
@@ -432,7 +432,7 @@ TEST(Certify, SaysWhatStoppedItAndWhatItHasIsProvedAllTheSame) {
   options = options_to(20);
   options.memory_limit_bytes = 1;
   EXPECT_EQ(Proof(plan, options).certified.stopped_by, StoppedBy::memory_limit);
-  // What the hasty one left goes on to the same verdicts.
+  // What the hasty proof left undecided then gets the same verdicts.
   const Proof full(plan, 8);
   const Proof on(plan, 8, hasty.certified.sections);
   const std::vector<Place> places = random_places(plan, 500, 8);
@@ -454,7 +454,7 @@ TEST(Certify, SharesSumToOneWhereThereAreCells) {
 }
 
 TEST(Certify, CountsSafeStartsWithACommandApart) {
-  // All cells command east but those of the first column, which command nothing.
+  // All cells command east except those of the first column, which have no command.
   Plan plan = empty_plan(3, 4, 1.0, 2.0);
   for (int iy = 0; iy < 4; ++iy) plan.heading_rad[plan.grid.index({0, iy})] = NAN;
   plan.region[plan.grid.index({2, 1})] = Region::goal;

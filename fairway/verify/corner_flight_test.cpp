@@ -1,24 +1,25 @@
 // Flights through corners, and within cell_m / 2^34 of them, on purpose.
 //
-// Faults planted to see that they are caught, one at a time (section_flight.hpp,
+// Faults planted one at a time to see that they are caught (section_flight.hpp,
 // cell_enclosure.hpp), and by which test:
-//   low, high corner not told, or swapped; only by the sole side,
-//     or only by one of several; of arcs, of turned-to commands,
-//     of sides across or along, of ends at targets, left out      tells_of_every_cell_around
-//   the cell beside, or across, not told, or on the wrong side    tells_of_every_cell_around
-//   an obstacle beside not told where a target lies across        tells_of_every_cell_around
-//   onwards test reversed, one-sided, or strict at 0              tells_of_every_cell_around
-//   onwards test dropped                                          tells_nothing_of_the_cell_beside
-//   the cell across not entered, or at a wrong place              tells_of_every_cell_around
-//   turning back whatever the heading, or along the border        tells_of_every_cell_around
-//   turning back over the border in it                            follows_a_heading_along
-//   turning back not seen                                         is_not_lost_in_cells
-//   reach of the corner 0; what lies at a corner lost             tells_of_every_cell_around
-//   flags of arcs or of straight departures lost, at either end   tells_of_every_cell_around
-//   flags lost for those who turn already, or hop                 tells_of_the_corner_that_a_hop
-//   the cell beyond a border run along not followed               follows_a_heading_along
-// Change nothing told: the grid's outside told of one of two cells (the other is outside, too);
-// corners of a departure that grazes (the side ahead tells the same).
+//   low, high corner not reported, or swapped; only by the sole side, or only by one of several;
+//     of arcs, of turned-to commands, of sides across or along, of ends at targets, left out: A
+//   the cell next to it, or across, not reported, or on the wrong side: A
+//   an obstacle next to it not reported where a target lies across: A
+//   onwards test reversed, one-sided, or strict at 0: A
+//   onwards test dropped: B
+//   the cell across not entered, or at a wrong place: A
+//   turning back whatever the heading, or along the border: A
+//   turning back over the border in it: C
+//   turning back not seen: E
+//   reach of the corner 0; what lies at a corner lost: A
+//   flags of arcs or of straight departures lost, at either end: A
+//   flags lost for states that already turn, or hop: D
+//   the cell beyond a border run along not followed: C
+// A ReportsEveryCellAroundACorner..., B ReportsNothingForTheCellNextToACorner...,
+// C FollowsAHeadingAlongABorder..., D ReportsTheCornerWhereAHop..., E IsNotLostInCells...
+// These change no reports: the grid's outside reported for one of two cells (the other is outside,
+// too); corners of a departure that grazes (the side ahead reports the same).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -51,8 +52,8 @@ Verdict verdict_of(CellKind kind) {
 /// How the vehicle comes to the corner.
 enum class Way { silent, aligned, after_arc, left_arc, right_arc };
 
-/// A state that leaves its cell by `side`, `off` cells before the end of the side that lies at
-/// `towards`, as good as doubles can make it.
+/// A state that leaves its cell by `side`, `off` cells before the end of the side that is at
+/// `towards`, as accurately as doubles allow.
 struct Approach {
   Way way = Way::silent;
   Side side = Side::right;
@@ -60,7 +61,7 @@ struct Approach {
   double off = 0.0;
   double heading_rad = 0.0;  ///< there
   double back = 0.3;         ///< how far before, in cells
-  double slack = 0.0;        ///< of the components of the heading told
+  double slack = 0.0;        ///< of the components of the heading reported
 
   Cell cell{2, 2};
   Plan plan;
@@ -101,7 +102,7 @@ struct Approach {
     if (way == Way::aligned) {
       command(heading_rad);
     } else if (way == Way::after_arc) {
-      command(heading_rad);  // turned to on half the way
+      command(heading_rad);  // reached halfway
       k = back > 0.3 ? 1.0 : -1.0;
       start_m = q - (0.5 * back * d) * u;
     } else if (way == Way::left_arc || way == Way::right_arc) {
@@ -162,7 +163,7 @@ Approach draw(Random& random) {
     default:
       h = Heading::from_rad(out_rad + random.uniform(0.05, 0.95) * turn).rad();
   }
-  // As a command it is a float; the axes but 0 are not.
+  // As a command it is a float; the axes except 0 are not.
   if (a.way == Way::aligned || a.way == Way::after_arc) {
     h = static_cast<double>(Heading::stored(h));
   }
@@ -181,7 +182,7 @@ Approach draw(Random& random) {
   return a;
 }
 
-/// The exact way of the approach's state through its cell.
+/// The exact path of the approach's state through its cell.
 WideExits<Wide> exact_exits(const Approach& a) {
   const WideCell<Wide> cell(a.plan.grid.cell_m, a.plan.vehicle.turn_radius_m);
   const Vec p{Wide(a.start_m.x), Wide(a.start_m.y)};
@@ -198,7 +199,7 @@ WideExits<Wide> exact_exits(const Approach& a) {
   return cell.turning(p, u, c, WideCell<Wide>::turn_of(u, c));
 }
 
-/// Where the flight is told to end like this within the length of the corner.
+/// Whether an end of this kind is reported within the length to the corner.
 bool tells_end(const Told& told, CellKind kind, long double length_m) {
   for (const Told::End& end : told.ends) {
     if (end.verdict == verdict_of(kind) &&
@@ -210,7 +211,7 @@ bool tells_end(const Told& told, CellKind kind, long double length_m) {
   return false;
 }
 
-TEST(CornerFlight, TellsOfEveryCellAroundACornerThatIsPassedWithinItsReach) {
+TEST(CornerFlight, ReportsEveryCellAroundACornerThatIsPassedWithinItsReach) {
   Random random(1);
   int passed = 0;
   int entered = 0;
@@ -247,8 +248,8 @@ TEST(CornerFlight, TellsOfEveryCellAroundACornerThatIsPassedWithinItsReach) {
             << a.text() << ": not told " << name_of(verdict_of(kind)) << " of cell " << c.ix << ","
             << c.iy << " from " << a.cell.ix << "," << a.cell.iy << told.text();
       }
-      // It goes on in the cell across, as if through the corner itself, but for one whose command
-      // turns back over the border that it runs along.
+      // It continues in the cell across, as if through the corner itself, except in one whose
+      // command turns back over the border that it runs along.
       const Cell c = a.across();
       if (flow.kind_at(c) != CellKind::ordinary) continue;
       const WideCommands<Wide> commands(flow);
@@ -271,7 +272,7 @@ TEST(CornerFlight, TellsOfEveryCellAroundACornerThatIsPassedWithinItsReach) {
   for (const int count : by_way) EXPECT_GT(count, 800);
 }
 
-TEST(CornerFlight, TellsNothingOfTheCellBesideACornerThatIsMissed) {
+TEST(CornerFlight, ReportsNothingForTheCellNextToACornerThatIsMissed) {
   Random random(2);
   int missed = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -301,7 +302,7 @@ TEST(CornerFlight, TellsNothingOfTheCellBesideACornerThatIsMissed) {
   EXPECT_GT(missed, 10000);
 }
 
-TEST(CornerFlight, FollowsAHeadingAlongABorderInTheCellBeyondItAsWell) {
+TEST(CornerFlight, FollowsAHeadingAlongABorderInTheCellBeyondItToo) {
   Random random(3);
   int followed = 0;
   int given_up = 0;
@@ -378,7 +379,7 @@ Plan weave(double below_rad, double above_rad, double turn_radius_m) {
   return plan;
 }
 
-TEST(CornerFlight, TellsOfTheCornerThatAHopOrALeapOverWavesComesDownBeside) {
+TEST(CornerFlight, ReportsTheCornerWhereAHopOrALeapOverWavesLands) {
   Random random(4);
   for (const double off : {0x1p-36, 0x1p-40}) {
     for (int i = 0; i < 40; ++i) {
@@ -400,7 +401,7 @@ TEST(CornerFlight, TellsOfTheCornerThatAHopOrALeapOverWavesComesDownBeside) {
         ASSERT_TRUE(hopped && !hop.gave_up) << hop.text();
         ASSERT_TRUE(tells_end(hop, CellKind::obstacle, static_cast<long double>(move))) << upper;
       }
-      // Flatter than both commands: many waves, the last of which comes down beside the corner.
+      // Flatter than both commands: many waves, the last of which lands next to the corner.
       const int waves = 4 + static_cast<int>(random.below(5));
       Plan plan = weave(1.0, 1.2, r);
       plan.region[plan.grid.index({3, 1})] = Region::obstacle;
@@ -421,7 +422,7 @@ TEST(CornerFlight, TellsOfTheCornerThatAHopOrALeapOverWavesComesDownBeside) {
   }
 }
 
-TEST(CornerFlight, FindsThePlaceWhereAHeadingAlmostAlongABorderComesOverIt) {
+TEST(CornerFlight, FindsThePlaceWhereAHeadingAlmostAlongABorderCrossesIt) {
   Random random(5);
   for (int i = 0; i < 2000; ++i) {
     Plan plan = empty_plan(3, 3, 1.0, random.uniform(1.05, 3.0));
@@ -466,8 +467,8 @@ TEST(CornerFlight, FindsThePlaceWhereAHeadingAlmostAlongABorderComesOverIt) {
 }
 
 TEST(CornerFlight, IsNotLostInCellsThatTurnBackOverTheBorderItRunsAlong) {
-  // Up along the border between two columns; the right one turns left. What is followed into it
-  // comes out of it at once, again and again.
+  // Up along the border between two columns; the right one turns left. States followed into it come
+  // out of it at once, again and again.
   Plan plan = empty_plan(4, 4, 1.0, 2.0);
   for (int iy = 0; iy < 4; ++iy) {
     plan.heading_rad[plan.grid.index({1, iy})] = NAN;

@@ -5,7 +5,7 @@ namespace {
 
 using Id = LeafGraph::Id;
 
-/// Tarjan's algorithm, with a stack of its own instead of recursion.
+/// Tarjan's algorithm, with an explicit stack instead of recursion.
 class Components {
  public:
   Components(const LeafGraph& graph, std::span<const Id> among)
@@ -24,7 +24,7 @@ class Components {
 
   struct Visit {
     Id id;
-    std::vector<Id> next;  // not yet looked at
+    std::vector<Id> next;  // not yet examined
   };
 
   void enter(Id id) {

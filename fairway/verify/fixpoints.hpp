@@ -1,7 +1,7 @@
-// Fixpoints over the graph of leaves: what follows of all leaves from a rule for one.
+// Fixpoints over the graph of leaves: what follows for all leaves from a rule for one.
 //
-// A least fixpoint holds of what is reached from the ends in finitely many steps (reach, collide,
-// leave). A greatest one holds of what is never driven out (trapped). The strongly connected
+// A least fixpoint holds for what arrives at the ends in finitely many steps (reach, collide,
+// leave). A greatest one holds for what is never driven out (trapped). The strongly connected
 // components say which leaves wait for each other. None of them knows how the vehicle moves: that
 // is in the links.
 #pragma once
@@ -22,12 +22,12 @@
 
 namespace fairway {
 
-/// The verdicts of all that flights of a leaf end in or arrive on, with a bound of the time to
-/// them; `verdict_at(leaf)` tells those of leaves.
+/// The verdicts of everything that flights of a leaf end in or arrive at, with a bound of the time
+/// to them; `verdict_at(leaf)` returns those of leaves.
 ///
 /// A link that moves every state of the leaf along its own section leads out of the leaf after
-/// finitely many hops: it may touch the leaf itself. Whatever else a state does, it may have done
-/// all those hops before: the bound of the time counts them with everything.
+/// finitely many hops, so it may touch the leaf itself. A state may have done all those hops
+/// before it does anything else, so the time bound includes them for every other link.
 template <typename VerdictAt>
 VerdictSet image_verdicts(const LeafGraph& graph, LeafGraph::Id id, const VerdictAt& verdict_at) {
   VerdictSet found = graph.ends(id);
@@ -49,7 +49,7 @@ VerdictSet image_verdicts(const LeafGraph& graph, LeafGraph::Id id, const Verdic
   return found;
 }
 
-/// Leaves to look at, each once.
+/// Leaves to examine, each once.
 class Worklist {
  public:
   void add(LeafGraph::Id id) {
@@ -59,7 +59,7 @@ class Worklist {
     ids_.push_back(id);
   }
   bool empty() const { return ids_.empty(); }
-  /// All of them; none waits any more.
+  /// Removes and returns all of them.
   std::vector<LeafGraph::Id> take() {
     for (const LeafGraph::Id id : ids_) waits_[id] = 0;
     return std::exchange(ids_, {});
@@ -77,9 +77,9 @@ class Worklist {
   std::vector<std::uint8_t> waits_;
 };
 
-/// A least fixpoint, by rounds: all that waits is examined, by all threads, against what the rounds
-/// before left; `conclude` then changes the graph and adds what may follow from it. Independent of
-/// threads and of the order of the list. False: `go_on` stopped it between rounds.
+/// A least fixpoint, by rounds: all waiting leaves are examined, on all threads, against the result
+/// of the previous rounds; `conclude` then changes the graph and adds leaves that may now follow.
+/// Independent of threads and of the order of the list. False: `go_on` stopped it between rounds.
 template <typename Examine, typename Conclude>
 bool least_by_rounds(Worklist& waiting, const std::function<bool()>& go_on, const Examine& examine,
                      const Conclude& conclude) {
@@ -104,8 +104,8 @@ bool least_by_rounds(Worklist& waiting, const std::function<bool()>& go_on, cons
   return true;
 }
 
-/// A greatest fixpoint, by removal: the largest part of `among` of which all `stays(leaf, is_in)`,
-/// where `is_in(leaf)` tells who is left. In the order of `among`.
+/// A greatest fixpoint, by removal: the largest part of `among` in which `stays(leaf, is_in)` holds
+/// for every leaf, where `is_in(leaf)` says which leaves are left. In the order of `among`.
 template <typename Stays>
 std::vector<LeafGraph::Id> greatest_by_removal(const LeafGraph& graph,
                                                std::vector<LeafGraph::Id> among,
@@ -130,8 +130,8 @@ std::vector<LeafGraph::Id> greatest_by_removal(const LeafGraph& graph,
   return among;
 }
 
-/// The strongly connected components of `among` under links: leaves that wait for each other. Those
-/// that a component leads to come before it; its leaves ascend.
+/// The strongly connected components of `among` under links: leaves that wait for each other. A
+/// component comes after those it leads to; its leaves ascend.
 [[nodiscard]] std::vector<std::vector<LeafGraph::Id>> components(
     const LeafGraph& graph, std::span<const LeafGraph::Id> among);
 

@@ -13,7 +13,7 @@ namespace {
 using Id = LeafGraph::Id;
 constexpr UnitRange whole{0, 0xffffffffU};
 
-/// A graph of one leaf a section, with links as drawn: leaf i is the whole of section i.
+/// A graph with one leaf per section and links as drawn: leaf i is all of section i.
 LeafGraph drawn_graph(const std::vector<std::vector<Id>>& leads_to) {
   SectionVerdicts start;
   start.first.push_back(0);
@@ -96,8 +96,8 @@ TEST(Components, AreThoseThatReachEachOtherAndTheirEndsComeFirst) {
   }
 }
 
-TEST(Components, OfAPartKnowNothingOfTheRest) {
-  // 0 -> 1 -> 2 -> 0, of which 1 is left out.
+TEST(Components, OfAPartIgnoreTheRest) {
+  // 0 -> 1 -> 2 -> 0, with 1 left out.
   const LeafGraph graph = drawn_graph({{1}, {2}, {0}});
   const std::vector<Id> part{0, 2};
   EXPECT_EQ(components(graph, part), (std::vector<std::vector<Id>>{{0}, {2}}));
@@ -105,7 +105,7 @@ TEST(Components, OfAPartKnowNothingOfTheRest) {
   EXPECT_TRUE(components(graph, {}).empty());
 }
 
-TEST(Components, OfAChainOfAMillionNeedNoStackOfTheMachine) {
+TEST(Components, OfAChainOfAMillionDoNotNeedTheCallStack) {
   std::vector<std::vector<Id>> chain(300000);
   for (Id id = 0; id + 1 < chain.size(); ++id) chain[id].push_back(id + 1);
   const auto found = components(drawn_graph(chain), std::vector<Id>{0, 1, 2});
@@ -143,7 +143,7 @@ TEST(GreatestByRemoval, IsTheLargestPartThatNothingLeads) {
 }
 
 TEST(LeastByRounds, DecidesInTheRoundOfTheLongestWay) {
-  // 3 ends; the others lead one to the next, and 5 leads to itself for ever.
+  // 3 ends; the others lead to the next, and 5 leads to itself forever.
   LeafGraph graph = drawn_graph({{1}, {2}, {3}, {}, {0, 3}, {5}});
   Worklist waiting;
   for (Id id = 0; id < graph.ids(); ++id) waiting.add(id);

@@ -1,5 +1,5 @@
 // The closed loop under proof: a plan's commands and what each cell means for the verdict. A view
-// of the arrays, so that it can look into a mapped file.
+// of the arrays, so that it can refer to a mapped file.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@
 
 namespace fairway {
 
-/// What a cell means: the region of interest (the goal, unless another was asked for) ends a flight
+/// What a cell means: the region of interest (the goal, unless another was requested) ends a flight
 /// with `reach`, an obstacle with `collide`.
 enum class CellKind : std::uint8_t { ordinary = 0, obstacle = 1, target = 2, outside = 3 };
 
-/// Borders that one flight to the section crosses at most, branches counted, before it is given up
-/// as undecided; unless a caller says otherwise.
+/// Default for the most borders that one flight to the section may cross, counting branches, before
+/// it is given up as undecided.
 inline constexpr int usual_most_crossings = 3000;
 
 struct Flow {

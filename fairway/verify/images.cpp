@@ -15,7 +15,7 @@ float rounded_up(double x) {
   return static_cast<double>(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
 }
 
-/// Writes what a flight tells into a block.
+/// Writes what a flight reports into a block.
 struct Recorder {
   const Flow& flow;
   std::vector<ImagePiece>& pieces;
@@ -47,9 +47,9 @@ struct Recorder {
   void give_up() { gave_up = true; }
 };
 
-/// A wide leaf that cannot be told with few crossings cannot be with many: it has fallen apart, and
-/// its halves are told sooner. Leaves narrower than cell_m / 2^12 may have a long weave to follow.
-/// On dense maps nine tenths of all the work had gone into wide leaves that gave up in the end.
+/// A wide leaf that is not resolved in a few crossings will not be in many: it has fallen apart,
+/// and its halves are resolved sooner. Leaves narrower than cell_m / 2^12 may have a long weave to
+/// follow. On dense maps, nine tenths of all work used to go into wide leaves that then gave up.
 int crossings_worth(UnitRange leaf, int most_crossings) {
   const double width = static_cast<double>(leaf.hi) - static_cast<double>(leaf.lo);
   const double worth = 160.0 * std::sqrt(std::max(1.0, 0x1p20 / std::max(1.0, width)));

@@ -1,5 +1,5 @@
 // The images of sets of states: where their flights meet the section next, or how they end.
-// Computed once for each set; what is proved of the section is then looked up.
+// Computed once for each set; what is proved about the section is then looked up.
 #pragma once
 
 #include <cstddef>
@@ -21,14 +21,14 @@ struct ImagePiece {
   bool hop = false;      ///< section_flight.hpp, property 4
 };
 
-/// What a set of states does until all of it met the section or ended.
+/// What a set of states does until all of it has met the section or ended.
 struct Image {
   VerdictSet ends;
   bool gave_up = false;
   std::span<const ImagePiece> pieces;
 };
 
-/// Images by their number, in blocks so that threads fill them without sharing.
+/// Images by number, in blocks so that threads fill them without sharing.
 class ImageStore {
  public:
   explicit ImageStore(std::size_t count = 0);
@@ -37,9 +37,9 @@ class ImageStore {
   std::size_t bytes() const;
   Image operator[](std::size_t i) const;
 
-  /// Fills the images of all blocks in parallel: `fly(i, visitor)` follows set i. `go_on()` false
-  /// leaves the blocks not yet begun given up. Defined in images.cpp, and so callable there
-  /// alone: the two functions below are all that fills a store.
+  /// Fills the images of all blocks in parallel: `fly(i, visitor)` follows set i. When `go_on()`
+  /// is false, the blocks not yet started are left given up. Defined in images.cpp and so callable
+  /// only there: only the two functions below fill a store.
   template <typename Fly>
   void fill(const Flow& flow, const Fly& fly, const std::function<bool()>& go_on);
 
@@ -55,10 +55,10 @@ class ImageStore {
   std::vector<Block> blocks_;
 };
 
-/// A leaf of a section, by its place.
+/// A leaf of a section, by its range.
 struct LeafPlace {
   std::uint32_t section = 0;
-  UnitRange range;  ///< from its begin to its end
+  UnitRange range;  ///< from its start to its end
 };
 
 /// The images of `leaves`.
@@ -75,12 +75,12 @@ struct Place {
 ImageStore state_images(const Flow& flow, std::span<const Place> states, int most_crossings,
                         const std::function<bool()>& go_on);
 
-/// What is known of a set of states: the verdict of all, undecided when they differ.
+/// What is known about a set of states: the verdict of all, undecided when they differ.
 VerdictSet verdicts_of(const Image& image, const SectionView& sections);
 
 /// How far, at least, the hop of a weave moves every state of the leaf along the border, in units;
-/// 0 when it may not move at all. All move alike (section_flight.hpp, property 4), so that one end
-/// of the leaf tells, and not the one that the side's end may have cut.
+/// 0 when it may not move at all. All move alike (section_flight.hpp, property 4), so one end of
+/// the leaf is enough: the end that the side's end cannot have cut.
 double least_move(const ImagePiece& hop, UnitRange leaf);
 
 }  // namespace fairway

@@ -11,7 +11,7 @@ namespace {
 
 constexpr UnitRange whole_side{0, 0xffffffffU};
 
-/// How many of the changed cells lie in a rectangle of cells, at once.
+/// How many changed cells lie in a rectangle of cells, in constant time.
 class ChangedCells {
  public:
   ChangedCells(const Grid& grid, const std::vector<bool>& changed) : grid_(grid) {
@@ -96,7 +96,7 @@ void LeafGraph::free_links(Id id) {
   if (leaf.link_count == 0) return;
   for (const Link& link : links(id)) {
     const std::span<const Dependent> all = dependents_[link.section];
-    std::size_t at = all.size();  // from the end: what was linked last goes first, mostly
+    std::size_t at = all.size();  // from the end: what was linked last is mostly removed first
     while (all[--at].from != id) {
     }
     dependents_.remove(link.section, at);
@@ -162,12 +162,12 @@ void LeafGraph::make_undecided(Id id) {
   ++open_count_;
 }
 
-/// Of every leaf, whether its flights may have come near a changed cell: they came no farther than
-/// they are long. Those of a leaf that gave up, or that circle, have no known length.
+/// For every leaf, whether its flights may have come near a changed cell: they came no farther than
+/// their length. Flights of a leaf that gave up, or that circle, have no known length.
 std::vector<bool> LeafGraph::may_have_flown_through(const Flow& flow,
                                                     const std::vector<bool>& changed_cells) const {
   const ChangedCells changed(flow.grid, changed_cells);
-  // From the cell left into the one beyond, the rounding of times, and the border of the last cell.
+  // Covers the step into the cell beyond, rounding of times, and the border of the last cell.
   constexpr double margin_cells = 4.0;
   const double cells_per_s = 1.001 * flow.vehicle.speed_mps / flow.grid.cell_m;
   std::vector<bool> may(leaf_.size(), false);
@@ -184,7 +184,7 @@ std::vector<bool> LeafGraph::may_have_flown_through(const Flow& flow,
   return may;
 }
 
-/// Gives a section its first leaves, or takes away those it had.
+/// Gives a section its first leaves, or removes those it had.
 void LeafGraph::renew_section(std::size_t section, bool there) {
   if (there) {
     constexpr std::uint32_t count = 4;
@@ -209,7 +209,7 @@ std::vector<LeafGraph::Id> LeafGraph::invalidate(const Flow& flow,
   require(keep_ == Keep::all_links, "a graph that is to be invalidated keeps all links");
   require(changed_cells.size() == flow.grid.size(), "a flag for every cell");
   const std::vector<bool> stale = may_have_flown_through(flow, changed_cells);
-  std::vector<Id> work;  // undecided since, and what depends on them not yet
+  std::vector<Id> work;  // newly undecided; their dependents are still to be processed
   for (Id id = 0; id < stale.size(); ++id) {
     if (!stale[id]) continue;
     if (leaf_[id].verdict != Verdict::undecided) make_undecided(id);
@@ -229,7 +229,7 @@ std::vector<LeafGraph::Id> LeafGraph::invalidate(const Flow& flow,
       work.push_back(other);
     });
   }
-  // A section that begins or ends to be lies beside a changed cell: its leaves are stale.
+  // A section that appears or disappears is next to a changed cell: its leaves are stale.
   for (std::size_t s = 0; s < 4 * flow.grid.size(); ++s) {
     if (is_section(flow, s) != has_leaves(s)) renew_section(s, is_section(flow, s));
   }

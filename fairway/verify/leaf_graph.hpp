@@ -1,15 +1,14 @@
-// The section under proof as a graph: leaves, each with what is known of it, and links from each to
-// the parts of the section where its flights arrive next.
+// The section under proof as a graph: leaves, each with what is known about it, and links from each
+// to the parts of the section where its flights arrive next.
 //
-// Everything lies in flat arrays. The leaves of a section are on a list by their begins, and so is
-// all that leads to the section: what a leaf leads to and what leads to a leaf are both at hand.
-// The links of a leaf lie side by side; they are freed with its decision, unless all are to be
-// kept.
+// Everything is in flat arrays. The leaves of a section are in a list ordered by their starts, and
+// there is a list of everything that leads to the section: both what a leaf leads to and what leads
+// to it can be looked up. The links of a leaf are contiguous; they are freed when it is decided,
+// unless all are to be kept.
 //
 // Properties that always hold:
 //   1. The leaves of a section, in order, cover what its first leaves covered.
-//   2. A leaf is open (undecided) or decided. Links lead from open leaves alone, unless all are
-//      kept.
+//   2. A leaf is open (undecided) or decided. Only open leaves have links, unless all are kept.
 //   3. Reading changes nothing: any number of threads may read while none writes.
 #pragma once
 
@@ -30,7 +29,7 @@ class LeafGraph {
   using Id = std::uint32_t;
   static constexpr Id none = ~Id{0};
 
-  /// Whether links outlive the decision of their leaf: `invalidate` wants them.
+  /// Whether links outlive the decision of their leaf: `invalidate` needs them.
   enum class Keep { links_of_open_leaves, all_links };
 
   /// Where flights from a leaf arrive.
@@ -38,14 +37,14 @@ class LeafGraph {
     std::uint32_t section;
     UnitRange range;
     float flown_s;  ///< upper bound
-    /// The leaf's own section alone: how far, at least, it moves every state of the leaf along the
-    /// section, in units, all of them the same way and equally far. 0: nothing of the kind.
+    /// Only for links to the leaf's own section: how far, at least, it moves every state of the
+    /// leaf along the section, in units, all the same way and equally far. 0: no such move.
     std::uint32_t own_move;
   };
 
   explicit LeafGraph(const SectionVerdicts& start, Keep keep = Keep::links_of_open_leaves);
 
-  // Leaves. Ids run from 0 to ids(); one may be of no leaf any more after an invalidation.
+  // Leaves. Ids run from 0 to ids(); after an invalidation, some may no longer be leaves.
   Id ids() const { return static_cast<Id>(leaf_.size()); }
   std::size_t leaves() const { return leaf_count_; }
   std::size_t undecided() const { return open_count_; }
@@ -75,12 +74,12 @@ class LeafGraph {
   // Changes.
   void set_image(Id id, const Image& image);
   void decide(Id id, Verdict verdict, std::uint32_t rank, float time_s);
-  /// Cuts an open leaf: it is its own lower half from now on, the upper is the id returned. Neither
+  /// Cuts an open leaf: it becomes its own lower half; the returned id is the upper half. Neither
   /// has an image.
   Id cut(Id id);
-  /// The commands or meanings of some cells are other ones now, and `flow` has them already. Every
-  /// leaf whose verdict may rest on them is undecided again; returned are the open leaves whose
-  /// image has to be flown (again). Wants Keep::all_links.
+  /// The commands or meanings of some cells have changed, and `flow` already has the new ones.
+  /// Every leaf whose verdict may depend on them becomes undecided; returns the open leaves whose
+  /// images must be flown (again). Needs Keep::all_links.
   std::vector<Id> invalidate(const Flow& flow, const std::vector<bool>& changed_cells);
 
   /// The leaves as they are now, in order.
@@ -120,7 +119,7 @@ class LeafGraph {
   Keep keep_;
   std::vector<Leaf> leaf_;
   SectionLists<Place> on_section_;
-  std::vector<Link> link_;  // links of a leaf side by side
+  std::vector<Link> link_;  // links of a leaf are contiguous
   SectionLists<Dependent> dependents_;
   std::vector<std::vector<std::uint32_t>> free_;  // [count] first of `count` unused links
   std::size_t leaf_count_ = 0;
@@ -135,7 +134,7 @@ inline double width_of(UnitRange range) {
 template <typename Body>
 void LeafGraph::for_leaves(std::size_t section, UnitRange range, const Body& body) const {
   const std::span<const Place> places = on_section_[section];
-  std::size_t low = 0;  // becomes the last leaf that begins before the range, or the first
+  std::size_t low = 0;  // becomes the last leaf that starts before the range, or the first
   for (std::size_t count = places.size(); count > 1;) {
     const std::size_t half = count / 2;
     if (places[low + half].begin < range.lo) low += half;

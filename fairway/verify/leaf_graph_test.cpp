@@ -22,7 +22,7 @@ constexpr UnitRange whole{0, 0xffffffffU};
 constexpr int most_crossings = 1000;
 bool always() { return true; }
 
-/// `sections` sections of `each` equal leaves.
+/// `sections` sections with `each` equal leaves.
 SectionVerdicts even_sections(std::size_t sections, std::uint32_t each) {
   SectionVerdicts start;
   start.first.push_back(0);
@@ -38,7 +38,7 @@ SectionVerdicts even_sections(std::size_t sections, std::uint32_t each) {
   return start;
 }
 
-/// The same with vectors and searches through all of them: what the graph must agree with.
+/// The same with vectors and exhaustive searches, which the graph must agree with.
 struct PlainGraph {
   struct Piece {
     Id from;
@@ -158,7 +158,7 @@ TEST(LeafGraph, FreesWhatDecidedLeavesHeldAndUsesItAgain) {
   const std::size_t before = graph.bytes();
   for (Id id = 0; id < 4; ++id) graph.decide(id, Verdict::reach, 1, 1.0F);
   for (Id id = 4; id < 8; ++id) graph.set_image(id, image);
-  EXPECT_LE(graph.bytes(), before + 200);  // the list of what is free
+  EXPECT_LE(graph.bytes(), before + 200);  // the free list
 }
 
 TEST(LeafGraph, KnowsAHopOntoItsOwnSectionByHowFarItMoves) {
@@ -185,9 +185,9 @@ TEST(LeafGraph, ThatDoesNotKeepLinksCannotBeInvalidated) {
                PreconditionViolation);
 }
 
-/// Every leaf proved after commands were changed has a verdict that a proof from nothing does not
-/// contradict, and what is undecided is not more than a proof from nothing leaves.
-TEST(LeafGraph, AfterAnInvalidationProvesWhatAProofFromNothingProves) {
+/// Every leaf proved after commands were changed has a verdict that a proof from scratch does not
+/// contradict, and no more is undecided than a proof from scratch leaves.
+TEST(LeafGraph, AfterAnInvalidationProvesWhatAProofFromScratchProves) {
   std::size_t changed_verdicts = 0;
   std::size_t kept = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
@@ -256,7 +256,7 @@ TEST(LeafGraph, AnInvalidationReachesLeavesThatWereDecidedWhenItBegan) {
   const Flow flow = owner.flow();
   Prover first(flow, undecided_sections(flow, 2), most_crossings, always);
   first.settle(0x1p26);
-  // Going on from what is decided, with an obstacle ahead, seven cells from the leaves asked about.
+  // Continuing from what is decided, with an obstacle seven cells ahead of the leaves in question.
   Prover prover(flow, first.graph().sections(), most_crossings, always, LeafGraph::Keep::all_links);
   std::vector<bool> changed(plan.grid.size(), false);
   for (int iy = 0; iy < 3; ++iy) {
@@ -288,7 +288,7 @@ TEST(LeafGraph, MayBeInvalidatedAtAnyMoment) {
     owner.kind[plan.grid.index({ix, 1})] = kind;
     prover.invalidate(changed);
   };
-  put(10, CellKind::obstacle);  // before anything was looked at
+  put(10, CellKind::obstacle);  // before anything was examined
   put(11, CellKind::obstacle);  // twice
   go_on = false;
   EXPECT_FALSE(prover.settle(0x1p26));

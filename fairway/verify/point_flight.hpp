@@ -1,25 +1,26 @@
 // A flight of one state to the section in plain doubles, for queries: several times as fast as the
-// same state followed as a set (state_flight.hpp), and it knows when it may not be believed.
+// same state followed as a set (state_flight.hpp). It reports when double precision is not enough.
 //
 // Every number stands for the exact one within a ball: place, heading and centre of the circle each
-// carry a bound of their error, per component. What happens next is decided by comparing numbers,
-// and each comparison must be won by far more than what the balls allow; else nothing is said, and
-// the set is to be followed. Near a border, a corner, a tangent, an opposite heading, always.
+// carry an error bound, per component. What happens next is decided by comparing numbers, and each
+// comparison must have a margin far beyond the balls; else nothing is reported, and the state has
+// to be followed as a set. This always happens near a border, a corner, a tangent or an opposite
+// heading.
 //
-// Properties that always hold, when follow_point() says true:
-//   1. Exactly one thing was told to the visitor (section_flight.hpp): what the exact flight of the
-//      exact numbers meets, its place inside the interval told, within the length told.
-//   2. On its way it passes no corner and touches no border that it does not cross, by more than
-//      the balls: which cells it met is certain.
+// Properties that always hold, when follow_point() returns true:
+//   1. The visitor (section_flight.hpp) got exactly one report: what the exact flight of the exact
+//      numbers meets, with its place inside the interval and its length within the bound reported.
+//   2. The flight misses every corner, and every border that it does not cross, by more than the
+//      balls: it is certain which cells it met.
 // Error bounds (derived; docs/trust.md, lemma 8), with R the turning radius, L a straight length:
 //   centre     p -+ R (u_y, -u_x)                        e_c = e_p + R e_u
 //   crossing   t = (line - C) / R, n = sqrt(1 - t t)     e_t = e_c / R, e_n = e_t / n
 //   its place  C -+ R n                                  e_p = e_c + R e_n
 //   aligned    C +- R (c_y, -c_x)                        e_a = e_c
 //   straight   p + L u, to a side with speed s           e = (e_p + 2 L e_u) (1 + 1 / s)
-// each 1.05 times, and `rounding` (2^-46) of the largest number in it more: no line has more than
-// 16 operations, each errs by 2^-53 of numbers up to 4 R.
-// Cost: a sine and a cosine a cell, and a square root for each of at most three sides.
+// each times 1.05, plus `rounding` (2^-46) of the largest number in it: no line has more than 16
+// operations, each with an error of 2^-53 of numbers up to 4 R.
+// Cost: one sine and one cosine per cell, and a square root for each of at most three sides.
 #pragma once
 
 #include <cmath>
@@ -34,21 +35,21 @@ namespace fairway {
 namespace point_flight {
 
 inline constexpr double rounding = 0x1p-46;
-/// No ball may be larger than this: of headings as it is, of places times cell_m.
+/// No ball may be larger than this: as is for headings, times cell_m for places.
 inline constexpr double most_error = 0x1p-20;
-/// By how much comparisons must be won: of sines as it is, of places times cell_m.
+/// The margin that comparisons must have: as is for sines, times cell_m for places.
 inline constexpr double margin = 0x1p-14;
-/// Sides are crossed with an outward part of the heading of at least this; flatter is not followed.
+/// The least outward part of the heading when crossing a side; flatter crossings are not followed.
 inline constexpr double flattest = 0x1p-5;
 /// In one cell of at most 0.95 R a vehicle turns by less than 85 degrees (its chord is at most
-/// sqrt(2) d), whose cosine is 0.09: what lies this far ahead comes after it has left.
+/// sqrt(2) d), whose cosine is 0.09: events this far ahead come after it has left.
 inline constexpr double far_ahead = 0.05;
 inline constexpr double largest_cell = 0.95;  // of R
 inline constexpr int most_cells = 64;
 inline constexpr int most_straight_cells = 1 << 14;
 
-/// The meeting of an arc with a side, or with the command. Sides are numbers here, those of `Side`:
-/// even ones stand upright, the first two are the far ones, and two more values are needed.
+/// Where an arc meets a side or the command. Sides are numbers here, those of `Side`: even ones are
+/// vertical, the first two are the far ones, and two more values are needed.
 struct Event {
   int side = -1;  // 0 right, 1 top, 2 left, 3 bottom, 4 the command; -1 none
   double turned_sin = 2.0;
@@ -63,12 +64,12 @@ struct Point {
   double x, y, error;      // in the cell's own coordinates
   double ux, uy, u_error;  // unit vector
   double cx = 0.0, cy = 0.0, c_error = 0.0;
-  int turn = 0;           // 0: not on a circle yet
-  double length_m = 0.0;  // never less than what was flown
+  int turn = 0;           // 0: not yet on a circle
+  double length_m = 0.0;  // never less than the length flown
 };
 
 /// Upper bound of the angle with this sine and cosine, up to 90 degrees. Huygens: 3 x <= 2 sin x +
-/// tan x, for x half of it. A component's error moves it by less than 3 times as much.
+/// tan x, for x half of it. An error in a component changes it by less than 3 times as much.
 inline double angle_above(double sine, double cosine, double error) {
   const double half_cos = std::sqrt(0.5 * (1.0 + cosine));
   return (2.0 / 3.0) * (sine / half_cos + sine / (1.0 + cosine)) + 4.0 * error + 4.0 * rounding;
@@ -111,7 +112,7 @@ class Follower {
 
   bool is_between(double x) const { return x > margin * d_ && x < d_ - margin * d_; }
 
-  /// One coordinate inside its cell; false when it may be another's, or is not known well.
+  /// One coordinate inside its cell; false when it may be in another, or is not accurate enough.
   bool place(double x_m, double origin_m, int& cell, double& local_m, double& error) const {
     const double after = x_m - origin_m;
     const double number = std::floor(after / d_);
@@ -180,19 +181,19 @@ class Follower {
     const double k = vertical ? p.turn : -p.turn;
     const double u_out = outwards * (vertical ? p.ux : p.uy);
     const double u_along = vertical ? p.uy : p.ux;
-    // After 90 degrees the heading is (-k' u_along, ...) in this frame. Every heading before is a
-    // sum of both with weights >= 0: out of this side in none when both point in.
+    // After 90 degrees the heading is (-k' u_along, ...) in this frame. Every heading before it is
+    // a sum of both with weights >= 0: none points out of this side when both point in.
     const double last_out = -k * outwards * u_along;
     if (u_out < 0.0 && last_out < 0.0) return true;
     const double line = side < 2 ? d_ : 0.0;
     const double t = k * (line - (vertical ? p.cx : p.cy)) * per_r_;
     const double flat = 1.0 - t * t;
-    if (flat < -margin) return true;  // the circle does not come to the line
+    if (flat < -margin) return true;  // the circle does not reach the line
     if (!(flat > flattest * flattest)) return false;
     const double n = std::sqrt(flat);
     const double error = 1.05 * (1.05 * p.c_error * per_r_ + rounding) / n + rounding;
     if (!(error <= most_error)) return false;
-    // In the frame (outwards, along) a turn to the left is k' = k * outwards.
+    // In the frame (outwards, along) a left turn is k' = k * outwards.
     const double turned = k * outwards * (u_out * t - u_along * n);
     const double ahead = u_out * n + u_along * t;
     if (ahead < far_ahead || turned < -margin) return true;
@@ -212,7 +213,7 @@ class Follower {
     p.ux = vertical ? u_out : event.along;
     p.uy = vertical ? event.along : u_out;
     p.u_error = event.error;
-    // Of the two coordinates, the one across the side is counted from the next cell's corner.
+    // The coordinate across the side is measured from the next cell's corner.
     (vertical ? p.cx : p.cy) -= outwards * d_;
     p.c_error += rounding * r_;
     enter(p, event.side, place);
@@ -230,8 +231,7 @@ class Follower {
   /// From (x, y), inside the cell, along the command to the side it leaves by: the section there.
   Step go_aligned(Point& p, double x, double y, double cx, double cy) {
     if (!is_between(x) || !is_between(y)) return Step::unsure;
-    // An axis that is almost not moved along: no farther than half the margin while the other side
-    // is reached.
+    // An axis along which it hardly moves: at most half the margin until it reaches the other side.
     const auto length_to_side = [this](double from, double speed) {
       if (std::abs(speed) < 0.25 * margin) return 4.0 * d_;
       return (speed > 0.0 ? d_ - from : -from) / speed;
@@ -255,7 +255,7 @@ class Follower {
   }
 
   /// Through cells without a command, to one that has one or ends the flight. Every crossing is
-  /// reckoned from the start of the straight line, so that errors do not add up on the way.
+  /// computed from the start of the straight line, so that errors do not accumulate.
   Step go_straight(Point& p) {
     if (std::min(std::abs(p.ux), std::abs(p.uy)) < most_error) return Step::unsure;
     const Point start = p;
@@ -292,8 +292,8 @@ class Follower {
 
 }  // namespace point_flight
 
-/// Follows the state if that can be done beyond doubt; false, and nothing told, if not. The state
-/// is finite and within 2^30 cells of the grid.
+/// Follows the state if double precision provably suffices; otherwise returns false and reports
+/// nothing. The state is finite and within 2^30 cells of the grid.
 template <typename Visitor>
 [[nodiscard]] bool follow_point(const Flow& flow, double x_m, double y_m, double heading_rad,
                                 Visitor& visitor) {

@@ -18,7 +18,7 @@ struct Counts {
   int all = 0;
 };
 
-/// Whatever is told of the state is what the flight in 237 bits meets.
+/// Whatever is reported for the state is what the flight in 237 bits meets.
 void expect_right(const Flow& flow, const WideCommands<Wide>& commands, Random& random, double x_m,
                   double y_m, double heading_rad, const std::string& name, Counts& counts) {
   Told told;
@@ -50,7 +50,7 @@ void expect_right(const Flow& flow, const WideCommands<Wide>& commands, Random& 
                              << text_of(met) << told.text();
 }
 
-TEST(PointFlight, TellsWhatTheExactFlightMeetsWhereverItIsSure) {
+TEST(PointFlight, ReportsWhatTheExactFlightMeetsWhereverItIsSure) {
   Random random(1);
   Counts counts;
   for (std::uint64_t number = 0; number < 150; ++number) {
@@ -69,9 +69,9 @@ TEST(PointFlight, TellsWhatTheExactFlightMeetsWhereverItIsSure) {
   EXPECT_GT(counts.sure, counts.all / 2);
 }
 
-/// States that come back to a place exactly: flown backwards from a corner, a border's tangent, an
-/// alignment on a border, so that the event lies at a distance `off` from the degenerate one.
-TEST(PointFlight, IsNotSureWhereAHairDecidesAndRightWhereItIs) {
+/// States flown backwards from a corner, a tangent to a border, or an alignment on a border, so
+/// that the event lies at a distance `off` from the degenerate one.
+TEST(PointFlight, IsNotSureInCloseCasesAndRightWhereItIsSure) {
   Random random(2);
   Counts counts;
   Counts far;
@@ -137,7 +137,7 @@ TEST(PointFlight, LeavesBordersTiesAndCellsAsLargeAsTheRadiusToOthers) {
   EXPECT_FALSE(follow_point(flow, 1.5, 1.5, 0.0, told));         // aligned
   EXPECT_FALSE(follow_point(flow, 1.5, 1.5, pi, told));          // opposite
   EXPECT_FALSE(follow_point(flow, 1.5, 1.5, pi - 1e-9, told));   // almost
-  EXPECT_FALSE(follow_point(flow, 1.5, 2.0 - 1e-9, 0.5, told));  // beside a border
+  EXPECT_FALSE(follow_point(flow, 1.5, 2.0 - 1e-9, 0.5, told));  // next to a border
   const Plan coarse = empty_plan(4, 4, 1.0, 1.01);
   const PlanFlow coarse_flow(coarse);
   EXPECT_FALSE(follow_point(coarse_flow.flow(), 1.5, 1.5, 0.5, told));

@@ -19,7 +19,7 @@ Prover::Prover(const Flow& flow, const SectionVerdicts& start, int most_crossing
       go_on_(std::move(go_on)),
       graph_(start, keep),
       rank_(graph_.highest_rank()) {
-  std::vector<Id> unknown;  // decided ones too, where their links are to be kept
+  std::vector<Id> unknown;  // decided ones too, if their links are to be kept
   for (Id id = 0; id < graph_.ids(); ++id) {
     if (graph_.is_open(id) || keep == LeafGraph::Keep::all_links) unknown.push_back(id);
   }
@@ -34,7 +34,7 @@ void Prover::look_up(std::size_t section, UnitRange range, double flown_s,
   });
 }
 
-/// Images for leaves that have none yet; they wait to be looked at.
+/// Computes images for leaves that have none yet; these then wait to be examined.
 void Prover::fly(const std::vector<Id>& ids) {
   std::vector<LeafPlace> places(ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i) places[i] = graph_.place(ids[i]);
@@ -60,7 +60,7 @@ bool Prover::is_worth_cutting(Id id) const {
 
 Prover::Finding Prover::examine(Id id, double least_units) const {
   Finding finding{image_verdicts(graph_, id, [this](Id other) { return graph_.verdict(other); })};
-  // What cannot be told keeps all that leads there waiting: it is cut finer, ahead of the rest.
+  // An unknown leaf keeps everything that leads to it waiting: cut it finer, ahead of the rest.
   constexpr double ahead = 1.0 / 64.0;
   const double least = graph_.gave_up(id) ? std::max(ahead * least_units, 64.0) : least_units;
   finding.cut = finding.found.only() == Verdict::undecided &&
@@ -77,7 +77,7 @@ void Prover::conclude(const std::vector<Id>& round, const std::vector<Finding>& 
     if (findings[k].cut) {
       halves.insert(halves.end(), {round[k], graph_.cut(round[k])});
     } else if (verdict != Verdict::undecided && verdict != Verdict::trapped && time_s < infinite) {
-      graph_.decide(round[k], verdict, rank_, time_s);  // in a time that a float can say
+      graph_.decide(round[k], verdict, rank_, time_s);  // in a time that a float can hold
     }
   }
   for (const Id id : round) {
@@ -107,7 +107,7 @@ bool Prover::settle(double least_units) {
   return true;
 }
 
-/// All that is undecided, less what may get out. What is left wakes those that lead there.
+/// Everything undecided, minus what may get out. What remains wakes the leaves that lead there.
 void Prover::prove_trapped() {
   std::vector<Id> open;
   for (Id id = 0; id < graph_.ids(); ++id) {
@@ -125,7 +125,7 @@ void Prover::prove_trapped() {
 }
 
 void Prover::invalidate(const std::vector<bool>& changed_cells) {
-  waiting_.take();  // some may be of no leaf any more; `settle` begins with all that are open
+  waiting_.take();  // some may no longer be leaves; `settle` starts with all open ones
   fly(graph_.invalidate(flow_, changed_cells));
 }
 

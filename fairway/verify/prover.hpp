@@ -1,14 +1,14 @@
-// The proof of the section: which leaves are looked at, decided and cut, round by round, until no
+// The proof of the section: which leaves are examined, decided and cut, round by round, until no
 // round changes anything.
 //
 // reach, collide and leave are least fixpoints: in round k a leaf is proved when its whole image
 // lies in leaves proved with one verdict before round k (or ends so). trapped is a greatest one:
 // the largest set of leaves whose images lie in the set again (fixpoints.hpp). A leaf is cut only
-// where that may help: when its image meets something decided, or itself, or could not be told; one
-// whose image lies on undecided leaves alone waits for them.
+// where that may help: when its image meets something decided, or itself, or is unknown; one whose
+// image lies only on undecided leaves waits for them.
 //
-// Properties that always hold: those of section_verdicts.hpp; and the answer does not depend on the
-// number of threads (a round reads what the rounds before it wrote).
+// Properties that always hold: those of section_verdicts.hpp; and the result does not depend on the
+// number of threads (a round reads only what earlier rounds wrote).
 #pragma once
 
 #include <cstddef>
@@ -24,20 +24,20 @@ namespace fairway {
 
 class Prover {
  public:
-  /// Refers to the arrays that `flow` looks at. `start`: leaves as they are known.
+  /// Keeps references to the arrays that `flow` points to. `start`: the leaves as known so far.
   Prover(const Flow& flow, const SectionVerdicts& start, int most_crossings,
          std::function<bool()> go_on, LeafGraph::Keep keep = LeafGraph::Keep::links_of_open_leaves);
 
-  /// Rounds until nothing changes, with no leaf narrower than `least_units`. False: stopped.
+  /// Runs rounds until nothing changes, with no leaf narrower than `least_units`. False: stopped.
   bool settle(double least_units);
 
-  /// The commands or meanings of some cells were changed in the arrays of the flow: what may rest
-  /// on them is undecided until `settle` is called again. Wants Keep::all_links.
+  /// The commands or meanings of some cells were changed in the arrays of the flow: everything that
+  /// may depend on them is undecided until `settle` is called again. Needs Keep::all_links.
   void invalidate(const std::vector<bool>& changed_cells);
 
   const LeafGraph& graph() const { return graph_; }
 
-  /// Adds what the leaves that `range` touches say.
+  /// Adds the verdicts of the leaves that touch `range`.
   void look_up(std::size_t section, UnitRange range, double flown_s, VerdictSet& found) const;
 
   std::size_t bytes() const { return graph_.bytes() + waiting_.bytes(); }

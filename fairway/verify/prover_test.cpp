@@ -35,7 +35,7 @@ std::vector<LeafPlace> places_of(const SectionVerdicts& sections) {
   return places;
 }
 
-/// The rule of docs/trust.md for one leaf, worked out again from its image.
+/// The rule of docs/trust.md for one leaf, recomputed from its image.
 void expect_rule(const SectionVerdicts& sections, const LeafPlace& place, std::size_t leaf,
                  const Image& image) {
   const auto verdict = static_cast<Verdict>(sections.verdict[leaf]);
@@ -43,7 +43,7 @@ void expect_rule(const SectionVerdicts& sections, const LeafPlace& place, std::s
   SCOPED_TRACE("leaf " + std::to_string(leaf) + " of section " + std::to_string(place.section) +
                ", proved " + name_of(verdict));
   ASSERT_FALSE(image.gave_up);
-  ASSERT_TRUE(image.ends.bits != 0 || !image.pieces.empty()) << "nothing was told";
+  ASSERT_TRUE(image.ends.bits != 0 || !image.pieces.empty()) << "nothing was reported";
   const auto only = static_cast<std::uint8_t>(1U << static_cast<unsigned>(verdict));
   ASSERT_EQ(image.ends.bits & ~only, 0);
   const bool finite = verdict != Verdict::trapped;
@@ -74,13 +74,13 @@ void expect_rule(const SectionVerdicts& sections, const LeafPlace& place, std::s
     ASSERT_TRUE(found) << "an image where the section has no leaves";
   }
   if (finite) {
-    EXPECT_TRUE(leads_on) << "depends on nothing but itself";
+    EXPECT_TRUE(leads_on) << "depends only on itself";
     EXPECT_GE(bound_s, (own_hops_s + rest_s) * (1.0 - 1e-12));
     EXPECT_LT(bound_s, std::numeric_limits<double>::infinity());
   }
 }
 
-/// Commands around the middle, leaning inwards; as wide as 4 turning radii.
+/// Commands around the centre, leaning inwards; as wide as 4 turning radii.
 void turn_to_a_vortex(Plan& plan) {
   plan.vehicle.turn_radius_m =
       std::max(1.01, 0.2 * std::min(plan.grid.nx, plan.grid.ny)) * plan.grid.cell_m;
@@ -98,7 +98,7 @@ TEST(Prover, KeepsTheRuleForEveryLeafItProves) {
   std::size_t trapped = 0;
   for (std::uint64_t number = 0; number < 40; ++number) {
     Plan plan = random_plan(number);
-    // Some without an end: most are left on the way.
+    // Some without an end: most leave on the way.
     if (number % 4 == 0) turn_to_a_vortex(plan);
     const PlanFlow plan_flow(plan);
     const Flow flow = plan_flow.flow();
@@ -117,7 +117,7 @@ TEST(Prover, KeepsTheRuleForEveryLeafItProves) {
   EXPECT_GT(trapped, 10U);
 }
 
-TEST(Prover, ProvesOfPlacesWhatExactFlightsDoAndWithinTheTime) {
+TEST(Prover, ProvesForPlacesWhatExactFlightsDoAndWithinTheTime) {
   Random random(2);
   int flown = 0;
   for (std::uint64_t number = 0; number < 40; ++number) {
@@ -164,7 +164,7 @@ TEST(Prover, ConcludesNothingFromNothing) {
   EXPECT_EQ(VerdictSet{}.only(), Verdict::undecided);
   const SectionVerdicts none = undecided_sections(Flow{}, 0);
   EXPECT_EQ(verdicts_of(Image{}, none.view()).only(), Verdict::undecided);
-  // A piece on a section that has no leaves.
+  // A piece on a section without leaves.
   const Plan plan = empty_plan(3, 3, 1.0, 2.0);
   const PlanFlow plan_flow(plan);
   const SectionVerdicts sections = proved(plan_flow.flow(), 4);
@@ -174,7 +174,7 @@ TEST(Prover, ConcludesNothingFromNothing) {
   image.ends.add(Verdict::leave, 0.0);
   image.pieces = std::span(&backwards, 1);
   EXPECT_EQ(verdicts_of(image, sections.view()).only(), Verdict::undecided);
-  // Two verdicts are none.
+  // Two different verdicts give none.
   VerdictSet both;
   both.add(Verdict::reach, 1.0);
   both.add(Verdict::trapped, 1.0);
@@ -182,8 +182,8 @@ TEST(Prover, ConcludesNothingFromNothing) {
 }
 
 TEST(Prover, FreesAllOfATrapByOneLeak) {
-  // A vortex, leaning inwards: all its section is trapped; with one cell blocked less is, and what
-  // flies into that cell is not.
+  // A vortex, leaning inwards: all its section is trapped; with one cell blocked, less of it is,
+  // and states that fly into that cell are not.
   Plan plan = empty_plan(16, 16, 2.0, 5.0);
   for (std::size_t i = 0; i < plan.grid.size(); ++i) {
     const Vec2 p = plan.grid.center(plan.grid.cell_at(i)) - Vec2{16.0, 16.0};
@@ -197,7 +197,7 @@ TEST(Prover, FreesAllOfATrapByOneLeak) {
   const SectionVerdicts before = proved(closed.flow(), 8);
   EXPECT_GT(count(before, Verdict::trapped), 100);
   EXPECT_EQ(count(before, Verdict::reach), 0);
-  // Targets all around the middle: every orbit meets one.
+  // Targets all around the centre: every orbit meets one.
   for (std::size_t i = 0; i < plan.grid.size(); ++i) {
     if (plan.grid.cell_at(i).iy == 8 && plan.grid.cell_at(i).ix >= 8) {
       plan.region[i] = Region::goal;
@@ -224,10 +224,10 @@ TEST(LeastMove, IsTheMoveOfTheEndThatWasNotCut) {
   };
   EXPECT_EQ(move({30, 60}, {10, 40}), 20.0);                // upwards
   EXPECT_EQ(move({0, 30}, {10, 40}), 10.0);                 // downwards
-  EXPECT_EQ(move({10, 40}, {10, 40}), 0.0);                 // perhaps not at all
+  EXPECT_EQ(move({10, 40}, {10, 40}), 0.0);                 // possibly not at all
   EXPECT_EQ(move({9, 41}, {10, 40}), 0.0);                  // within rounding of not at all
   EXPECT_EQ(move({30, 0xffffffff}, {10, 0xffffffff}), 20);  // cut at the side's end
-  EXPECT_EQ(move({0, 25}, {0, 40}), 15.0);                  // and at its begin
+  EXPECT_EQ(move({0, 25}, {0, 40}), 15.0);                  // and at its start
 }
 
 TEST(Units, HoldThePlacesTheyCameFromAndOneMoreEitherSide) {

@@ -1,4 +1,4 @@
-// The question: what flights are to reach.
+// The question: what flights should reach.
 #pragma once
 
 #include <array>
@@ -11,8 +11,9 @@
 
 namespace fairway {
 
-/// It takes the goal's place: with another region, goal cells are ordinary cells; with obstacles,
-/// touching one is to reach. An obstacle is never part of a rectangle or of a region of cells.
+/// It replaces the goal: with another region, goal cells are ordinary cells; with obstacles,
+/// touching one counts as reaching.
+/// An obstacle is never part of a rectangle or of a region of cells.
 struct RegionOfInterest {
   enum class Kind { goal, obstacle, rectangle, cells };
   Kind kind = Kind::goal;

@@ -19,7 +19,7 @@ namespace {
 using Id = LeafGraph::Id;
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-/// What no leaf may say is not said any more; what a trapped one need not say, too.
+/// Clears what no leaf may claim, and what a trapped one need not claim.
 void drop_nonsense(SectionVerdicts& s) {
   for (std::size_t i = 0; i < s.leaves(); ++i) {
     if (s.verdict[i] >= verdict_count) s.verdict[i] = static_cast<std::uint8_t>(Verdict::undecided);
@@ -48,7 +48,7 @@ LeafGraph flown(const Flow& flow, const SectionVerdicts& claimed, int most_cross
   return graph;
 }
 
-/// The rule, where `holds[leaf]` says whose verdicts count.
+/// The rule, where `holds[leaf]` says which verdicts count.
 bool obeys_the_rule(const LeafGraph& graph, Id id, const std::vector<std::uint8_t>& holds) {
   const auto verdict_at = [&](Id other) {
     return holds[other] != 0 ? graph.verdict(other) : Verdict::undecided;
@@ -66,8 +66,8 @@ bool obeys_the_rule(const LeafGraph& graph, Id id, const std::vector<std::uint8_
   return ranks_fall && found.time_s <= static_cast<double>(graph.time_s(id));
 }
 
-/// What goes on from here wants ranks above these: those that no honest proof comes to are numbered
-/// anew, in their order, which is all that counts.
+/// Further work needs ranks above these: ranks that no correct proof would reach are renumbered in
+/// their order, which is all that matters.
 void make_room_above(std::vector<std::uint32_t>& rank) {
   constexpr std::uint32_t high = 0x7fffffff;
   if (rank.empty() || *std::max_element(rank.begin(), rank.end()) < high) return;
@@ -92,14 +92,14 @@ bool sections_fit(const Flow& flow, const SectionVerdicts& sections) {
 
 SectionVerdicts reproved(const Flow& flow, SectionVerdicts claimed, int most_crossings,
                          const std::function<bool()>& go_on) {
-  require(sections_fit(flow, claimed), "the sections with leaves are those of the flow");
+  require(sections_fit(flow, claimed), "the sections with leaves match the flow");
   drop_nonsense(claimed);
   const LeafGraph graph = flown(flow, claimed, most_crossings, go_on);
   std::vector<std::uint8_t> holds(graph.ids());
   for (Id id = 0; id < graph.ids(); ++id) holds[id] = graph.is_open(id) ? 0 : 1;
 
-  // A greatest fixpoint, by removal; ranks make it one of ends that are met. The first round is
-  // nearly all of the work.
+  // A greatest fixpoint, by removal; because ranks fall, all its flights meet their ends. The first
+  // round is nearly all of the work.
   std::vector<std::uint8_t> fails(graph.ids(), 0);
   for_ranges(fails.size(), 1024, [&](std::size_t a, std::size_t b) {
     for (std::size_t i = a; i < b; ++i) {
@@ -121,7 +121,7 @@ SectionVerdicts reproved(const Flow& flow, SectionVerdicts claimed, int most_cro
       fallen.add(other);
     });
   }
-  // The ids of a new graph number the leaves in their order.
+  // The ids in a new graph number the leaves in order.
   for (std::size_t i = 0; i < claimed.leaves(); ++i) {
     if (holds[i] != 0) continue;
     claimed.verdict[i] = static_cast<std::uint8_t>(Verdict::undecided);

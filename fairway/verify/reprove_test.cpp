@@ -1,4 +1,4 @@
-// Leaves from outside: what is true of them is kept, and nothing that is not.
+// Leaves from outside: what is true is kept, and nothing else.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ std::vector<VerdictSet> answers(const Proved& proved, const SectionVerdicts& sec
   return found;
 }
 
-/// Nothing decided that is not so in `truth`, with its verdict, and no time that is shorter.
+/// Everything decided is decided in `truth`, with that verdict, and no time is shorter.
 void expect_true(const SectionVerdicts& said, const Proved& truth, const std::string& what) {
   const auto a = answers(truth, said);
   const auto b = answers(truth, truth.sections);
@@ -74,7 +74,7 @@ TEST(Reprove, KeepsAllThatWasProved) {
   }
 }
 
-TEST(Reprove, BelievesNoLie) {
+TEST(Reprove, KeepsNoFalseClaim) {
   struct Lie {
     const char* name;
     std::function<void(SectionVerdicts&, std::size_t, Random&)> tell;
@@ -114,7 +114,7 @@ TEST(Reprove, BelievesNoLie) {
       const SectionVerdicts kept = reproved(truth.loop.flow(), told, most_crossings);
       const std::string what = std::string(lie.name) + ", plan " + std::to_string(seed);
       expect_true(kept, truth, what);
-      // And what goes on from there is a proof again, by the same rule.
+      // And continuing from there gives a proof again, by the same rule.
       const SectionVerdicts on =
           certify(truth.loop.flow(), truth.loop.is_free, options_to(5), kept).sections;
       const SectionVerdicts again = reproved(truth.loop.flow(), on, most_crossings);

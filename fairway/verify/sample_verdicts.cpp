@@ -11,7 +11,7 @@
 namespace fairway {
 namespace {
 
-/// Gathers the verdicts of all ends that one state's flights may have.
+/// Collects the verdicts of all ends that one state's flights may have.
 struct Reader {
   const Flow& flow;
   const SectionView& sections;
@@ -45,8 +45,8 @@ class Sampler {
     return reader.found.only();
   }
 
-  /// One heading in each of equal slices; places of a Halton sequence, shifted at random so that
-  /// no two cells are looked at in the same places.
+  /// One heading in each of equal slices; positions from a Halton sequence, shifted at random so
+  /// that no two cells are sampled at the same positions.
   std::array<std::uint16_t, verdict_count> counts(const Grid& grid, Cell cell) const {
     Random random = Random::stream(options_.seed, grid.index(cell));
     const double shift_x = random.unit();
@@ -75,9 +75,9 @@ class Sampler {
 VerdictMap verdict_map_of(const Flow& flow, const SectionView& sections,
                           const VerdictMapOptions& options) {
   require(options.headings >= 1 && options.most_across >= 1 && options.most_crossings >= 1,
-          "a verdict map has at least one heading, one sample across, and flights that may cross");
+          "a verdict map has at least one heading, one sample across, and one crossing per flight");
   require(options.states_per_sample >= 0 && options.states_per_sample <= 65535,
-          "0 to 65535 states a sample");
+          "0 to 65535 states per sample");
   VerdictMap map = VerdictMap::over(flow.grid, options.headings, options.most_across);
   map.states_per_sample = options.states_per_sample;
   const Sampler sampler(flow, sections, options);

@@ -29,11 +29,11 @@ VerdictMap map_of(const PlanFlow& pf, const SectionVerdicts& sections,
   return verdict_map_of(pf.flow(), sections.view(), options);
 }
 
-/// Random plans by number: every style of field, with and without obstacles and silent cells.
+/// Random plans by number: every style of field, with and without obstacles and uncommanded cells.
 class VerdictMapOf : public ::testing::TestWithParam<std::uint64_t> {};
 INSTANTIATE_TEST_SUITE_P(RandomPlans, VerdictMapOf, ::testing::Range<std::uint64_t>(0, 18));
 
-/// All commands east, the goal a wall of cells at the east side, one obstacle in the way.
+/// All commands east, the goal a wall of cells on the east side, one obstacle in the way.
 Plan corridor() {
   Plan plan = empty_plan(12, 9, 8.0, 20.0);
   for (int iy = 0; iy < 9; ++iy) plan.region[plan.grid.index({11, iy})] = Region::goal;
@@ -114,15 +114,15 @@ TEST_P(VerdictMapOf, ACoarserOneIsTheFineOneAtTheMiddleCells) {
   }
 }
 
-TEST(VerdictMap, OfAMirroredPlanIsMirroredButForTheStepAside) {
+TEST(VerdictMap, OfAMirroredPlanIsMirroredExceptForTheOffset) {
   Plan plan = corridor();             // its own mirror image about the middle row
-  plan.vehicle.turn_radius_m = 22.3;  // quarter turns from the middles touch no row of cells
+  plan.vehicle.turn_radius_m = 22.3;  // quarter turns from the centres touch no row of cells
   const PlanFlow pf(plan);
   const VerdictMap map = map_of(pf, proved(pf, 9));
   int decided = 0;
   int other_way = 0;
   for (std::size_t h = 0; h < 8; ++h) {
-    if (h == 4) continue;  // opposite to the commands: the step aside decides the way to turn
+    if (h == 4) continue;  // opposite to the commands: the offset decides which way to turn
     for (int iy = 0; iy < map.ny; ++iy) {
       for (int ix = 0; ix < map.nx; ++ix) {
         const Verdict one = map.verdict_at(h, map.index(ix, iy));
@@ -153,7 +153,7 @@ TEST(VerdictMap, OfStatesThatAreAlignedIsKnownByHand) {
   EXPECT_EQ(map.kind[map.index(11, 2)], CellKind::target);
 }
 
-TEST(VerdictMap, LooksAtStatesCloseToTheMiddlesOfCells) {
+TEST(VerdictMap, SamplesStatesCloseToTheCentresOfCells) {
   const Plan plan = corridor();
   const PlanFlow pf(plan);
   const VerdictMap map = map_of(pf, undecided_sections(pf.flow(), 2));
@@ -180,7 +180,7 @@ TEST(VerdictMap, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(all.count, single.count);
 }
 
-TEST(VerdictMap, OfNothingProvedIsUndecidedButForStatesThatEndBeforeTheSection) {
+TEST(VerdictMap, OfNothingProvedIsUndecidedExceptForStatesThatEndBeforeTheSection) {
   const Plan plan = empty_plan(20, 20, 8.0, 20.0);
   const PlanFlow pf(plan);
   const SectionVerdicts nothing = undecided_sections(pf.flow(), 2);

@@ -1,27 +1,26 @@
 // Flying a set of states until every one of them is accounted for.
 //
-// The section is the set of states in which the vehicle leaves an ordinary cell with the cell's own
-// command as its heading, exactly. It is one-dimensional, for heading alignment is exact and
-// finite, and almost every flight soon meets it: what a plan does with all states follows from what
-// it does with those of the section, plus one short flight.
+// The section is the set of states in which the vehicle leaves an ordinary cell with exactly the
+// cell's own command as its heading. It is one-dimensional, because headings align exactly and in
+// finite time, and almost every flight soon meets it: what a plan does with all states follows from
+// what it does with those of the section, plus one short flight.
 //
 // The flight is followed as an enclosure, cell by cell, and branches where the set does. What
-// becomes of the states is told to a visitor:
+// happens to the states is reported to a visitor:
 //     void arrive(std::size_t section, Interval along_m, double length_m, bool hop)  on the section
 //     void end(Verdict, double length_m)      in a target or obstacle cell, outside, or circling
-//     void give_up()   too wide, too long or too many pieces to say; what was told is not all
-// length_m bounds what has been flown until then.
+//     void give_up()   too wide, too long or too many pieces; the reports are incomplete
+// length_m bounds the length flown so far.
 //
 // Properties that always hold, when cell_m < turn_radius_m:
-//   1. Every state of the start meets one of the things told, with its place inside the interval
-//      told: no state is lost. Something is always told.
-//   2. On contact with a corner every cell around it is told of; heading along a border, both.
-//   3. `end(trapped)` is told only of states on a circle that comes back to the same border through
-//      the same cells without aligning: motion on a circle repeats.
-//   4. A `hop` is one wave of a weave: out over a border and back, on two arcs, to the section
-//   where
-//      the start stood. Both arcs depend on the command and the border's direction alone, so all
-//      states of the start were moved along the border by the same distance.
+//   1. Every state of the start meets one of the things reported, with its place inside the
+//      interval reported: no state is lost. Something is always reported.
+//   2. On contact with a corner every cell around it is reported; heading along a border, both.
+//   3. `end(trapped)` is reported only for states on a circle that comes back to the same border
+//      through the same cells without aligning: motion on a circle repeats.
+//   4. A `hop` is one wave of a weave: out over a border and back, on two arcs, to the section of
+//      the start. Both arcs depend only on the command and the border's direction, so all states
+//      of the start were moved along the border by the same distance.
 // A section is named 4 * cell + side.
 #pragma once
 
@@ -37,7 +36,7 @@
 
 namespace fairway {
 
-/// A set of states in one cell, with what its flight so far allows to conclude.
+/// A set of states in one cell, with what can be concluded from its flight so far.
 struct Front {
   int ix = 0;
   int iy = 0;
@@ -47,7 +46,7 @@ struct Front {
   flight_memory::Hop hop;
   flight_memory::Wave wave;
   flight_memory::Circle circle;
-  /// Runs along this side, straight, and so does the same set in the cell beyond it.
+  /// Runs straight along this side, as does the same set in the cell beyond it.
   int grazed = -1;
 };
 
@@ -57,7 +56,7 @@ inline int step_x(Side s) { return s == Side::right ? 1 : s == Side::left ? -1 :
 inline int step_y(Side s) { return s == Side::top ? 1 : s == Side::bottom ? -1 : 0; }
 inline Side opposite(Side s) { return static_cast<Side>((static_cast<int>(s) + 2) & 3); }
 
-/// The order of a cell for states whose heading is exactly `tag` (NaN: not known exactly).
+/// The command of a cell for states whose heading is exactly `tag` (NaN: not known exactly).
 inline CellOrder order_for(float command, float tag) {
   CellOrder order;
   order.has_command = !std::isnan(command);
@@ -109,14 +108,14 @@ class Follower {
     std::size_t cell;    // left
     std::size_t border;  // crossed, as a section of that cell
     CellDeparture leave;
-    bool sole;  // all states of the front leave so
+    bool sole;  // all states of the front leave this way
   };
 
   void depart(Crossing& crossing, float tag) {
     const Front& from = crossing.from;
     CellDeparture& leave = crossing.leave;
     const bool hop = flight_memory::comes_back_as_the_command(from.hop, crossing.border);
-    if (hop && leave.aligned) return;  // to align and to leave are one event, told once
+    if (hop && leave.aligned) return;  // aligning and leaving are one event, reported once
     if (hop) {
       tag = flow_.heading_rad[crossing.cell];
       leave.aligned = true;
@@ -148,8 +147,8 @@ class Follower {
     push(next);
   }
 
-  /// Over the border on an arc: what is remembered of arcs. False when the circle is closed, which
-  /// is told.
+  /// Over the border on an arc: updates what is remembered about arcs. False when the circle is
+  /// closed, which is reported.
   bool turns_on(Crossing& crossing, Front& next) {
     const Front& from = crossing.from;
     CellDeparture& leave = crossing.leave;
@@ -170,10 +169,10 @@ class Follower {
     return true;
   }
 
-  /// A weave over one border with two arcs a wave keeps its angle n to the border; each wave moves
-  /// every state on by 4 r sin n, and so will the next, as long as it lands between the same two
-  /// cells (nothing but the place along the border differs). Waves that certainly do are skipped in
-  /// one step.
+  /// A weave over one border with two arcs per wave keeps its angle n to the border; each wave
+  /// moves every state by 4 r sin n, and so does the next, as long as it lands between the same two
+  /// cells (only the place along the border differs). Waves that certainly do are skipped in one
+  /// step.
   void ride_waves(Crossing& crossing, std::size_t back, Front& next) {
     const flight_memory::Wave& wave = crossing.from.wave;
     CellDeparture& leave = crossing.leave;
@@ -204,7 +203,7 @@ class Follower {
   }
 
   /// The states that leave through the corner at the low (-1) or high (+1) end of the side touch
-  /// two more cells: the one beside the cell left, and the one across the corner, which they enter.
+  /// two more cells: the neighbour of the cell left, and the one they enter across the corner.
   void corner(Front next, const CellDeparture& leave, const Front& front, bool there, int end) {
     if (!there) return;
     const Interval onwards = cell_enclosure::along(leave.heading, leave.side);
@@ -226,8 +225,8 @@ class Follower {
     push(next);
   }
 
-  /// Heading exactly along the side through which they would enter, towards a cell whose command
-  /// turns out of it again: no motion is in that cell for any time.
+  /// Heading exactly along the side through which they would enter, into a cell whose command turns
+  /// out of it again: no motion stays in that cell for any length of time.
   bool turns_back(const Front& next, const IntervalVec2& heading, Side side) const {
     const Interval into = cell_enclosure::outward_part(heading, side);
     if (into.lo != 0.0 || into.hi != 0.0) return false;
@@ -269,7 +268,7 @@ inline bool is_section(const Flow& flow, std::size_t section) {
              .positive();
 }
 
-/// Follows `start` in an ordinary cell through at most `most_crossings` cells, branches counted.
+/// Follows `start` in an ordinary cell through at most `most_crossings` cells, counting branches.
 template <typename Visitor>
 void follow_to_section(const Flow& flow, const Front& start, int most_crossings, Visitor& visitor) {
   section_flight::Follower<Visitor> follower(flow, most_crossings, visitor);

@@ -59,7 +59,7 @@ double member(Random& random, Interval x) {
   return std::min(x.hi, x.lo + random.unit() * x.width());
 }
 
-TEST(SectionFlight, MeetsOneOfTheThingsToldFromEveryPlaceOfTheStart) {
+TEST(SectionFlight, MeetsOneOfTheThingsReportedFromEveryPlaceOfTheStart) {
   Random random(1);
   int flown = 0;
   int given_up = 0;
@@ -118,7 +118,7 @@ TEST(SectionFlight, HopsMoveEveryPlaceByTheSameDistance) {
           const Flow flow = plan_flow.flow();
           const WideCommands<Wide> commands(flow);
           const std::size_t section = section_of(2, Side::top);
-          // Of the command as it is stored.
+          // For the command as stored.
           const double move = 4.0 / ratio * std::sin(static_cast<double>(plan.heading_rad[2]));
           const Interval along_m = part_of_side(random, 1.0);
           Told told;
@@ -127,7 +127,7 @@ TEST(SectionFlight, HopsMoveEveryPlaceByTheSameDistance) {
             if (!a.hop) continue;
             ++hops;
             ASSERT_EQ(a.section, section);
-            // From a leaf, as the prover asks: never more than the true move.
+            // From a leaf, as in the prover: never more than the true move.
             const UnitRange leaf = units_of(along_m, 1.0);
             const double least = least_move({0, units_of(a.along_m, 1.0), 0.0F, true}, leaf);
             ASSERT_LE(least, move * 0x1p32 * (1.0 + 1e-6) + 4.0) << angle << " " << ratio;
@@ -147,7 +147,7 @@ TEST(SectionFlight, HopsMoveEveryPlaceByTheSameDistance) {
   EXPECT_GT(hops, 60);
 }
 
-/// Lemma 5: the place where a wave begins plays no part in how far it goes.
+/// Lemma 5: how far a wave goes does not depend on where it starts.
 TEST(SectionFlight, WavesMoveEveryPlaceByFourRadiiTimesTheSineOfTheirAngle) {
   Random random(9);
   for (int i = 0; i < 300; ++i) {
@@ -255,12 +255,12 @@ Plan silent_plan() {
   return plan;
 }
 
-TEST(SectionFlight, TellsOfEveryCellAroundACornerItPassesThrough) {
+TEST(SectionFlight, ReportsEveryCellAroundACornerItPassesThrough) {
   const double diagonal = std::sqrt(0.5);
   const Interval plus{below(diagonal), above(diagonal)};
   for (const int dx : {-1, 1}) {
     for (const int dy : {-1, 1}) {
-      // From the middle cell through its corner: beside it either way, and across.
+      // From the middle cell through its corner: to the neighbours on both sides, and across.
       for (const Cell blocked : {Cell{1 + dx, 1}, Cell{1, 1 + dy}, Cell{1 + dx, 1 + dy}}) {
         Plan plan = silent_plan();
         plan.region[plan.grid.index(blocked)] = Region::obstacle;
@@ -269,14 +269,14 @@ TEST(SectionFlight, TellsOfEveryCellAroundACornerItPassesThrough) {
                                         {dx > 0 ? plus : -plus, dy > 0 ? plus : -plus});
         EXPECT_TRUE(tells(told, Verdict::collide)) << dx << dy << told.text();
       }
-      // The one across is entered.
+      // The cell across is entered.
       Plan plan = silent_plan();
       plan.region[plan.grid.index({1 + dx, 1 + dy})] = Region::goal;
       const PlanFlow plan_flow(plan);
       const Told told = told_straight(plan_flow.flow(), {0.5, 0.5},
                                       {dx > 0 ? plus : -plus, dy > 0 ? plus : -plus});
       EXPECT_TRUE(tells(told, Verdict::reach)) << dx << dy << told.text();
-      // Well beside the corner the cell beside it is not touched.
+      // Well away from the corner, the cell next to it is not touched.
       Plan walled = silent_plan();
       walled.region[walled.grid.index({1 + dx, 1})] = Region::obstacle;
       const PlanFlow walled_flow(walled);
@@ -300,13 +300,13 @@ TEST(SectionFlight, TouchesWhatLiesBeyondABorderItRunsAlong) {
         EXPECT_TRUE(tells(told, region == Region::goal ? Verdict::reach : Verdict::collide))
             << heading << " at " << y << told.text();
         EXPECT_TRUE(tells(told, Verdict::leave)) << told.text();
-        // The cell right above where it starts is touched, too.
+        // The cell directly above its start is touched, too.
         Plan above_it = silent_plan();
         above_it.region[above_it.grid.index({1, y == 0.0 ? 0 : 2})] = region;
         const PlanFlow above_flow(above_it);
         EXPECT_TRUE(tells(told_straight(above_flow.flow(), {0.5, y}, {heading, 0.0}),
                           region == Region::goal ? Verdict::reach : Verdict::collide));
-        // A border's breadth away nothing is.
+        // Slightly away from the border, nothing is.
         EXPECT_FALSE(tells(told_straight(above_flow.flow(), {0.5, 0.5}, {heading, 0.0}),
                            region == Region::goal ? Verdict::reach : Verdict::collide));
       }
@@ -314,7 +314,7 @@ TEST(SectionFlight, TouchesWhatLiesBeyondABorderItRunsAlong) {
   }
 }
 
-TEST(SectionFlight, GivesUpRatherThanSayHalf) {
+TEST(SectionFlight, GivesUpRatherThanReportHalf) {
   const Plan plan = random_plan(0);
   const PlanFlow plan_flow(plan);
   const Flow flow = plan_flow.flow();

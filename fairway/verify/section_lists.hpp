@@ -1,5 +1,5 @@
-// A list for each section, all in one array: a list is a block of it that grows into one of twice
-// the size, and leaves its old place to another.
+// A list for each section, all in one array: a list is a block of the array that grows into one of
+// twice the size; its old block is reused by other lists.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ class SectionLists {
     block[at] = value;
     ++list.count;
   }
-  /// The last entry takes the place of the one removed.
+  /// The last entry replaces the one removed.
   void remove(std::size_t section, std::size_t at) {
     List& list = list_[section];
     T* const block = slot_.data() + list.first;
@@ -73,7 +73,7 @@ class SectionLists {
 
   std::vector<List> list_;
   std::vector<T> slot_;
-  std::vector<std::vector<std::uint32_t>> free_;  // [power] blocks left
+  std::vector<std::vector<std::uint32_t>> free_;  // [power] free blocks
 };
 
 }  // namespace fairway

@@ -2,12 +2,13 @@
 //
 // Properties that always hold:
 //   1. A section has leaves exactly when its cell is ordinary, has a command that points out of
-//      that side, and the cell beyond it is ordinary. Its leaves cover it: begins ascend from 0.
+//      that side, and the cell beyond it is ordinary. Its leaves cover it: they start from 0, in
+//      ascending order.
 //   2. A leaf with verdict reach, collide or leave depends only on leaves of the same verdict and
 //      of lower rank; one with verdict trapped only on leaves with verdict trapped. (The image of a
 //      leaf under the flight to the section lies in those leaves, or ends with that verdict.)
-//   3. time_s of a leaf is not less than the time of flight to any leaf it depends on and that
-//      one's time_s together; +inf when trapped.
+//   3. time_s of a leaf is at least the time of flight to any leaf it depends on plus that leaf's
+//      time_s; +inf when trapped.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +28,7 @@ struct SectionVerdicts {
 
   std::size_t leaves() const { return begin.size(); }
   SectionView view() const { return {first.data(), begin.data(), verdict.data(), time_s.data()}; }
-  /// From a leaf's begin to its end: the next leaf's begin, the last unit at the side's end.
+  /// From a leaf's start to its end: the next leaf's start, or the last unit at the side's end.
   UnitRange range_of(std::size_t section, std::size_t leaf) const {
     return {begin[leaf], leaf + 1 < first[section + 1] ? begin[leaf + 1] : 0xffffffffU};
   }

@@ -1,8 +1,8 @@
-// What is proved of the section (section_flight.hpp): every section is cut into leaves, and a leaf
-// has one verdict. A view: it owns nothing, so that it can look into a mapped file.
+// What is proved about the section (section_flight.hpp): every section is cut into leaves, and a
+// leaf has one verdict. A view: it owns nothing, so that it can refer to a mapped file.
 //
-// Places along a side are counted in units of cell_m / 2^32. A leaf holds every place from its
-// begin to the next leaf's begin (or the side's end), both ends included.
+// Places along a side are measured in units of cell_m / 2^32. A leaf holds every place from its
+// start to the next leaf's start (or the side's end), both ends included.
 #pragma once
 
 #include <cmath>
@@ -19,14 +19,14 @@ namespace fairway {
 
 inline constexpr double units_per_side = 0x1p32;
 
-/// The array "geometry" of a certificate's file: the grid's place and the vehicle, by name.
+/// The array "geometry" of a certificate's file: the grid's position and the vehicle, by name.
 struct Geometry {
   double x0_m;
   double y0_m;
   double cell_m;
   double turn_radius_m;
   double speed_mps;
-  double units;  ///< units_per_side, so that a reader knows what places mean
+  double units;  ///< units_per_side, which gives places their meaning
 
   static Geometry of(const Grid& grid, const Vehicle& vehicle) {
     return {grid.x0_m,         grid.y0_m,     grid.cell_m, vehicle.turn_radius_m,
@@ -48,8 +48,8 @@ struct Geometry {
 inline constexpr std::size_t geometry_numbers = 6;
 static_assert(sizeof(Geometry) == geometry_numbers * sizeof(double));
 
-/// A range of places in whole units, both ends included; wide enough for the interval it came from
-/// and one unit more on either side, so that other arithmetic finds the same leaves.
+/// A range of places in whole units, both ends included; it covers the interval it came from and
+/// one more unit on either side, so that other arithmetic finds the same leaves.
 struct UnitRange {
   std::uint32_t lo = 0;
   std::uint32_t hi = 0;
@@ -64,7 +64,7 @@ inline UnitRange units_of(Interval along_m, double cell_m) {
   return {clamped(std::floor(along_m.lo * scale) - 1.0),
           clamped(std::ceil(along_m.hi * scale) + 1.0)};
 }
-/// The places of a range, as an interval that holds them and a unit more either side. The last
+/// The places of a range, as an interval that holds them and one more unit on either side. The last
 /// unit of a side stands for the side's end.
 inline Interval along_of(UnitRange range, double cell_m) {
   const double unit_m = cell_m / units_per_side;
@@ -93,7 +93,7 @@ struct VerdictSet {
 };
 
 struct SectionView {
-  const std::uint32_t* first = nullptr;   ///< [4 cells + 1]: a section's leaves begin here
+  const std::uint32_t* first = nullptr;   ///< [4 cells + 1]: a section's leaves start here
   const std::uint32_t* begin = nullptr;   ///< [leaves], units; ascending in a section, from 0
   const std::uint8_t* verdict = nullptr;  ///< [leaves]
   const float* time_s = nullptr;          ///< [leaves], bound of the time to the verdict
@@ -104,7 +104,7 @@ struct SectionView {
     std::size_t low = first[section];
     const std::size_t end = first[section + 1];
     if (low == end) return false;
-    for (std::size_t count = end - low; count > 1;) {  // the last leaf that begins at or before
+    for (std::size_t count = end - low; count > 1;) {  // the last leaf that starts at or before
       const std::size_t half = count / 2;
       if (begin[low + half] <= range.lo) low += half;
       count -= half;

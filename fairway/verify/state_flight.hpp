@@ -1,10 +1,10 @@
 // A flight from any state of the configuration space to the section.
 //
 // Properties that always hold: those of section_flight.hpp; and a state on a border, exactly or
-// within rounding, is followed in every cell it may belong to: the one its heading points into,
-// both when it may run along the border. Contact with a closed obstacle cell is told as `collide`.
-// Within rounding means of the numbers given, too: who computes the place of a border or a heading
-// opposite to a command in doubles is told what holds for the border and both turns.
+// within rounding, is followed in every cell it may belong to: the one its heading points into, or
+// both when it may run along the border. Contact with a closed obstacle cell is a `collide`.
+// Within rounding includes the numbers given: a caller who computes the position of a border, or a
+// heading opposite to a command, in doubles gets what holds for the border and both turns.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace fairway {
 
 namespace state_flight {
 
-/// The sum, the double itself when it is exact (Knuth's two-sum).
+/// The sum; a single double when it is exact (Knuth's two-sum).
 inline Interval sum(double a, double b) {
   const double s = a + b;
   const double t = s - a;
@@ -25,7 +25,7 @@ inline Interval sum(double a, double b) {
   return error == 0.0 ? Interval(s) : outward(s, s);
 }
 
-/// Places `cell` cells after `origin` may have on an axis.
+/// The possible positions `cell` cells after `origin` on an axis.
 inline Interval border(double origin, int cell, double cell_m) {
   const double product = cell * cell_m;
   const bool exact = std::fma(static_cast<double>(cell), cell_m, -product) == 0.0;
@@ -36,7 +36,7 @@ inline Interval after(double position, Interval border) {
   return border.lo == border.hi ? sum(position, -border.lo) : Interval(position) - border;
 }
 
-/// `position` in the coordinates of `cell` along one axis, reckoned from both borders unless both
+/// `position` in the coordinates of `cell` along one axis, computed from both borders unless both
 /// are exact.
 inline Interval local(double position, double origin, int cell, double cell_m) {
   const Interval low = after(position, border(origin, cell, cell_m));
@@ -45,7 +45,7 @@ inline Interval local(double position, double origin, int cell, double cell_m) {
   return hull(low, Interval(cell_m) + high);
 }
 
-/// Unit vectors within 2^-50 of a heading: 8 units of rounding of a number near pi. 0 is exact.
+/// Unit vectors within 2^-50 of a heading: 8 rounding units of a number near pi. 0 is exact.
 inline IntervalVec2 direction(double rad) {
   const IntervalVec2 u = unit_enclosure(rad);
   if (rad == 0.0) return u;
@@ -53,7 +53,7 @@ inline IntervalVec2 direction(double rad) {
   return {intersection(u.x + slack, {-1.0, 1.0}), intersection(u.y + slack, {-1.0, 1.0})};
 }
 
-/// False when a state at `p`, exactly on a side of the cell, heads out of it: another's state.
+/// False when a state at `p`, exactly on a side of the cell, heads out of it (into another).
 inline bool belongs(Interval p, Interval u, double cell_m) {
   const bool on_low = p.lo == 0.0 && p.hi == 0.0;
   const bool on_high = p.lo == cell_m && p.hi == cell_m;
@@ -63,7 +63,7 @@ inline bool belongs(Interval p, Interval u, double cell_m) {
 }  // namespace state_flight
 
 /// Follows the state (x_m, y_m, heading_rad), any finite numbers, within 2^30 cells of the grid, as
-/// a set the size of rounding.
+/// a set as small as rounding errors.
 template <typename Visitor>
 void follow_state_as_set(const Flow& flow, double x_m, double y_m, double heading_rad,
                          int most_crossings, Visitor& visitor) {
@@ -95,7 +95,7 @@ void follow_state_as_set(const Flow& flow, double x_m, double y_m, double headin
   }
 }
 
-/// The same, with no set where plain doubles are beyond doubt.
+/// The same, without a set where double precision provably suffices.
 template <typename Visitor>
 void follow_state(const Flow& flow, double x_m, double y_m, double heading_rad, int most_crossings,
                   Visitor& visitor) {

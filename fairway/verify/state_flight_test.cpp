@@ -60,8 +60,8 @@ double heading(Random& random, const Flow& flow) {
   return Heading::from_rad(h + off[random.below(off.size())]).rad();
 }
 
-/// Calls with the cell and the exact place in it, for every closed cell that holds the start and
-/// that its heading does not point out of at once.
+/// Calls with the cell and the exact place in it, for every closed cell that contains the start and
+/// that its heading does not leave at once.
 template <typename Body>
 void for_own_cells(const Flow& flow, const Start& s, const WideVec<Wide>& u, const Body& body) {
   const Wide d(flow.grid.cell_m);
@@ -79,8 +79,8 @@ void for_own_cells(const Flow& flow, const Start& s, const WideVec<Wide>& u, con
   }
 }
 
-/// Heading along the border on which it stands, and turned out of the cell at once: the state is no
-/// state of that cell (docs/trust.md, lemma 4).
+/// Heading along the border it is on, and turned out of the cell at once: the state does not belong
+/// to that cell (docs/trust.md, lemma 4).
 bool turns_out(const WideVec<Wide>& p, const WideVec<Wide>& u, const WideVec<Wide>& command,
                double cell_m) {
   const Wide d(cell_m);
@@ -88,7 +88,7 @@ bool turns_out(const WideVec<Wide>& p, const WideVec<Wide>& u, const WideVec<Wid
          (p.y == 0 && u.y == 0 && command.y < 0) || (p.y == d && u.y == 0 && command.y > 0);
 }
 
-TEST(StateFlight, MeetsOneOfTheThingsToldFromEveryCellTheStateBelongsTo) {
+TEST(StateFlight, MeetsOneOfTheThingsReportedFromEveryCellTheStateBelongsTo) {
   Random random(1);
   int flown = 0;
   for (std::uint64_t number = 0; number < 120; ++number) {
@@ -163,7 +163,7 @@ TEST(StateFlight, CountsContactWithAClosedObstacleAsACollisionEvenHeadingAway) {
   EXPECT_FALSE(tells(told_of(flow, 0.999999, 1.5, pi), Verdict::collide));
 }
 
-TEST(StateFlight, IsNoStateOfACellThatItsHeadingPointsOutOf) {
+TEST(StateFlight, DoesNotBelongToACellThatItsHeadingPointsOutOf) {
   // On the border of a target, heading away: it has not reached it. On the grid's edge, heading in:
   // it has not left.
   Plan plan = empty_plan(3, 3, 1.0, 2.0);
@@ -208,8 +208,8 @@ TEST(StateFlight, TakesPlacesAndHeadingsComputedInDoublesForWhatTheyStandFor) {
     ASSERT_TRUE(tells(told_of(up, y, up.grid.y0_m + 3 * d, 1.4), Verdict::collide)) << d;
     ASSERT_TRUE(tells(told_of(up, y, up.grid.y0_m + up.grid.ny * d, 1.4), Verdict::leave)) << d;
   }
-  // A heading opposite to the command in doubles: both turns. Left leaves by the left, right by the
-  // right half.
+  // A heading opposite to the command in doubles: both turns. The left turn leaves by the left
+  // half, the right turn by the right half.
   for (int i = 0; i < 500; ++i) {
     Plan plan = empty_plan(4, 4, 1.0, 1.2);
     const float command = Heading::stored(random.uniform(-pi, pi));

@@ -1,4 +1,4 @@
-// Where a proof begins.
+// Where a proof starts.
 #pragma once
 
 #include "fairway/verify/flow.hpp"

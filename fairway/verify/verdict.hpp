@@ -1,5 +1,5 @@
-// What is known of a state (docs/model.md): one of the four outcomes, proved, or undecided. What a
-// verdict is called, whether it is a failure, and where it is listed stand here alone.
+// What is known about a state (docs/model.md): one of the four outcomes, proved, or undecided. The
+// names of verdicts, which ones are failures, and their order in lists are defined only here.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ enum class Verdict : std::uint8_t { undecided = 0, reach = 1, collide = 2, leave
 
 inline constexpr int verdict_count = 5;
 
-/// In which pictures, sentences and the page list them.
+/// The order in which pictures, sentences and the page list them.
 inline constexpr std::array<Verdict, verdict_count> verdicts_in_order{
     Verdict::reach, Verdict::collide, Verdict::leave, Verdict::trapped, Verdict::undecided};
 

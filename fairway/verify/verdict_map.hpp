@@ -1,11 +1,11 @@
-// What is known of sampled states of a plan, place by place: a noun for pictures and statistics.
+// What is known about sampled states of a plan, place by place: a noun for pictures and statistics.
 //
 // Properties that always hold:
-//   1. Sample (ix, iy) looks at one cell: the middle one of its block of cells_per_sample^2 cells
+//   1. Sample (ix, iy) stands for one cell: the middle one of its block of cells_per_sample^2 cells
 //      (of those that lie in the grid).
-//   2. It looks at a state beside the cell's middle, by less than a thirtieth of a cell and half a
-//      thousandth of a radian: from the middle itself, flights at multiples of 45 degrees go
-//      through corners and meet their commands exactly reversed. Such ties are of no volume, but a
+//   2. Its state is slightly off the cell's centre, by less than a thirtieth of a cell and half a
+//      thousandth of a radian: from the centre itself, flights at multiples of 45 degrees go
+//      through corners and meet their commands exactly reversed. Such ties have no volume, but a
 //      picture would show them as areas.
 //   3. Where that cell is not ordinary there are no states: verdicts are undecided, counts 0.
 //      Elsewhere the counts sum to states_per_sample.
@@ -28,8 +28,8 @@ struct VerdictMap {
   int cells_per_sample = 1;
   int nx = 0;  ///< samples: cells / cells_per_sample, rounded up
   int ny = 0;
-  std::vector<double> heading_rad;  ///< [headings], of the states looked at
-  std::vector<CellKind> kind;       ///< [ny][nx], of the cell looked at
+  std::vector<double> heading_rad;  ///< [headings], of the sampled states
+  std::vector<CellKind> kind;       ///< [ny][nx], of the sampled cell
   std::vector<Verdict> verdict;     ///< [headings][ny][nx], at place_m
   int states_per_sample = 0;
   /// [ny][nx][Verdict]: verdicts of states spread evenly over the cell's places and all headings.
@@ -65,7 +65,7 @@ struct VerdictMap {
   Verdict verdict_at(std::size_t heading, std::size_t sample) const {
     return verdict[heading * samples() + sample];
   }
-  /// The cell that a sample looks at.
+  /// The cell that a sample stands for.
   Cell cell_of_sample(std::size_t sample) const {
     const auto columns = static_cast<std::size_t>(nx);
     return {middle(static_cast<int>(sample % columns), grid.nx),

@@ -4,13 +4,13 @@
 //   fairway-falsify [PLAN.safetensors ...] [--random-plans N] [--states N] [--seed S]
 //                   [--undecided-max F] [--time-limit S] [--last-level L] [--odd-plans N]
 //
-// --odd-plans: so many plans at the edges of what a plan may be are certified, measured with few
-// and with many samples, and checked: whatever verify makes, fairway-check accepts.
+// --odd-plans: certifies this many plans at the limits of what a plan may be, measures them with
+// few and with many samples, and checks them: fairway-check must accept everything verify makes.
 //
-// Half of the states of a plan are drawn at random, degenerate ones among them; half lie where the
-// verdict or the flight's outcome changes, found by halving the way between two states. What
-// differs from the flight in double is flown again in 237 bits, both ways where the model leaves a
-// choice. Exit code 1 on any contradiction.
+// Half of the states of a plan are drawn at random, including degenerate ones; half lie where the
+// verdict or the flight's outcome changes, found by bisection between two states. States whose
+// verdict differs from the flight in double are flown again in 237 bits, both ways where the model
+// leaves a choice. Exit code 1 on any contradiction.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -55,7 +55,7 @@ struct Totals {
   std::size_t undecided = 0;
   std::size_t contradictions = 0;
   std::size_t late = 0;     // flown longer than the bound
-  std::size_t refuted = 0;  // the flight in double was wrong, the one in 237 bits agrees
+  std::size_t refuted = 0;  // the flight in double was wrong; the one in 237 bits agrees
   std::size_t unknown = 0;  // not settled in 237 bits either
   std::array<std::size_t, verdict_count> by_verdict{};
 
@@ -196,13 +196,13 @@ class Falsifier {
   /// Two states between which the verdict or the flight's outcome changes.
   struct Pair {
     Place a, b;
-    Verdict verdict;  // of a, as is the outcome
+    Verdict verdict;  // of a, like the outcome
     Outcome outcome;
     bool by_verdict;
   };
   static constexpr std::size_t halvings = 44;
 
-  /// Some states of every combination of verdict and outcome, to make pairs of.
+  /// Some states of every combination of verdict and outcome, to form pairs.
   void remember(const std::vector<Place>& states, const Checked& checked) {
     for (std::size_t i = 0; i < states.size(); ++i) {
       const auto verdict = static_cast<std::size_t>(checked.verdicts[i].only());
@@ -216,7 +216,7 @@ class Falsifier {
     }
   }
 
-  /// Neighbours that differ: few where most states share one verdict.
+  /// Neighbours that differ: few when most states share one verdict.
   void add_near_pairs(std::size_t most, std::vector<Pair>& pairs) {
     std::vector<Place> a;
     std::vector<Place> b;
@@ -234,7 +234,7 @@ class Falsifier {
     }
   }
 
-  /// Any two that differ, wherever they are: some boundary lies between them.
+  /// Any two states that differ, wherever they are: some boundary lies between them.
   void add_far_pairs(std::size_t most, std::vector<Pair>& pairs) {
     std::vector<std::size_t> kinds;
     for (std::size_t k = 0; k < pools_.size(); ++k) {
@@ -256,7 +256,7 @@ class Falsifier {
     }
   }
 
-  /// Halves the way between the states of pairs; every middle is checked.
+  /// Bisects between the states of pairs; every midpoint is checked.
   void aim(std::size_t count) {
     std::vector<Pair> pairs;
     add_near_pairs(count / (2 * halvings), pairs);
@@ -390,7 +390,7 @@ Settings settings_of(int argc, char** argv) {
       continue;
     }
     if (i + 1 == argc) {
-      fmt::print(stderr, "{}: a number is expected after it\n", word);
+      fmt::print(stderr, "{}: expected a number after it\n", word);
       std::exit(64);
     }
     const double number = std::strtod(argv[++i], nullptr);

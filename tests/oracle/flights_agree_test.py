@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Plans the demonstration's scenarios with FAIRWAY and flies random states by both programs.
+"""Plans the demonstration's scenarios with FAIRWAY and flies random states with both programs.
 
     flights_agree_test.py FAIRWAY DEMO_FOLDER
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""An independent exact flight of a plan file, to hold `fairway simulate` against.
+"""An independent exact flight of a plan file, to compare `fairway simulate` with.
 
 Written from the model alone, in angles where the library uses vectors: the centre of the turning
 circle, the angle at which the circle leaves through each of the four sides (one arcsine or
@@ -12,12 +12,13 @@ All flights advance together, one cell per step, in numpy.
     fly.py PLAN.safetensors --random 20000 --command build/release/bin/fairway
 
 --compare reads `x_m,y_m,heading_rad,outcome,time_s,length_m`, prints how many outcomes agree and
-the largest relative difference of times among them; --command lets the program fly the states and
+the largest relative difference of times among them; --command has the program fly the states and
 compares. Exit code 1 when fewer than 99.99 % agree or a time differs by more than 1e-6.
-A flight that weaves along a border (arcs out of and back into the same side, in two cells in turn)
-repeats itself shifted until a corner is near; such repeats are added up at once (--no-leaps: not).
+A flight that weaves along a border (arcs out of and back into the same side, alternating between
+two cells) repeats itself, shifted, until a corner is near; such repeats are skipped in one step
+unless --no-leaps is given.
 
-Ties (headings along a border, exact corners) are not this program's business: random states.
+Ties (headings along a border, exact corners) are out of scope: states are random.
 """
 
 import argparse
@@ -88,7 +89,7 @@ def side_angles(x, y, h, turn, d, r):
 def cross_cell(x, y, h, psi, d, r):
     """One cell for many flights.
 
-    Exit x, y, h, side (0 right, 1 top, 2 left, 3 bottom), length, whether (all but) an arc alone.
+    Exit x, y, h, side (0 right, 1 top, 2 left, 3 bottom), length, whether it is (almost) only an arc.
     """
     difference = psi - h
     turn_by = np.where(np.isnan(psi), 0.0, wrapped(difference))
@@ -128,7 +129,7 @@ def cross_cell(x, y, h, psi, d, r):
 
 
 def leap(x, y, h, vertical, weaves, d, r):
-    """Moves weaving flights (in place) by pairs of hops to near the next corner; length flown."""
+    """Moves weaving flights (in place) by pairs of hops close to the next corner; length flown."""
     along = np.where(vertical, y, x)
     across = np.abs(np.where(vertical, np.cos(h), np.sin(h)))
     upwards = np.where(vertical, np.sin(h), np.cos(h)) > 0.0
@@ -152,7 +153,7 @@ def fly(plan, states, length_limit=None, leaps=True):
     if length_limit is None:
         length_limit = 4.0 * plan.nx * plan.ny * d + 1000.0 * TWO_PI * r
 
-    # A ring of cells outside the grid, so that no index needs a test.
+    # A ring of cells outside the grid, so that no index needs a check.
     region = np.full((plan.ny + 2, plan.nx + 2), 99, np.int8)
     region[1:-1, 1:-1] = plan.region
     heading = np.full((plan.ny + 2, plan.nx + 2), np.nan)
@@ -217,7 +218,7 @@ def fly(plan, states, length_limit=None, leaps=True):
 
 
 def random_states(plan, count, seed):
-    """Uniform over cells that are no obstacle."""
+    """Uniform over cells that are not obstacles."""
     draw = np.random.default_rng(seed)
     cells = np.nonzero(plan.region.ravel() != OBSTACLE)[0]
     cell = draw.choice(cells, count)
@@ -238,7 +239,7 @@ def write_states(path, states):
 
 
 def compare(plan, states, outcome, length, rows):
-    """Prints how far another program's rows agree; True when they hold the bar."""
+    """Prints how well another program's rows agree; True when they meet the threshold."""
     if len(rows) != len(states):
         print(f"{len(rows)} rows for {len(states)} states")
         return False
@@ -274,7 +275,7 @@ def main():
     parser.add_argument("--outcomes")
     parser.add_argument("--compare")
     parser.add_argument("--no-leaps", action="store_true")
-    parser.add_argument("--command", help="the fairway program: fly the states with it and compare")
+    parser.add_argument("--command", help="the fairway program to fly the states with, for comparison")
     options = parser.parse_args()
     plan = Plan(options.plan)
     if options.states:
@@ -283,7 +284,7 @@ def main():
     elif options.random:
         states = random_states(plan, options.random, options.seed)
     else:
-        parser.error("--states or --random")
+        parser.error("expected --states or --random")
     if options.write_states:
         write_states(options.write_states, states)
 

@@ -1,4 +1,4 @@
-// For tests: rasters as another program reads them.
+// For tests: rasters as other programs read them.
 #pragma once
 
 #include <cstddef>

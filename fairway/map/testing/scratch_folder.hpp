@@ -1,4 +1,4 @@
-// For tests: a folder of their own that goes away, files in it, and errors caught as texts.
+// For tests: a temporary folder, files in it, and errors caught as text.
 #pragma once
 
 #include <unistd.h>
@@ -39,8 +39,7 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-/// The message of the InputError that `act` throws, with the folder's path taken out; else "no
-/// error".
+/// The message of the InputError that `act` throws, without the folder's path; else "no error".
 template <typename Act>
 std::string input_error_of(const Act& act) {
   try {

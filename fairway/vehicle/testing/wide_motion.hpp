@@ -1,9 +1,9 @@
 // An oracle for tests: the exact motion through one cell in a wide number type, from docs/model.md
-// alone. No source of geometry is shared with the code under test: every candidate event is a point
-// of the circle, ordered by the tangent of half the angle turned.
+// alone. It shares no geometry with the code under test: every candidate event is a point of the
+// circle, ordered by the tangent of half the angle turned.
 //
 // `Real` is boost::multiprecision::cpp_bin_float_oct where a proof is attacked (237 bits: near a
-// touch half of them are lost), long double where a second opinion will do.
+// touch half of them are lost), long double where a second opinion is enough.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ template <typename Real>
 WideVec<Real> wide_left(const WideVec<Real>& a) {
   return {-a.y, a.x};
 }
-/// The direction of an angle as it is written; the doubles nearest to the axes stand for these.
+/// The direction of an angle as given; the doubles nearest to the axes stand for the axes.
 template <typename Real>
 WideVec<Real> wide_unit(double rad) {
   using std::cos;
@@ -61,8 +61,8 @@ struct WideExit {
   long double length = 0;  /// flown in the cell
 };
 
-/// The first exit, and those that cannot be told from it: less than `tie` apart (in tangents of
-/// half angles, or in cell_m).
+/// The first exit, and those that cannot be distinguished from it: less than `tie` apart (in
+/// tangents of half angles, or in cell_m).
 template <typename Real>
 struct WideExits {
   std::array<WideExit<Real>, 8> of;
@@ -134,7 +134,7 @@ class WideCell {
         const WideVec<Real> w = k * wide_left(radius);
         if (outward(w, side) < 0) continue;
         if (wide_dot(u, w) < -0.5) continue;
-        // What stands on the side and heads out leaves at once; what heads along it, turning in,
+        // A state on the side that heads out leaves at once; one that heads along it, turning in,
         // does not.
         Real t = turned(w);
         if (t < 0 && t > -tie()) t = 0;

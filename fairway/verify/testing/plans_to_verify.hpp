@@ -1,4 +1,4 @@
-// Plans for tests and falsification: random ones, made to be as hard as plans can be.
+// Plans for tests and falsification: random ones, made as hard as possible.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace fairway {
 
-/// A plan as the certified method sees it; owns what the flow looks at.
+/// A plan as the certified method sees it; owns the arrays that the flow points to.
 struct PlanFlow {
   const Plan& plan;
   std::vector<CellKind> kind;
@@ -46,7 +46,7 @@ inline Plan empty_plan(int nx, int ny, double cell_m, double turn_radius_m) {
 enum class FieldStyle { rough, smooth, axes, quarters, weaving, goalward };
 inline constexpr int field_styles = 6;
 
-/// The command of one cell in the styles that need no memory.
+/// The command of one cell, in the styles without memory.
 inline double sample_heading(FieldStyle style, Random& random, Vec2 p, Vec2 goal, double twist) {
   static constexpr std::array<double, 9> axes{0.0,  1.5707963, -1.5707963, 3.1415925, -3.1415925,
                                               1e-8, -1e-8,     0.78539816, 1e-4};
@@ -101,8 +101,8 @@ inline Plan random_plan(std::uint64_t seed) {
   return plan;
 }
 
-/// Random plan number `seed` at the edges of what a plan may be: one to ten cells a side, sizes to
-/// the ends of their range, commands on axes, next to them by as little as a plan may, and
+/// Random plan number `seed` at the limits of what a plan may be: one to ten cells per side, sizes
+/// up to the ends of their range, commands on axes, as close to axes as a plan may have them, and
 /// exactly opposite to their neighbours'.
 inline Plan odd_plan(std::uint64_t seed) {
   Random random = Random::stream(0x0dd, seed);

@@ -1,4 +1,4 @@
-// For tests: keeps what a followed set is told, and holds exact flights against it.
+// For tests: records what is reported for a followed set, and compares exact flights with it.
 #pragma once
 
 #include <cmath>
@@ -38,7 +38,7 @@ struct Told {
 
   bool nothing() const { return arrivals.empty() && ends.empty() && !gave_up; }
 
-  /// Whether an exact flight met one of the things told, within its length.
+  /// Whether an exact flight met one of the things reported, within its length.
   bool has(const WideMeeting<Wide>& met) const {
     const auto long_enough = [&](double length_m) {
       return met.length_m <= static_cast<long double>(length_m) * (1 + 1e-15L) + 1e-20L;

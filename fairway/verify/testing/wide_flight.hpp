@@ -1,7 +1,7 @@
 // An oracle for tests and falsification: flights over a whole plan in a wide number type, cell by
-// cell (vehicle/wide_motion.hpp), with the meetings with the section on their way.
+// cell (vehicle/wide_motion.hpp), with the places where they meet the section.
 //
-// Where the model leaves a choice, or two events cannot be told apart, `Choices` picks.
+// Where the model leaves a choice, or two events cannot be distinguished, `Choices` picks.
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct WideMeeting {
   static constexpr std::size_t none = ~std::size_t{0};
   std::size_t section = none;
   Real along_m{0};
-  Verdict end = Verdict::undecided;  ///< undecided: not known within the crossings allowed
+  Verdict end = Verdict::undecided;  ///< undecided: unknown within the allowed crossings
   long double length_m = 0;
   std::uint64_t crossings = 0;
 };
@@ -59,7 +59,7 @@ class WideFlight {
   /// Flies on to the next meeting with the section, or to the end.
   WideMeeting<Real> fly(std::uint64_t most_crossings) {
     WideMeeting<Real> meeting;
-    int turns = 0;  // cells left on the present circle, one after the other
+    int turns = 0;  // consecutive cells left on the current circle
     int circle = 0;
     for (; meeting.crossings < most_crossings; ++meeting.crossings) {
       const std::size_t here = flow_.grid.index({ix_, iy_});
@@ -88,7 +88,7 @@ class WideFlight {
         meeting.along_m = s % 2 == 0 ? exit.p.y : exit.p.x;
         return meeting;
       }
-      // A circle crosses a line at most twice: this many borders are more than it has.
+      // A circle crosses a line at most twice: it cannot cross this many borders.
       if (turns > 8.0 * flow_.vehicle.turn_radius_m / flow_.grid.cell_m + 16.0) {
         meeting.end = Verdict::trapped;
         return meeting;
@@ -97,7 +97,7 @@ class WideFlight {
     return meeting;
   }
 
-  /// To the end, over any number of meetings; trapped when one repeats to within rounding.
+  /// To the end, over any number of meetings; trapped when one repeats within rounding.
   WideMeeting<Real> fly_to_end(std::uint64_t most_crossings) {
     WideMeeting<Real> kept;
     std::uint64_t left = 1;
@@ -111,7 +111,7 @@ class WideFlight {
       if (now.section == WideMeeting<Real>::none) return now;
       Real off = now.along_m - kept.along_m;
       if (off < 0) off = -off;
-      // A closed curve of curvature at most 1 / r is no shorter than its circle.
+      // A closed curve of curvature at most 1 / r is at least as long as its circle.
       if (now.section == kept.section && off < Real(1e-22) * Real(flow_.grid.cell_m) &&
           now.length_m - kept_at_m > 6.28L * flow_.vehicle.turn_radius_m) {
         now.section = WideMeeting<Real>::none;
@@ -132,7 +132,7 @@ class WideFlight {
   }
 
  private:
-  /// The heading is the cell's command, but for the rounding of this arithmetic.
+  /// The heading is the cell's command, up to the rounding of this arithmetic.
   bool is_aligned(std::size_t cell) const {
     if (std::isnan(flow_.heading_rad[cell])) return false;
     const WideVec<Real>& command = commands_.unit[cell];
