@@ -9,14 +9,12 @@
 
 namespace fairway {
 
-/// Heading against time (Figs. 6b, 8a): seconds, radians in [-pi, pi]; the final leg, if there is
-/// one, goes on. Exact: a point at each end of every piece, and two where a turn passes pi, with a
-/// NaN between them, so that no line is drawn from one to the other.
+/// Heading against time (Figs. 6b, 8a): seconds, radians, unwrapped, that is, without jumps of
+/// 2 pi; the final leg, if there is one, goes on. Exact: one point at each end of every piece.
 [[nodiscard]] ChartSeries heading_over_time(const Flight& flight, double speed_mps,
                                             std::string name);
 
-/// The same headings for a chart that is read as a compass is: degrees in (-180, 180], the line
-/// broken where it goes through 180.
+/// The same headings as on a compass: degrees in (-180, 180], the line broken where it passes 180.
 [[nodiscard]] ChartSeries wrapped_degrees(const ChartSeries& headings);
 
 /// Distance from the mission's path against time (Figs. 7b, 8b): seconds, metres, sampled at least

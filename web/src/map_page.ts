@@ -111,7 +111,9 @@ export class MapPage implements MapHands, PlanView {
     if (this.verdicts) await this.verdicts.ask(0);
     byId("heading").hidden = !this.verdicts;
     this.nameShown();
-    new ResizeObserver(() => this.fit()).observe(this.map);
+    const sizes = new ResizeObserver(() => this.fit());
+    sizes.observe(this.map);
+    sizes.observe(byId("replay"));
     window.addEventListener("resize", () => this.fit());
     this.fit();
     this.showLegend();
