@@ -111,9 +111,7 @@ export class MapPage implements MapHands, PlanView {
     if (this.verdicts) await this.verdicts.ask(0);
     byId("heading").hidden = !this.verdicts;
     this.nameShown();
-    const sizes = new ResizeObserver(() => this.fit());
-    sizes.observe(this.map);
-    sizes.observe(byId("replay"));
+    new ResizeObserver(() => this.fit()).observe(this.map);
     window.addEventListener("resize", () => this.fit());
     this.fit();
     this.showLegend();
@@ -350,10 +348,15 @@ export class MapPage implements MapHands, PlanView {
   }
 
   private fit(): void {
-    const { width, height } = mapSize(this.grid.nx / this.grid.ny);
-    byId("stage").style.setProperty("--map-width", `${width}px`);
-    this.map.style.height = `${height}px`;
-    this.map.style.width = isPrinting() ? `${width}px` : "";
+    // The replay below the map wraps where the map is narrow: begun from the style's own width, and
+    // measured again, so that the size before does not count.
+    byId("stage").style.removeProperty("--map-width");
+    for (let pass = 0; pass < 2; ++pass) {
+      const { width, height } = mapSize(this.grid.nx / this.grid.ny);
+      byId("stage").style.setProperty("--map-width", `${width}px`);
+      this.map.style.height = `${height}px`;
+      this.map.style.width = isPrinting() ? `${width}px` : "";
+    }
     this.view.resize(this.map.clientWidth, this.map.clientHeight);
     this.moved();
     this.slider.strip();
