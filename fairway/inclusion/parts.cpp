@@ -1,0 +1,136 @@
+#include "fairway/inclusion/parts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "fairway/base/error.hpp"
+#include "fairway/base/parallel.hpp"
+
+namespace fairway {
+namespace {
+
+/// The smallest arc that holds all of `headings` (at least one), which are sorted.
+HeadingArc smallest_arc(std::vector<double>& headings) {
+  std::sort(headings.begin(), headings.end());
+  std::size_t after = 0;  // the widest gap ends here
+  double gap = headings.front() + whole_turn_rad - headings.back();
+  for (std::size_t i = 1; i < headings.size(); ++i) {
+    if (headings[i] - headings[i - 1] > gap) {
+      gap = headings[i] - headings[i - 1];
+      after = i;
+    }
+  }
+  return {headings[after], whole_turn_rad - gap};
+}
+
+/// How far two ranges of one coordinate lie apart.
+double apart(double lo, double hi, double other_lo, double other_hi) {
+  return std::max({0.0, other_lo - hi, lo - other_hi});
+}
+
+}  // namespace
+
+std::vector<float> filled_commands(const Grid& grid, const float* heading_rad) {
+  // First the nearest cell with a command in the same column, then along each row.
+  constexpr int none = -1;
+  std::vector<int> nearest_row(grid.size(), none);
+  for (int ix = 0; ix < grid.nx; ++ix) {
+    int below = none;
+    for (int iy = 0; iy < grid.ny; ++iy) {
+      if (!std::isnan(heading_rad[grid.index({ix, iy})])) below = iy;
+      nearest_row[grid.index({ix, iy})] = below;
+    }
+    int above = none;
+    for (int iy = grid.ny; iy-- > 0;) {
+      if (!std::isnan(heading_rad[grid.index({ix, iy})])) above = iy;
+      int& row = nearest_row[grid.index({ix, iy})];
+      if (above != none && (row == none || above - iy < iy - row)) row = above;
+    }
+  }
+  std::vector<float> filled(heading_rad, heading_rad + grid.size());
+  for_ranges(static_cast<std::size_t>(grid.ny), 1, [&](std::size_t a, std::size_t b) {
+    for (int iy = static_cast<int>(a); iy < static_cast<int>(b); ++iy) {
+      for (int ix = 0; ix < grid.nx; ++ix) {
+        if (!std::isnan(filled[grid.index({ix, iy})])) continue;
+        std::int64_t best = std::numeric_limits<std::int64_t>::max();
+        std::size_t from = grid.size();
+        for (std::int64_t dx = 0; dx < grid.nx && dx * dx <= best; ++dx) {
+          for (const int x : {ix - static_cast<int>(dx), ix + static_cast<int>(dx)}) {
+            if (x < 0 || x >= grid.nx) continue;
+            const int row = nearest_row[grid.index({x, iy})];
+            if (row == none) continue;
+            const std::int64_t dy = row - iy;
+            const std::int64_t distance = dx * dx + dy * dy;
+            const std::size_t candidate = grid.index({x, row});
+            if (distance < best || (distance == best && candidate < from)) {
+              best = distance;
+              from = candidate;
+            }
+          }
+        }
+        if (from < grid.size()) filled[grid.index({ix, iy})] = heading_rad[from];
+      }
+    }
+  });
+  return filled;
+}
+
+Parts::Parts(const Flow& flow, const VehicleContract& contract, int per_cell)
+    : nx_(flow.grid.nx * per_cell),
+      ny_(flow.grid.ny * per_cell),
+      part_m_(flow.grid.cell_m / per_cell),
+      turn_radius_{contract.turn_radius_m.least / part_m_, contract.turn_radius_m.most / part_m_},
+      hold_side_rad_(contract.hold_side_rad),
+      side_uncertain_rad_(contract.side_uncertain_rad),
+      kind_(flow.grid.size() * static_cast<std::size_t>(per_cell * per_cell)),
+      arc_(kind_.size()) {
+  require(per_cell >= 1 && per_cell <= 16, "Parts: expected 1 to 16 parts a side of a cell");
+  require(contract.look_ahead_m == 0.0 && contract.wind_mps == 0.0,
+          "Parts: look_ahead_m and wind_mps are 0");
+  const Grid& grid = flow.grid;
+  const std::vector<float> command = filled_commands(grid, flow.heading_rad);
+  const double side = per_cell;  // of a cell, in parts
+  const double reach = contract.command_error_m / part_m_ + 4.0 * place_slack;
+  const double band = contract.heading_error_rad + 4.0 * heading_slack_rad;
+  const auto cells_within = [&](double lo, double hi, int count) {
+    const double far = count;
+    return std::pair{static_cast<int>(std::clamp(std::floor((lo - reach) / side), 0.0, far - 1.0)),
+                     static_cast<int>(std::clamp(std::floor((hi + reach) / side), 0.0, far - 1.0))};
+  };
+  for_ranges(static_cast<std::size_t>(ny_), 1, [&](std::size_t a, std::size_t b) {
+    std::vector<double> headings;
+    for (int iy = static_cast<int>(a); iy < static_cast<int>(b); ++iy) {
+      for (int ix = 0; ix < nx_; ++ix) {
+        const std::size_t at = index({ix, iy});
+        const CellKind cell = flow.kind_at({ix / per_cell, iy / per_cell});
+        kind_[at] = cell == CellKind::obstacle ? PartKind::obstacle
+                    : cell == CellKind::target ? PartKind::goal
+                                               : PartKind::ordinary;
+        if (kind_[at] != PartKind::ordinary) continue;
+        headings.clear();
+        const auto [x0, x1] = cells_within(ix, ix + 1.0, grid.nx);
+        const auto [y0, y1] = cells_within(iy, iy + 1.0, grid.ny);
+        for (int cy = y0; cy <= y1; ++cy) {
+          const double dy = apart(iy, iy + 1.0, cy * side, (cy + 1) * side);
+          for (int cx = x0; cx <= x1; ++cx) {
+            const double dx = apart(ix, ix + 1.0, cx * side, (cx + 1) * side);
+            if (dx * dx + dy * dy > reach * reach) continue;
+            headings.push_back(
+                counted_from_zero(static_cast<double>(command[grid.index({cx, cy})])));
+          }
+        }
+        if (std::isnan(headings.front())) {  // no cell has a command
+          kind_[at] = PartKind::wild;
+          continue;
+        }
+        arc_[at] = smallest_arc(headings).widened(band);
+        if (arc_[at].width_rad >= pi) kind_[at] = PartKind::wild;
+      }
+    }
+  });
+}
+
+}  // namespace fairway
