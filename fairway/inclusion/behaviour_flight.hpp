@@ -8,10 +8,10 @@
 // behaviours may be; the step ends at once where an arc that is met begins or ends, so that within
 // a step every part either is one where behaviours are aligned or is not.
 //
-// Properties that always hold (docs/trust.md):
-//   1. Every behaviour within the contract that starts in the set arrives in one of the ranges
-//      that the visitor was told, aligned with the part it comes from, or ends as told, or gave_up
-//      was called. Arrivals touch nothing before.
+// Properties that always hold:
+//   1. Every behaviour within the contract that starts in the set crosses one of the ranges of the
+//      image, aligned with the part it leaves, or ends with one of its ends, or the image gave up.
+//      Whatever it touches before that crossing is among the ends.
 //   2. Obstacles and the outside are grown by `place_slack`: to come so near is to touch.
 #pragma once
 
