@@ -1,4 +1,4 @@
-// What the page knows of a run, as fairway/report/page.cpp writes it.
+// What the page knows about a run, as fairway/report/page.cpp writes it.
 
 export interface GridShape { nx: number; ny: number; x0_m: number; y0_m: number; cell_m: number }
 
@@ -18,7 +18,7 @@ export interface Codes {
   target: number;
 }
 
-/** A line of what was found: "97.0 %" of "free cells" "are cut off"; without a share, a sentence. */
+/** A line of the findings: "97.0 %" of "free cells" "are cut off"; without a share, a sentence. */
 export interface Finding { share: string; of: string; what: string }
 
 export interface FlightRecord {
@@ -76,7 +76,7 @@ export interface PageRecord {
 /** Codes of the array `region`: those of a plan file plus 1. */
 export const enum RegionCode { buffer = 0, free = 1, obstacle = 2, goal = 3 }
 
-/** Where the values of a cell stand in the plan's arrays. */
+/** Index of a cell's values in the plan's arrays. */
 export function valueIndex(record: PageRecord, ix: number, iy: number): number {
   const { nx, cells_per_value } = record.values;
   return Math.floor(iy / cells_per_value) * nx + Math.floor(ix / cells_per_value);
@@ -86,6 +86,6 @@ export const no_value = 65535;
 
 export function recordOfPage(): PageRecord {
   const record = JSON.parse(document.getElementById("record")!.textContent!) as PageRecord;
-  if (record.format_version !== 2) throw new Error(`this page holds data of format ${record.format_version}, not 2`);
+  if (record.format_version !== 2) throw new Error(`this page's data has format ${record.format_version}, not 2`);
   return record;
 }

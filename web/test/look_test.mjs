@@ -74,7 +74,7 @@ for (const colorScheme of ["light", "dark"]) {
     const idle = await page.evaluate(() => [...document.querySelectorAll("button, input, select, .zoom, .keys, #readout, #solid-section")]
       .filter((e) => e.getClientRects().length > 0).map((e) => e.id || e.outerHTML.slice(0, 60)));
     assert.deepEqual(idle, []);
-    assert.match(await page.locator("#shown-words").innerText(), /^Verdicts at heading 100° \(course 350°\), north; on top: .*mission\.$/);
+    assert.match(await page.locator("#shown-words").innerText(), /^Verdicts at heading 100° \(course 350°\), north; overlays: .*mission\.$/);
     const light = await page.evaluate(() => getComputedStyle(document.body).backgroundColor + getComputedStyle(document.querySelector("h1")).color);
     assert.equal(light, "rgb(255, 255, 255)rgb(34, 38, 43)");
     await page.emulateMedia({ media: "screen", colorScheme });
