@@ -102,6 +102,7 @@ json flights_json(const std::vector<PageFlights>& groups) {
            {"start", {f.start.position_m.x, f.start.position_m.y, f.start.heading.rad()}},
            {"pieces", {begin, begin + f.segments.size()}}});
       if (!group.ground.empty()) shown.back()["ground"] = group.ground;
+      if (f.onward.after != After::none) shown.back()["after"] = name_of(f.onward.after);
       begin += f.segments.size();
       const FinalLeg& leg = f.final_leg;
       if (leg.state == FinalLegState::not_asked) continue;

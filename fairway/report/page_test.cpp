@@ -294,6 +294,7 @@ TEST(Page, FlightsComeWithTheirPiecesAndLegsAndSayHowManyAreLeftOut) {
       record_of(page_html({"t", plan, goal, {{"failing", flights, 1, "cut_off"}}}, bare));
   EXPECT_EQ(failing["flights"][0]["ground"], "cut_off");
   EXPECT_FALSE(record["flights"][0].contains("ground"));
+  EXPECT_FALSE(record["flights"][0].contains("after"));
   ASSERT_EQ(record["flights"].size(), 2U);
   EXPECT_EQ(record["flights_left_out"], json({{"given", 1}}));
   EXPECT_EQ(record["flights"][0]["pieces"], json({0, 2}));
@@ -303,6 +304,19 @@ TEST(Page, FlightsComeWithTheirPiecesAndLegsAndSayHowManyAreLeftOut) {
   const Decoded arrays = arrays_of(page);
   EXPECT_EQ(arrays.array<float>("piece_x_m"), (std::vector<float>{10.0F, 20.0F, 20.0F, 10.0F}));
   EXPECT_EQ(arrays.array<float>("piece_length_m"), (std::vector<float>{12.0F, 3.0F, 2.0F, 9.0F}));
+}
+
+TEST(Page, FollowedFlightsSayWhatComesAfterReaching) {
+  const Plan plan = island_plan({14, 12, -300.0, 5.0, 6.0}, {-240.0, 40.0}, {4, 6});
+  const State start{{-290.0, 20.0}, Heading::from_rad(1.0)};
+  std::vector<Flight> flights(3, flight_of({{start, 0.0, 12.0, 0.1}}, Outcome::reach));
+  for (std::size_t i = 0; i < flights.size(); ++i) flights[i].onward.after = afters_in_order[i];
+  const json shown =
+      record_of(page_html({"t", plan, goal, {{"given", flights, 3}}}, bare))["flights"];
+  EXPECT_EQ(shown[0]["after"], "follow");
+  EXPECT_EQ(shown[1]["after"], "collide");
+  EXPECT_EQ(shown[2]["after"], "leave");
+  for (const json& flight : shown) EXPECT_EQ(flight["outcome"], "reach");
 }
 
 TEST(Page, NoTextOfAFileBecomesMarkup) {

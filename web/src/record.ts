@@ -23,7 +23,8 @@ export interface Finding { share: string; of: string; what: string }
 
 export interface FlightRecord {
   group: string;
-  ground?: "safe_start" | "buffer" | "cut_off";  // of failing ones: what their start is
+  ground?: "safe_start" | "buffer" | "cut_off";  // of failing ones: where they start
+  after?: "follow" | "collide" | "leave";  // on a path: what a followed flight does after it reaches
   outcome: string;
   time_s: number | null;
   length_m: number | null;

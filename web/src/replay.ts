@@ -1,7 +1,7 @@
 // The run's flights: a table to choose from, and their replay.
 import { Charts } from "./charts";
 import { byId, degrees, el, short } from "./dom";
-import { drawVehicle, strokeTrack, type ShownFlight } from "./flights";
+import { drawVehicle, outcomeWords, strokeTrack, type ShownFlight } from "./flights";
 import type { PageRecord } from "./record";
 import type { Viewport } from "./viewport";
 
@@ -62,7 +62,7 @@ export class Replay {
       const mark = el("span", { class: "mark" });
       mark.style.background = line.color;
       const [x, y, h] = flight.start;
-      this.rows.push(row(k, el("span", {}, mark, flight.outcome, " ", el("small", {}, (flight.ground && grounds[flight.ground]) ?? groups[flight.group] ?? flight.group)),
+      this.rows.push(row(k, el("span", {}, mark, outcomeWords(flight), " ", el("small", {}, (flight.ground && grounds[flight.ground]) ?? groups[flight.group] ?? flight.group)),
         `${place(x)}, ${place(y)}, ${Math.round(degrees(h)) % 360}°`,
         flight.time_s === null ? "–" : `${flight.time_s.toFixed(1)} s`, flight.length_m === null ? "–" : `${Math.round(flight.length_m)} m`));
     }
