@@ -60,9 +60,8 @@ struct Shortage {
   std::size_t index = 0;     // the mission cell that comes closest to an obstacle
   double clearance_m = 0.0;  // what it has
   double lacks_m = 0.0;
-  double largest_alpha =
-      0.0;            // that the clearance allows: exclusive; with the paper's metric inclusive
-  std::string needs;  // the demand in words
+  double largest_alpha = 0.0;  // alphas below it fit; with the paper's metric it fits, too
+  std::string needs;           // the demand in words
 };
 Shortage shortage_of(const CompleteMap& complete, const ObstacleMap& map, const Vehicle& vehicle,
                      const FieldOptions& options) {
