@@ -103,7 +103,8 @@ TEST(ShortestLaw, DoesNotHesitateAtATie) {
       }
       return State{s.position_m + 1e-4 * r * Vec2{random.normal(), random.normal()}, s.heading};
     };
-    const SteeringFlight flight = fly(law, from, goal, r, options, Track::none, {.disturbed = watch});
+    const SteeringFlight flight =
+        fly(law, from, goal, r, options, Track::none, {.disturbed = watch});
     ASSERT_TRUE(flight.converged) << i;
     ASSERT_LE(changes, 12) << i << ' ' << flight.word;
     ASSERT_LE(flight.length_m, shortest_length_m(from, goal, r) + 8.0 * r);
@@ -126,7 +127,8 @@ TEST(ShortestLaw, ReachesTheGoalInNoise) {
       return State{s.position_m + 5e-4 * r * Vec2{random.normal(), random.normal()},
                    Heading::from_rad(s.heading.rad() + 5e-4 * random.normal())};
     };
-    const SteeringFlight flight = fly(law, from, goal, r, options, Track::none, {.disturbed = gust});
+    const SteeringFlight flight =
+        fly(law, from, goal, r, options, Track::none, {.disturbed = gust});
     ASSERT_TRUE(flight.converged) << i;
     direct += flight.length_m <= shortest_length_m(from, goal, r) + 0.3 * r ? 1 : 0;
   }
