@@ -147,7 +147,7 @@ TEST(BitmapFile, WithAnyByteOfItsArraysChangedIsRefused) {
 TEST(BitmapFile, MayHaveNoBitsBehindTheLastSampleOfABorder) {
   Bitmap bitmap = sample({}, 12);  // 144 bits in three words
   bitmap.set.words[2] |= std::uint64_t{1} << 16;
-  EXPECT_THAT(refusal(written(bitmap)), testing::HasSubstr("behind the last sample"));
+  EXPECT_THAT(refusal(written(bitmap)), testing::HasSubstr("after the last sample"));
 }
 
 TEST(BitmapFile, MayHaveNoCommandThatIsNoHeading) {
