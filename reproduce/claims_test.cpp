@@ -86,7 +86,7 @@ TEST_P(PaperClaims, EveryFlightOfTheFiguresReachesTheGoalAndNearlyAllRandomOnesD
 }
 
 // docs/field.md: Eq. 3 measures from point to point, the program from centre to centre.
-TEST(BufferClaims, TheBufferKeepsItsWidthButForACellsDiagonalAndThatOfThePaperAllOfIt) {
+TEST(BufferClaims, TheBufferKeepsItsWidthLessACellsDiagonalAndThePapersAllOfIt) {
   const auto demo = std::filesystem::path(FAIRWAY_SOURCE_DIR) / "demo" / "demo.toml";
   struct Documented {
     double cell_m, least_m, percent;

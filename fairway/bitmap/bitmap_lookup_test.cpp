@@ -18,7 +18,7 @@ State random_state(const Grid& grid, Random& random) {
           Heading::from_rad(random.uniform(-pi, pi))};
 }
 
-TEST(BitmapLookup, OfTheContradictionsToExactFlightsThoseAboutAnEdgeAreUndecided) {
+TEST(BitmapLookup, ContradictionsToExactFlightsNearAnEdgeAreUndecided) {
   Random random(77);
   int decided = 0;
   int undecided = 0;

@@ -117,7 +117,7 @@ TEST(BackwardHeadings, WithoutACommandAreTheDirectionsToTheBorder) {
   EXPECT_GT(agreement.agree, 50'000);
 }
 
-TEST(BackwardHeadings, OfTheFourBordersShareOutTheCircle) {
+TEST(BackwardHeadings, OfTheFourBordersDivideTheCircle) {
   Random random(53);
   for (int draw = 0; draw < 5000; ++draw) {
     const CellShape shape = drawn_shape(random);
@@ -141,7 +141,7 @@ TEST(BackwardHeadings, ForABackwardCommandCanBeEmpty) {
   EXPECT_FALSE(backward_headings({0.5, 0.9}, direction(-pi / 2), tight, Side::top).empty());
 }
 
-TEST(BackwardHeadings, EmptySetsAreMetForBackwardCommandsOnly) {
+TEST(BackwardHeadings, EmptySetsOccurForBackwardCommandsOnly) {
   Random random(59);
   int empty = 0;
   for (int draw = 0; draw < 20'000; ++draw) {
@@ -157,7 +157,7 @@ TEST(BackwardHeadings, EmptySetsAreMetForBackwardCommandsOnly) {
   EXPECT_GT(empty, 20);
 }
 
-TEST(BackwardHeadings, ForABackwardCommandCloseAboutTheOppositeHeading) {
+TEST(BackwardHeadings, ForABackwardCommandCloseAroundTheOppositeHeading) {
   // Seen from the middle the range holds the heading opposite to the command, where left turns
   // begin and right turns end (the second interval of Fig. 7).
   const HeadingSet set = backward_headings({0.5, 0.5}, direction(-pi / 2), {1.0, 3.0}, Side::top);
@@ -248,7 +248,7 @@ TEST(BackwardHeadings, ThroughACornerAreThoseOfEquations4To6) {
   EXPECT_NEAR(std::remainder(with_right.ranges[0].from_rad - by_right, two_pi), 0.0, 1e-12);
 }
 
-TEST(BackwardHeadings, ThroughACornerAndStraightAreThoseOfEquations8To10MadeRight) {
+TEST(BackwardHeadings, ThroughACornerAndStraightAreThoseOfEquations8To10Corrected) {
   // Eq. 9 for a point above the line: its root is right for commands heading east, and the printed
   // atan2 is already rotated by a quarter turn: no further pi / 2.
   const double d = 1.0;

@@ -270,7 +270,7 @@ TEST(Assumption1, WithThePapersMetricTheShortageIsCountedInItsSquareBuffer) {
   EXPECT_GT(round_enough, 5);
 }
 
-TEST(Assumption1, WithThePapersMetricTheAlphaProposedForAPathIsTheLargestThatDoes) {
+TEST(Assumption1, WithThePapersMetricTheAlphaProposedForAPathIsTheLargestThatFits) {
   Random random(76);
   int tried = 0;
   int hopeless = 0;
@@ -387,7 +387,7 @@ TEST(Assumption1, EveryReasonIsNamed) {
   EXPECT_EQ(reason_of(GoalMission{{10.0, 10.0}, {}}), Reason::goal_too_small);
 }
 
-TEST(Assumption1, AMapOfObstaclesAloneHasNoRoomForAnyMission) {
+TEST(Assumption1, AMapOfOnlyObstaclesHasNoRoomForAnyMission) {
   for (const auto& [nx, ny] : std::vector<std::array<int, 2>>{{1, 1}, {1, 9}, {9, 1}, {20, 20}}) {
     const ObstacleMap map = samples::map_of(Mask(nx, ny, 1), 1.0);
     for (const Metric metric : {Metric::euclidean, Metric::octile, Metric::paper}) {
@@ -413,7 +413,7 @@ TEST(Assumption1, AGoalAtTheCornerOfFourCellsOrOfTheMapIsPlaced) {
   }
 }
 
-TEST(Assumption1, APathWithoutLengthIsNoMission) {
+TEST(Assumption1, APathWithoutLengthIsNotAMission) {
   const ObstacleMap map = samples::map_of(Mask(20, 20), 1.0);
   const PathMission path{{{5.0, 5.0}, {5.0, 5.0}}, true};
   EXPECT_THROW(static_cast<void>(placed(map, path, {})), PreconditionViolation);

@@ -85,7 +85,7 @@ Planned drawn_case(Random& random, Metric metric) {
   return p;
 }
 
-TEST(CutOff, TheAlphaAndTheRadiusToldOpenThePassageAndALittleMoreDoesNot) {
+TEST(CutOff, TheReportedAlphaAndRadiusOpenThePassageAndSlightlyMoreDoesNot) {
   Random random(901);
   int opened = 0;
   int by_radius = 0;

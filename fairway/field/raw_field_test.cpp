@@ -175,7 +175,7 @@ TEST(RawField, InTheOpenItPointsToTheGoalWithinItsMeasuredErrorAndIsNotQuantised
   }
 }
 
-TEST(RawField, InTheGoalDiscItPointsToTheGoalAndNowhereIsItNothing) {
+TEST(RawField, InTheGoalDiscItPointsToTheGoalAndNowhereIsItZero) {
   const ObstacleMap map = samples::map_of(Mask(40, 40), 1.0);
   for (const Vec2 at : {Vec2{20.5, 20.5}, Vec2{20.0, 20.0}, Vec2{19.7, 22.1}}) {
     const GoalMission point{at, {}};
@@ -367,7 +367,7 @@ TEST(RawFieldInTheBuffer, OnlyCellsWithoutAWayOutAreLeftWithoutACommand) {
   }
 }
 
-TEST(RawFieldInTheBuffer, AWalledInYardHasNoCommandAndNobodyIsSentIntoIt) {
+TEST(RawFieldInTheBuffer, AWalledInYardHasNoCommandAndNoCellPointsIntoIt) {
   // A yard of 5 x 5 cells behind a wall of one cell; alpha r is two cells and more.
   Mask m(60, 50);
   for (int k = 20; k <= 26; ++k) {

@@ -76,7 +76,7 @@ RC_GTEST_PROP(DrawChart, AnyNumbersGiveAChart, (std::uint64_t seed)) {
   RC_ASSERT(picture.svg.find("inf") == std::string::npos);
 }
 
-TEST(DrawChart, MistakesOfTheCallerAreNamed) {
+TEST(DrawChart, CallerMistakesAreReported) {
   const std::vector<ChartSeries> uneven{{"u", {0.0, 1.0}, {0.0}, {}}};
   EXPECT_THROW(static_cast<void>(draw_chart(uneven, {})), PreconditionViolation);
   EXPECT_THROW(static_cast<void>(draw_chart({}, {.width_pt = 1.0})), PreconditionViolation);
@@ -137,7 +137,7 @@ TEST(FlightSeries, HeadingsOverTimeAreCutAtTheSeamAndStayWithinATurn) {
   EXPECT_EQ(seams_of(heading_over_time(flight, 10.0, "h")), 1);
 }
 
-TEST(FlightSeries, HeadingsAsACompassShowsThemBreakWhereTheyPassTheBack) {
+TEST(FlightSeries, HeadingsWithin180DegreesBreakWhereTheyWrap) {
   const ChartSeries whole = heading_over_time(twice_round(), 10.0, "h");
   const ChartSeries wrapped = wrapped_degrees(whole);
   std::size_t breaks = 0;

@@ -24,7 +24,7 @@ ReachabilityMap four_cells() {
   return map;
 }
 
-TEST(ReachabilityPictures, SaySharesOfTheOrdinaryCellsAndThatTheyAreNoProof) {
+TEST(ReachabilityPictures, SaySharesOfTheOrdinaryCellsAndThatTheyAreNotAProof) {
   const Picture slices = draw_reachability_slices(four_cells(), {.title = "t"});
   EXPECT_TRUE(has_text(slices.svg, "33.3 % reach"));
   EXPECT_TRUE(has_text(slices.svg, "66.7 % reach"));

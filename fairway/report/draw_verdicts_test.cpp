@@ -94,7 +94,7 @@ TEST(VerdictStyle, GroundsDifferInGreyPrintAndFromObstacles) {
   }
 }
 
-TEST(VerdictStyle, EveryVerdictHasAPatternOfItsOwn) {
+TEST(VerdictStyle, EveryVerdictHasItsOwnPattern) {
   const auto pattern = [](Verdict v) {
     const VerdictStyle s = style_of(v);
     return std::tuple(s.rising, s.falling, s.rising || s.falling ? s.pen.dash_pt.size() : 0);
@@ -134,7 +134,7 @@ TEST(DrawVerdicts, ArrowsPointAlongTheHeadings) {
   }
 }
 
-TEST(DrawVerdicts, ColoursStandWhereTheVerdictsAre) {
+TEST(DrawVerdicts, ColoursAreWhereTheVerdictsAre) {
   const VerdictMap map = stripes();
   const auto png = read_png(draw_verdicts(map, {.panel_pt = 300.0}).png);
   const auto at = [&](Vec2 cell) { return color_at(png, map, 300.0, cell); };
@@ -246,7 +246,7 @@ TEST(DrawVerdicts, ACoarseMapIsCutAtTheGridsEdge) {
   EXPECT_EQ(color_at(png, map, 300.0, {28.6, 10.0}), palette::white);  // beside the panel
 }
 
-TEST(DrawVerdicts, AMapOfThePlansOfABigCityGivesSvgsThatAPaperCanHold) {
+TEST(DrawVerdicts, AMapOfABigCitysPlanGivesSvgsSmallEnoughForAPaper) {
   Random random(5);
   const auto blob = [](double x, double y) { return std::sin(0.11 * x) + std::sin(0.07 * y); };
   VerdictMap map = map_of(
@@ -262,7 +262,7 @@ TEST(DrawVerdicts, AMapOfThePlansOfABigCityGivesSvgsThatAPaperCanHold) {
   EXPECT_LT(draw_proved_shares(map, {}).svg.size(), 1'000'000U);
 }
 
-TEST(DrawVerdicts, MistakesOfTheCallerAreNamed) {
+TEST(DrawVerdicts, CallerMistakesAreReported) {
   VerdictMap map = stripes();
   EXPECT_THROW(static_cast<void>(draw_verdicts(map, {.panel_pt = 5.0})), PreconditionViolation);
   EXPECT_THROW(static_cast<void>(draw_verdicts(map, {.pixels_per_pt = 99.0})),

@@ -48,7 +48,7 @@ TEST(PageFrame, LongitudesHaveNoJumpAtTheDateLine) {
   EXPECT_NEAR(most - least, 400.0 / 1e5, 1e-8);
 }
 
-TEST(PageFrame, WithoutAPlaceOnEarthThereIsNone) {
+TEST(PageFrame, HasNoDegreesWhenNotGeoreferenced) {
   EXPECT_TRUE(page_frame_json(grid, {}, {})["earth"].is_null());
   const LonLatOf outside = [](Vec2) -> LonLat { throw InputError("map", "outside its system"); };
   EXPECT_TRUE(page_frame_json(grid, {}, outside)["earth"].is_null());

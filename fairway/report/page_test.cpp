@@ -118,7 +118,7 @@ Flight flight_of(std::vector<FlightSegment> segments, Outcome outcome) {
 
 const Mission goal = GoalMission{{60.0, 40.0}, {}};
 
-TEST(Base64, IsThatOfTheRfc) {
+TEST(Base64, MatchesTheRfc) {
   EXPECT_EQ(base64(""), "");
   EXPECT_EQ(base64("f"), "Zg==");
   EXPECT_EQ(base64("fo"), "Zm8=");
@@ -336,7 +336,7 @@ TEST(Page, NoTextOfAFileBecomesMarkup) {
   EXPECT_NO_THROW((void)arrays_of(page).array<std::uint8_t>("region"));
 }
 
-TEST(Page, BytesThatAreNoTextDoNotBreakIt) {
+TEST(Page, BytesThatAreNotTextDoNotBreakIt) {
   const Plan plan = island_plan({14, 12, -3.0, 5.0, 6.0}, {60.0, 40.0}, {4, 6});
   const std::string page = page_html({"\xff\xfe", plan, goal, {}, nullptr, {"\xc3("}}, bare);
   EXPECT_EQ(record_of(page)["words"].size(), 1U);

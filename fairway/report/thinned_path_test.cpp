@@ -129,7 +129,7 @@ TEST(ThinnedPath, KeepsACurveThatShowsAndFlattensOneThatDoesNot) {
   EXPECT_EQ(thinned(path, 10.0).pieces().back().kind, Kind::line);
 }
 
-TEST(ThinnedPath, OfNothingIsNothing) { EXPECT_TRUE(thinned({}, 0.05).empty()); }
+TEST(ThinnedPath, OfAnEmptyPathIsEmpty) { EXPECT_TRUE(thinned({}, 0.05).empty()); }
 
 }  // namespace
 }  // namespace fairway

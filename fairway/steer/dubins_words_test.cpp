@@ -163,7 +163,7 @@ TEST(ShortestPath, IsNeverALoopTooLongWhereAPathIsKnown) {
   }
 }
 
-TEST(ShortestPath, KnowsTheseByHand) {
+TEST(ShortestPath, HasTheseLengthsComputedByHand) {
   const State a = pose(0, 0, 0);
   EXPECT_EQ(shortest_length_m(a, a, 1.0), 0.0);
   EXPECT_EQ(shortest_length_m(a, pose(7, 0, 0), 2.0), 7.0);
@@ -244,7 +244,7 @@ TEST(PoseAt, TheRestOfAShortestPathIsAShortestPath) {
   }
 }
 
-TEST(Batch, GivesWhatOneAtATimeGives) {
+TEST(Batch, AgreesWithOneAtATime) {
   Random random(19);
   const double r = 3.0;
   std::vector<State> from;
@@ -277,7 +277,7 @@ TEST(Batch, GivesWhatOneAtATimeGives) {
   }
 }
 
-TEST(Batch, GivesNoNumberForWhatCannotBeSteered) {
+TEST(Batch, GivesNanForPairsThatCannotBeSteered) {
   const double nan = std::nan("");
   const double inf = std::numeric_limits<double>::infinity();
   const std::vector<double> x{nan, inf, 1e300, 0.0, 0.0, 1.0};
@@ -289,7 +289,7 @@ TEST(Batch, GivesNoNumberForWhatCannotBeSteered) {
   EXPECT_NEAR(lengths[5], 1.0 + two_pi, 1e-14);
 }
 
-TEST(ShortestPath, RefusesWhatIsNotAPoseOrARadius) {
+TEST(ShortestPath, RefusesInvalidPosesAndRadii) {
   const State a = pose(0, 0, 0);
   const double inf = std::numeric_limits<double>::infinity();
   for (const double r : {0.0, -1.0, inf, std::nan(""), 1e-320}) {

@@ -46,7 +46,7 @@ TEST(ShortestLaw, ReachesTheGoalByNoMoreThanTheShortestLength) {
   }
 }
 
-TEST(ShortestLaw, DrivesNoLoopMoreWithShortStepsEither) {
+TEST(ShortestLaw, DrivesNoExtraLoopWithShortSteps) {
   // Among the goals: last turns of half a circle and a little more, where a path of three turns is
   // nearly as short; with a turn in it that is shorter than a step.
   Random random(9);
@@ -111,7 +111,7 @@ TEST(ShortestLaw, DoesNotHesitateAtATie) {
   }
 }
 
-TEST(ShortestLaw, ReachesTheGoalInNoise) {
+TEST(ShortestLaw, ReachesTheGoalWithNoise) {
   Random random(4);
   int direct = 0;
   constexpr int starts = 3'000;
@@ -177,7 +177,7 @@ TEST(ShortestLaw, ConvergesWithAToleranceThatJustCoversTheStep) {
   }
 }
 
-TEST(ShortestLaw, WhatIsLeftFallsByTheStep) {
+TEST(ShortestLaw, TheRestOfThePathFallsByTheStep) {
   Random random(6);
   for (int i = 0; i < 3'000; ++i) {
     const State from = oracle::random_pose(random, 6.0);

@@ -173,7 +173,7 @@ TEST_F(Served, MalformedQuestionsGetAReason) {
   EXPECT_NE(error("/api/steer?x=1&y=10&h=0", 400).find("missing"), std::string::npos);
 }
 
-TEST_F(Served, WhatIsNoRequestGetsA400AndTheServerGoesOn) {
+TEST_F(Served, MalformedRequestsGetA400AndTheServerGoesOn) {
   const std::vector<std::string> garbage{"GARBAGE\r\n\r\n",
                                          "GET\r\n\r\n",
                                          "GET / FTP/1\r\n\r\n",
@@ -212,7 +212,7 @@ TEST_F(Served, OtherHostsAreRefused) {
             std::string::npos);  // no host at all
 }
 
-TEST_F(Served, QuestionsOfOtherPagesInABrowserAreRefused) {
+TEST_F(Served, RequestsFromOtherPagesInABrowserAreRefused) {
   for (const char* site : {"cross-site", "same-site", "anything"}) {
     EXPECT_EQ(get("/api/info", {{"Sec-Fetch-Site", site}})->status, 403) << site;
     EXPECT_EQ(get("/api/proof?goal_x=1&goal_y=10", {{"Sec-Fetch-Site", site}})->status, 403);
@@ -256,7 +256,7 @@ TEST_F(Served, APortThatIsTakenIsAnError) {
   }
 }
 
-TEST_F(Served, StatesAreAnsweredAsTheCertificateAndTheSimulatorDo) {
+TEST_F(Served, StatesGetTheAnswersOfTheCertificateAndTheSimulator) {
   runtime::Certificate certificate;
   const MappedFile file(place_ / "certificate.safetensors");
   ASSERT_EQ(certificate.open(file.bytes().data(), file.bytes().size()), runtime::Status::ok);
@@ -357,7 +357,7 @@ TEST(LiveEngine, AMovedGoalHasItsOwnPlanFlightsAndProof) {
   EXPECT_THROW(static_cast<void>(engine.state(start, Vec2{92.0, 84.0})), BadQuestion);
 }
 
-TEST_F(Served, SteeringEndsAtThePoseAndTellsWhenAnObstacleIsInTheWay) {
+TEST_F(Served, SteeringEndsAtThePoseAndReportsObstaclesInTheWay) {
   const json open = answer("/api/steer?x=70&y=20&h=0&to_x=90&to_y=80&to_h=1.5", 200);
   EXPECT_EQ(open["state"], "shortest");
   EXPECT_EQ(open["word"], open["shortest"]["word"]);
@@ -382,7 +382,7 @@ TEST_F(Served, InfoSaysWhichPlanThisIs) {
   EXPECT_EQ(info["plan_sha256"], json::parse(json_text(plan_digests(plan_))));
 }
 
-TEST_F(Served, ProductsAreGivenWholeWhateverPartIsAskedFor) {
+TEST_F(Served, ProductsAreSentWholeWhateverRangeIsAskedFor) {
   const std::string whole = "<!doctype html>page";
   for (const char* part : {"bytes=0-5", "bytes=3-", "bytes=-4", "bytes=0-1,4-5", "bytes=900-"}) {
     const auto page = get("/report.html", {{"Range", part}});
@@ -407,7 +407,7 @@ std::size_t answers_in(const std::string& bytes) {
   return count;
 }
 
-TEST_F(Served, RequestsInOneGoAreAnsweredOneByOneAndABodyIsNone) {
+TEST_F(Served, PipelinedRequestsAreAnsweredOneByOneAndABodyIsNotReadAsOne) {
   const std::string host = fmt::format(" HTTP/1.1\r\nHost: localhost:{}\r\n", server_->port());
   const std::string ask = "GET /api/info" + host + "\r\n";
   EXPECT_EQ(answers_in(raw(ask + ask + ask)), 3U);
@@ -501,7 +501,7 @@ TEST_F(Served, FortySlowClientsKeepNobodyWaiting) {
   for (int i = 0; i < 20; ++i) EXPECT_EQ(server.status(), 200);
 }
 
-TEST_F(Served, SlowClientsAreLetGoAndMakeRoomWhereThereIsLittle) {
+TEST_F(Served, SlowClientsAreDisconnectedToMakeRoom) {
   PageLimits strict;
   strict.request = std::chrono::milliseconds(200);
   strict.connections = 8;
@@ -511,7 +511,7 @@ TEST_F(Served, SlowClientsAreLetGoAndMakeRoomWhereThereIsLittle) {
   EXPECT_EQ(slow.let_go(), 40);
 }
 
-TEST_F(Served, WhoReadsSlowlyGetsALargeProductWholeAndWhoReadsNothingIsLetGo) {
+TEST_F(Served, ASlowReaderGetsALargeProductWholeAndASilentOneIsDisconnected) {
   const std::string large(20'000'000, 'x');
   std::ofstream(place_ / "plan.svg") << large;
   for (const bool reads : {true, false}) {
@@ -534,7 +534,7 @@ TEST_F(Served, WhoReadsSlowlyGetsALargeProductWholeAndWhoReadsNothingIsLetGo) {
   }
 }
 
-TEST_F(Served, SilentClientsAreLetGo) {
+TEST_F(Served, SilentClientsAreDisconnected) {
   PageLimits strict;
   strict.idle = std::chrono::milliseconds(100);
   const Limited server(place_, *engine_, strict);
@@ -555,7 +555,7 @@ TEST_F(Served, StoppingWaitsForNoClient) {
   ::close(silent);
 }
 
-TEST_F(Served, ACertificateThatIsCutShortMeanwhileIsStillAnsweredFrom) {
+TEST_F(Served, AnswersStayTheSameWhenTheCertificateIsTruncatedMeanwhile) {
   const std::string question = "/api/state?x=70&y=20&h=0.5";
   const json before = answer(question, 200);
   fs::resize_file(place_ / "certificate.safetensors", 100);
