@@ -1,4 +1,4 @@
-// What docs/steering.md and docs/papers.md say of paper 3's law.
+// What docs/steering.md and docs/papers.md say about paper 3's law.
 #include <gtest/gtest.h>
 
 #include <utility>

@@ -30,8 +30,8 @@ CellShape drawn_shape(Random& random) {
   return {d, d * (1.0 + over)};
 }
 
-/// Whether the exact motion agrees with the four sets about a heading. Near the ends of ranges the
-/// exact motion may say either.
+/// Whether the exact motion agrees with the four sets about a heading. Near the ends of ranges
+/// either answer is allowed.
 struct Agreement {
   int agree = 0;
   int near_ends = 0;
@@ -158,7 +158,7 @@ TEST(BackwardHeadings, EmptySetsOccurForBackwardCommandsOnly) {
 }
 
 TEST(BackwardHeadings, ForABackwardCommandCloseAroundTheOppositeHeading) {
-  // Seen from the middle the range holds the heading opposite to the command, where left turns
+  // Seen from the centre the range contains the heading opposite to the command, where left turns
   // begin and right turns end (the second interval of Fig. 7).
   const HeadingSet set = backward_headings({0.5, 0.5}, direction(-pi / 2), {1.0, 3.0}, Side::top);
   ASSERT_EQ(set.count, 1U);
@@ -239,7 +239,7 @@ TEST(BackwardHeadings, ThroughACornerAreThoseOfEquations4To6) {
   const Vec2 left{(p.x + e.x) / 2 - (e.y - p.y) * h, (p.y + e.y) / 2 - (p.x - e.x) * h};
   const double by_left = std::atan2(p.y - left.y, p.x - left.x) + pi / 2;
   const double by_right = std::atan2(p.y - right.y, p.x - right.x) - pi / 2;
-  // Commands far to one side make the whole way an arc.
+  // With commands far to one side the whole way is an arc.
   const HeadingSet with_left = backward_headings(p, direction(2.5), {1.0, r}, Side::top);
   const HeadingSet with_right = backward_headings(p, direction(-0.5), {1.0, r}, Side::top);
   ASSERT_EQ(with_left.count, 1U);

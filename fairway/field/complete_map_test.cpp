@@ -88,7 +88,7 @@ std::vector<Region> by_algorithm_1(const ObstacleMap& map, double alpha) {
   return out;
 }
 
-// A map with a free corner for a goal, so that the rest can be looked at.
+// A map with a free corner for a goal, so that the rest can be checked.
 struct Case {
   ObstacleMap map;
   GoalMission goal;
@@ -239,7 +239,7 @@ int square_distance(const ObstacleMap& map, std::size_t index) {
 TEST(Assumption1, WithThePapersMetricTheShortageIsCountedInItsSquareBuffer) {
   Random random(75);
   int refused = 0;
-  int round_enough = 0;  // in a corner of the square, where straight distance would lack nothing
+  int round_enough = 0;  // in a corner of the square, where the straight distance would suffice
   for (int draw = 0; draw < 300; ++draw) {
     const Case c = random_case(random, 1.3);
     FieldOptions options;
@@ -308,7 +308,7 @@ TEST(Assumption1, WithThePapersMetricTheAlphaProposedForAPathIsTheLargestThatFit
   EXPECT_GT(hopeless, 2);
 }
 
-// The nearest cell centre about which the disc's cells are all free, by trying every one.
+// The nearest cell centre around which the disc's cells are all free, by trying every one.
 double nearest_fit(const ObstacleMap& map, Vec2 goal, const FieldOptions& options) {
   const std::vector<Region> region = by_equation_3(map, options.alpha);
   double best = std::numeric_limits<double>::infinity();

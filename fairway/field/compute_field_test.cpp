@@ -196,7 +196,8 @@ void expect_same_regions_and_costs(const Image& image, const Field& other) {
   for (std::size_t i = 0; i < image.cost_m.size(); ++i) {
     const bool finite = std::isfinite(image.cost_m[i]);
     ASSERT_EQ(std::isfinite(other.cost_m[i]), finite) << "cell " << i;
-    if (!finite || image.region[i] == Region::buffer) continue;  // of tied exits either may count
+    if (!finite || image.region[i] == Region::buffer)
+      continue;  // either of two tied exits may count
     ASSERT_NEAR(other.cost_m[i], image.cost_m[i], 1e-5 * (1.0 + image.cost_m[i])) << "cell " << i;
   }
 }

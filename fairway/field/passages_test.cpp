@@ -61,7 +61,7 @@ std::size_t cells_in_largest_part(const Field& field, const Field& without_buffe
   return most;
 }
 
-/// As the sentence of a warning prints it.
+/// As printed in a warning.
 double printed(double value) { return std::stod(fmt::format("{:.4g}", value)); }
 
 Planned drawn_case(Random& random, Metric metric) {

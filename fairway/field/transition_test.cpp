@@ -215,7 +215,7 @@ TEST(TransitionField, FollowsEquations13To17CellByCell) {
   EXPECT_GT(right, 1000U);
 }
 
-// One row: the edge is the path cell at the west end; every cell has a direction of its own.
+// One row: the edge is the path cell at the west end; every cell has its own direction.
 VectorField turned_in_a_row(const std::vector<double>& theta, FieldOptions options) {
   Scene s;
   const auto n = static_cast<int>(theta.size());

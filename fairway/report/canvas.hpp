@@ -64,7 +64,7 @@ class Canvas {
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  /// A named group for as long as it lives; what it draws is cut at `clip` when that is given.
+  /// A named group during its lifetime; its drawing is clipped to `clip` if given.
   class Layer {
    public:
     ~Layer();

@@ -2,7 +2,7 @@
 //
 // Free cells are shaded by their cost to go with contour lines at the colour bar's ticks; the
 // buffer, the obstacles, the goal and unreachable pockets have a colour and, where colour alone
-// might not tell them apart, a pattern. Big plans are averaged down to one colour a pixel; lines
+// might not distinguish them, a pattern. Big plans are averaged down to one colour a pixel; lines
 // and text stay vectors.
 #pragma once
 

@@ -25,7 +25,7 @@ constexpr int states = 32;
 constexpr std::array<Verdict, verdict_count> all_verdicts{
     Verdict::undecided, Verdict::reach, Verdict::collide, Verdict::leave, Verdict::trapped};
 
-/// `kind(ix, iy)` and `verdict(heading, ix, iy)` tell what is where; all states of a cell have the
+/// `kind(ix, iy)` and `verdict(heading, ix, iy)` give the contents; all states of a cell have the
 /// verdict of its first heading.
 template <typename Kind, typename Of>
 VerdictMap map_of(int nx, int ny, int headings, const Kind& kind, const Of& verdict) {
@@ -66,7 +66,8 @@ VerdictMap stripes(int headings = 8) {
                 [](int, int ix, int) { return all_verdicts[static_cast<std::size_t>(ix / 2)]; });
 }
 
-/// The colour in the middle of a cell of the first panel, which lies the same in every picture.
+/// The colour at the centre of a cell of the first panel, which has the same place in every
+/// picture.
 Color color_at(const testing::PngPicture& png, const VerdictMap& map, double panel_pt, Vec2 cell) {
   const MapPanels page(map, {"", 1, panel_pt, 2.0}, {{"panel"}}, {});
   const Grid& g = map.grid;

@@ -146,7 +146,7 @@ json record_of(const PageContent& content) {
           {"summary", json::parse(content.summary_json)}};
 }
 
-/// JSON that may stand in a script element.
+/// JSON that is safe in a script element.
 std::string inert(const json& value) {
   std::string text;
   for (const char c : value.dump(-1, ' ', true, json::error_handler_t::replace)) {

@@ -202,7 +202,7 @@ TEST(Page, OfTheLargestPlansItCarriesOneCellOfEachBlock) {
   ASSERT_EQ(region.size(), 834U * 3U);
   EXPECT_EQ(region[1 * 834 + 13], 1 + static_cast<int>(Region::obstacle));  // cell (40, 4)
   EXPECT_EQ(region[1 * 834 + 666], 1 + static_cast<int>(Region::goal));     // cell (1999, 4)
-  // The last block is cut by the grid's edge: its cell is on the grid all the same.
+  // The last block is cut by the grid's edge, but its cell is on the grid.
   EXPECT_EQ(page_values(plan.grid).cell_of(833, 2, plan.grid), (Cell{2499, 6}));
 }
 
@@ -251,7 +251,7 @@ TEST(Page, EveryVerdictLayerIsThatOfTheMap) {
   }
   for (std::size_t k = 0; k < sums.size(); ++k) EXPECT_EQ(counts[k], sums[k]);
   EXPECT_EQ(info["heading_rad"], json(map.heading_rad));
-  // The place of a sample, as the page tells it.
+  // The place of a sample, as given by the page.
   const Vec2 place = map.place_m(17);
   const Vec2 middle = map.grid.center(map.cell_of_sample(17));
   EXPECT_NEAR(info["offset_m"][0].get<double>(), place.x - middle.x, 1e-9);

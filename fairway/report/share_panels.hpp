@@ -1,4 +1,4 @@
-// Three panels of shares side by side, and what they have in common with other panels of a map.
+// Three panels of shares side by side, and code shared with other panels of a map.
 #pragma once
 
 #include <array>

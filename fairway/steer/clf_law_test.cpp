@@ -124,7 +124,7 @@ TEST(ClfLaw, ReachesTheGoalFromEverywhereTried) {
     ASSERT_GE(flight.length_m, least - 0.1 * r);
     shortest += flight.length_m <= least + 0.05 * r ? 1 : 0;
   }
-  // "All paths are the shortest" it is not, but most are.
+  // Not "all paths are the shortest", but most are.
   EXPECT_GT(shortest, starts * 3 / 4);
   EXPECT_LT(shortest, starts * 19 / 20);
 }

@@ -114,7 +114,7 @@ void ShortestLaw::choose(const State& state, const State& goal, double turn_radi
     path_ = rest;
     return;
   }
-  // A disturbance or the goal's motion has spoilt it: pass the goal as near as possible. It may
+  // A disturbance or the goal's motion has moved its end: pass the goal as near as possible. It may
   // come within the tolerance on the way, and the jump may disappear again.
   std::optional<DubinsPath> near = abreast(state, goal, options_.tolerance, turn_radius_m);
   if (!near) near = beyond(state, goal, options_.tolerance, turn_radius_m, chosen.length_m());

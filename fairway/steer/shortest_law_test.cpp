@@ -84,8 +84,8 @@ TEST(ShortestLaw, FollowsTheFirstControlOfTheShortestPath) {
 }
 
 TEST(ShortestLaw, DoesNotHesitateAtATie) {
-  // Straight behind: turning left is as long as turning right. Noise of the position tells one from
-  // the other at random in every step; the vehicle must make up its mind all the same.
+  // Straight behind: turning left is as long as turning right. Noise of the position favours one or
+  // the other at random in every step; the vehicle must still decide.
   Random random(3);
   for (int i = 0; i < 300; ++i) {
     const double r = 10.0;
@@ -189,7 +189,7 @@ TEST(ShortestLaw, TheRestOfThePathFallsByTheStep) {
     while (!options.tolerance.holds(s, goal)) {
       s = driven(s, options.step_m, law.curvature_per_m(s, goal, 1.0, options.step_m));
       const double now = law.path()->length_m();
-      // By all but four times what joins within steps put the end beside the goal.
+      // Less four times the distance by which joins within steps make the end miss the goal.
       ASSERT_LE(now, left + 2.01 * options.step_m * options.step_m) << i;
       left = now - options.step_m;
     }

@@ -2,7 +2,7 @@
 // from a plan and a certificate in memory.
 //
 // Properties that always hold: an answer is a pure function of the folder's plan and certificate
-// and of the question, but for proof(), which a time limit may end; several threads may ask at
+// and of the question, except for proof(), which a time limit may end; several threads may ask at
 // once. Cost: a query takes about a microsecond, a flight some 30 ns a cell, steering below a
 // millisecond, a plan 0.2 microseconds a cell, a short proof seconds (live_plan.hpp).
 #pragma once

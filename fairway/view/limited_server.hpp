@@ -201,7 +201,7 @@ class LimitedServer final : public httplib::Server {
         request.ranges.clear();
         has_body = request.has_header("Content-Length") || request.has_header("Transfer-Encoding");
         if (!has_body) return;
-        request.headers.erase("Connection");  // a body is not read, and is no next request
+        request.headers.erase("Connection");  // a body is not read, nor taken for the next request
         request.set_header("Connection", "close");
       });
       closed = closed || has_body || client.gone();

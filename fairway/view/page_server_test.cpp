@@ -98,7 +98,7 @@ class Served : public ::testing::Test {
   std::string error(const std::string& path, int status) const {
     return answer(path, status).at("error").get<std::string>();
   }
-  /// What comes back for these very bytes.
+  /// The reply to exactly these bytes.
   std::string raw(const std::string& bytes) const {
     const int connection = ::socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in to{};
@@ -209,7 +209,7 @@ TEST_F(Served, OtherHostsAreRefused) {
     EXPECT_EQ(get("/api/info", {{"Host", host}})->status, 403) << host;
   }
   EXPECT_NE(raw("GET / HTTP/1.1\r\nConnection: close\r\n\r\n").find("403"),
-            std::string::npos);  // no host at all
+            std::string::npos);  // without a Host header
 }
 
 TEST_F(Served, RequestsFromOtherPagesInABrowserAreRefused) {
@@ -237,7 +237,7 @@ TEST_F(Served, NoOtherAddressOfThisMachineAnswers) {
     ::close(connection);
   }
   ::freeifaddrs(all);
-  // 127.0.0.2 is this machine on every Linux, so that the test never passes by having none to try.
+  // 127.0.0.2 is this machine on every Linux, so there is always one address to try.
   sockaddr_in to{};
   to.sin_family = AF_INET;
   to.sin_port = htons(static_cast<std::uint16_t>(server_->port()));
@@ -369,7 +369,7 @@ TEST_F(Served, SteeringEndsAtThePoseAndReportsObstaclesInTheWay) {
   EXPECT_NEAR(end.position_m.x, 90.0, 1e-6);
   EXPECT_NEAR(end.position_m.y, 80.0, 1e-6);
   EXPECT_NEAR(end.heading.rad(), 1.5, 1e-9);
-  // The rock is about (34, 54).
+  // The rock is around (34, 54).
   const json blocked = answer("/api/steer?x=10&y=54&h=0&to_x=60&to_y=54&to_h=0", 200);
   EXPECT_NE(blocked["state"], "shortest");
   EXPECT_NEAR(blocked["shortest"]["length_m"].get<double>(), 50.0, 1e-6);
@@ -417,7 +417,7 @@ TEST_F(Served, PipelinedRequestsAreAnsweredOneByOneAndABodyIsNotReadAsOne) {
   EXPECT_NE(with_body.find("Connection: close"), std::string::npos);
 }
 
-/// A server of its own over the same folder.
+/// A separate server on the same folder.
 class Limited {
  public:
   Limited(const fs::path& place, const LiveEngine& engine, const PageLimits& limits)
@@ -441,7 +441,7 @@ class Limited {
     return made;
   }
   int port() const { return server_.port(); }
-  /// The status of the page, 0 when none comes within half a minute.
+  /// The status of the page, 0 when none arrives within half a minute.
   int status() const {
     httplib::Client client("127.0.0.1", server_.port());
     client.set_read_timeout(30);
@@ -454,7 +454,7 @@ class Limited {
   std::thread thread_;
 };
 
-/// Clients that send a byte of a request now and then, for half a minute at most.
+/// Clients that send a byte of a request now and then, for at most half a minute.
 class Dripping {
  public:
   Dripping(const Limited& server, int count) {
@@ -475,7 +475,7 @@ class Dripping {
   Dripping(const Dripping&) = delete;
   Dripping& operator=(const Dripping&) = delete;
 
-  /// How many were let go while they went on.
+  /// How many were disconnected while still sending.
   int let_go() const {
     int count = 0;
     for (const int c : connections_) {

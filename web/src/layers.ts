@@ -111,7 +111,7 @@ export function costLayer(record: PageRecord, region: Numbers, cost: Numbers): C
   return { codes, nx: record.values.nx, ny: record.values.ny, cells: record.values.cells_per_value };
 }
 
-// Regions: those of the plan, and what is free but cut off from the goal.
+// Regions: those of the plan, and free cells cut off from the goal.
 export function regionLooks(record: PageRecord): Look[] {
   return [bufferLook(record), { ground: record.styles.free }, obstacleLook(record), goalLook(record),
     unreachableLook(record)];

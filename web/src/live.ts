@@ -73,7 +73,7 @@ class LiveTool implements Live {
   private readonly fields = new Map<string, HTMLInputElement>();
   private readonly buttons = new Map<Mode, HTMLButtonElement>();
   private readonly moved: MovedGoal;
-  private place: [number, number] | null = null;  // of the goal, as it is held
+  private place: [number, number] | null = null;  // of the goal while it is dragged
 
   constructor(private readonly record: PageRecord, private readonly page: Page, info: Info) {
     this.moved = new MovedGoal(record, asked, page, () => { this.link(); this.ask(); });

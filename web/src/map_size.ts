@@ -2,9 +2,9 @@
 import { byId, isPrinting } from "./dom";
 
 export const wide_window = "(min-width: 62.01rem)";  // as the style has it
-const panel_px = 304;  // the least of the panel beside the map, with the gap
+const panel_px = 304;  // least width of the panel next to the map, with the gap
 const least_map_px = 500;
-const paper_px = 500;  // the height of a printed map: what is above and below it fits on the same sheet
+const paper_px = 500;  // the height of a printed map: the rest of the sheet fits above and below it
 
 function isWide(): boolean { return window.matchMedia(wide_window).matches && !isPrinting(); }
 

@@ -293,7 +293,7 @@ const turning = (page) => page.evaluate(async () => {
     };
     requestAnimationFrame(step);
   });
-  await turn();  // what is not inflated yet
+  await turn();  // inflates the rest
   return turn();
 });
 
