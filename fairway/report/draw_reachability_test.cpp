@@ -33,7 +33,7 @@ TEST(ReachabilityPictures, SaySharesOfTheOrdinaryCellsAndThatTheyAreNotAProof) {
   EXPECT_TRUE(has_layer(slices.svg, "panel-2"));
   EXPECT_FALSE(has_layer(slices.svg, "panel-3"));
   const Picture shares = draw_reachability_shares(four_cells(), {});
-  EXPECT_TRUE(has_text(shares.svg, "of 10 headings a cell"));
+  EXPECT_TRUE(has_text(shares.svg, "of 10 headings per cell"));
   EXPECT_TRUE(has_text(shares.svg, "33.3 %"));
   EXPECT_TRUE(has_layer(shares.svg, "panel-3"));
 }

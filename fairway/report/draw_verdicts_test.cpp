@@ -191,7 +191,7 @@ TEST(DrawProvedShares, ThreePanelsCountTheStatesOfAllHeadings) {
   VerdictMap map = stripes(1);
   const Picture picture = draw_proved_shares(map, {.title = "shares"});
   for (const char* text : {"shares", "proved to reach", "proved to fail", "undecided",
-                           "of 32 states a cell", "all", "none", "up to 1/8", "obstacle"}) {
+                           "of 32 states per cell", "all", "none", "up to 1/8", "obstacle"}) {
     EXPECT_TRUE(has_text(picture.svg, text)) << text;
   }
   EXPECT_TRUE(has_layer(picture.svg, "panel-3"));
