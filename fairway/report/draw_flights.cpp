@@ -62,7 +62,7 @@ std::vector<Bundle> bundles_by_outcome(std::span<const Flight> flights) {
 std::vector<Bundle> bundles_by_name(std::span<const Flight> flights,
                                     const std::vector<std::string>& names) {
   static const std::array<std::vector<double>, 3> dashes{
-      {{}, {1.5, 1.8}, {5.0, 2.0}}};  // solid, dotted, dashed, as the charts have them
+      {{}, {1.5, 1.8}, {5.0, 2.0}}};  // solid, dotted, dashed, as in the charts
   std::vector<Bundle> bundles;
   std::map<std::string, std::size_t> place;
   for (std::size_t i = 0; i < flights.size(); ++i) {

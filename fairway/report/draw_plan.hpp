@@ -20,7 +20,7 @@ struct PlanPictureOptions {
   std::optional<Mission> mission = {};  ///< the goal point and heading, or the path, drawn on top
   bool cost = true;                     ///< shade the free cells by cost to go, with contours
   bool streamlines = true;              ///< evenly spaced lines along the field
-  bool arrows = false;                  ///< the commanded heading of every so many cells
+  bool arrows = false;                  ///< the commanded heading, one for every few cells
   int streamlines_across = 40;  ///< lines that fit side by side along the longer side, 1..200
   int arrows_across = 40;       ///< arrows along the longer side, 1..200
   double frame_pt = 420.0;      ///< longer side of the map, points (1/72 inch), 100..2000

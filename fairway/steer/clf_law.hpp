@@ -7,7 +7,7 @@
 //                wrong sign, Eq. 14 must turn left to hold D_LL', Eq. 16 right to hold D_RR'.
 //   Eq. 11       reversed: alpha_L is the direction from L to L'.
 //   Eqs. 14, 16  for pi/2 < |alpha - theta| <= pi.
-//   Eqs. 8, 9    have the exponent -1/n, as Eq. 18 has.
+//   Eqs. 8, 9    have the exponent -1/n, as in Eq. 18.
 //   Eqs. 5 to 7  L repels R' when the two circles overlap, as in the text, and 0 <= y_R' - y_L <
 //                2 r, which is all that Eq. 7 prints: L is behind R'. R and L' are the mirror
 //                image. The wrong pair repels, so the law of that circle of the vehicle is

@@ -27,10 +27,10 @@ void require_parameters(const Parameters& parameters, std::initializer_list<cons
 /// The whole text as a finite decimal number. Throws BadQuestion.
 [[nodiscard]] double number_parameter(const Parameters& parameters, const char* name);
 
-/// A place of which x and y are parameters, anywhere. Throws BadQuestion.
+/// A place given by the parameters x and y, anywhere. Throws BadQuestion.
 [[nodiscard]] Vec2 place_parameters(const Parameters& parameters, const char* x, const char* y);
 
-/// A state of which x, y, h are parameters: metres, radians; anywhere. Throws BadQuestion.
+/// A state given by the parameters x, y, h: metres, radians; anywhere. Throws BadQuestion.
 [[nodiscard]] State state_parameters(const Parameters& parameters, const char* x, const char* y,
                                      const char* h);
 

@@ -1,7 +1,7 @@
 // The map's size, and where the flights table goes.
 import { byId, isPrinting } from "./dom";
 
-export const wide_window = "(min-width: 62.01rem)";  // as the style has it
+export const wide_window = "(min-width: 62.01rem)";  // as in style.css
 const panel_px = 304;  // least width of the panel next to the map, with the gap
 const least_map_px = 500;
 const paper_px = 500;  // the height of a printed map: the rest of the sheet fits above and below it

@@ -52,7 +52,7 @@ export interface PageRecord {
   grid: GridShape;
   /** The grid's turn against its map's world, and degrees at across * across places over the grid, [row][column]. */
   frame: { yaw_rad: number; earth: { across: number; lat_deg: number[]; lon_deg: number[] } | null };
-  values: { nx: number; ny: number; cells_per_value: number };  // of which cells the plan's arrays are
+  values: { nx: number; ny: number; cells_per_value: number };  // the cells that the plan's arrays sample
   vehicle: { speed_mps: number; turn_radius_m: number };
   mission: Mission;
   cost_step_m: number;

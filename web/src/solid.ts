@@ -13,7 +13,7 @@ const height = 0.62;  // of the longer side of the map
 
 const lowest_view = 0.49 * Math.PI;  // from the vertical: never from below the floor
 
-const body_names = ["reach", "fail", "undecided"] as const;  // as share_kinds has them
+const body_names = ["reach", "fail", "undecided"] as const;  // in the order of share_kinds
 
 class Solid {
   private readonly renderer: WebGLRenderer;
