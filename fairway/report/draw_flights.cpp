@@ -140,7 +140,7 @@ LegendEntry leg_entry(const LegBundle& bundle) {
   }
   const bool shortest = bundle.state == FinalLegState::shortest;
   return line_entry(
-      fmt::format("last leg, {} ({})", shortest ? "shortest" : "another way", bundle.count),
+      fmt::format("last leg, {} ({})", shortest ? "shortest" : "other path", bundle.count),
       bundle.pen);
 }
 

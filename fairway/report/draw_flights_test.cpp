@@ -196,7 +196,7 @@ TEST(DrawFlights, FinalLegsHaveTheirOwnStrokesAndTheGoalsArrowOnTop) {
   const Picture picture = draw_flights(open_water(), flights,
                                        {.mission = GoalMission{{165.0, 120.0}, 1.5}, .names = {}});
   EXPECT_TRUE(has_text(picture.svg, "last leg, shortest (2)"));
-  EXPECT_TRUE(has_text(picture.svg, "last leg, another way (1)"));
+  EXPECT_TRUE(has_text(picture.svg, "last leg, other path (1)"));
   EXPECT_TRUE(has_text(picture.svg, "no clear last leg (1)"));
   EXPECT_EQ(testing::elements_of_layer(picture.svg, "final-legs-shortest").size(), 2U);
   const auto other = testing::elements_of_layer(picture.svg, "final-legs-other");
