@@ -133,7 +133,7 @@ void save_mission(const Flights& flights, py::ssize_t i, const std::filesystem::
     const Plan& plan = flights.plan->plan;
     const LonLatOf lon_lat = lon_lat_of(frame_in(plan.record), record_name);
     require(static_cast<bool>(lon_lat),
-            "the plan's map has no place on Earth: there is no latitude and longitude to fly to");
+            "the plan's map is not georeferenced: there is no latitude and longitude to fly to");
     std::optional<QgcSite> site;
     if (keeps_site) site = fence ? qgc_site_of(*fence) : qgc_site_of(plan.record, ".");
     const std::vector<Flight> flown = flights.recorded(place, 1);
@@ -311,7 +311,7 @@ void bind_all_flights(py::module_& m) {
            "`fence`: a .plan whose fence, rally points and home altitude the written .plan keeps "
            "(default: the one the map was read from). Warns when there is none, for uploading the "
            ".plan replaces the vehicle's, and of a flight that does not end well. "
-           "ValueError when the plan's map has no place on Earth.")
+           "ValueError when the plan's map is not georeferenced.")
       .def("_repr_png_", [](const Flights& f) { return py::bytes(picture(f, "", 200).png); })
       .def("__len__", [](const Flights& f) { return f.starts.size(); })
       .def("__repr__", [](const Flights& f) {

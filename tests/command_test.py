@@ -433,7 +433,7 @@ class Verify(Command):
                 for name, more in (("c", ()), ("d", ("--quiet",)))]
         told, silence = [process.communicate(timeout=120)[1] for process in both]
         self.assertRegex(told, r"^fairway: verifying[^\n]*, 1\d s so far, time limit (in \d s|reached)\n")
-        self.assertEqual(silence, "")
+        self.assertNotIn("so far", silence)
 
     def test_a_terminal_is_told_the_time_that_is_left(self):
         self.plan()

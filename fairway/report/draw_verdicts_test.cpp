@@ -180,11 +180,11 @@ TEST(DrawVerdicts, ShareOfHeadingsThatReachIsWrittenAndNeverRoundedToAll) {
       return ix + 100 * iy < failing ? Verdict::leave : Verdict::reach;
     });
   };
-  EXPECT_TRUE(has_text(draw_verdicts(with_failing(0), {}).svg, "100.0 % reach"));
+  EXPECT_TRUE(has_text(draw_verdicts(with_failing(0), {}).svg, "100 % reach"));
   EXPECT_TRUE(has_text(draw_verdicts(with_failing(1), {}).svg, "> 99.9 % reach"));
   EXPECT_TRUE(has_text(draw_verdicts(with_failing(2500), {}).svg, "75.0 % reach"));
   EXPECT_TRUE(has_text(draw_verdicts(with_failing(9999), {}).svg, "< 0.1 % reach"));
-  EXPECT_TRUE(has_text(draw_verdicts(with_failing(10000), {}).svg, "0.0 % reach"));
+  EXPECT_TRUE(has_text(draw_verdicts(with_failing(10000), {}).svg, "0 % reach"));
 }
 
 TEST(DrawProvedShares, ThreePanelsCountTheStatesOfAllHeadings) {

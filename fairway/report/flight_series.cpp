@@ -22,38 +22,21 @@ Vec2 position_along(const FlightSegment& piece, double s_m) {
          chord_m * Heading::from_rad(piece.start.heading.rad() + half_turn).unit();
 }
 
-void add_point(ChartSeries& series, double time_s, double rad) {
-  series.x.push_back(time_s);
-  series.y.push_back(rad);
-}
-
-/// A turn by `turn_rad`, with a NaN where it passes the seam at -pi and pi.
-void add_turn(ChartSeries& series, double begin_s, double end_s, double from_rad, double turn_rad) {
-  constexpr double cut = std::numeric_limits<double>::quiet_NaN();
-  if (!series.y.empty() && std::abs(from_rad - series.y.back()) >= pi) {
-    add_point(series, begin_s, cut);
-  }
-  add_point(series, begin_s, from_rad);
-  const double side = turn_rad < 0.0 ? -pi : pi;  // where the seam is met
-  for (double turned = side - from_rad; std::abs(turned) < std::abs(turn_rad);
-       turned += 2.0 * side) {
-    const double at_s = begin_s + (end_s - begin_s) * turned / turn_rad;
-    add_point(series, at_s, side);
-    add_point(series, at_s, cut);
-    add_point(series, at_s, -side);
-  }
-  add_point(series, end_s, Heading::from_rad(from_rad + turn_rad).rad());
-}
-
 }  // namespace
 
 ChartSeries heading_over_time(const Flight& flight, double speed_mps, std::string name) {
   require(speed_mps > 0.0, "a speed is positive");
   ChartSeries series{std::move(name), {}, {}, {}};
+  double heading_rad = flight.start.heading.rad();
   for (const auto& segments : {std::span(flight.segments), std::span(flight.final_leg.segments)}) {
     for (const FlightSegment& piece : segments) {
-      add_turn(series, piece.time_s, piece.time_s + piece.length_m / speed_mps,
-               piece.start.heading.rad(), piece.curvature_per_m * piece.length_m);
+      // The nearest of the angles that mean this heading: no jump of 2 pi.
+      heading_rad += Heading::from_rad(heading_rad).turn_to(piece.start.heading);
+      series.x.push_back(piece.time_s);
+      series.y.push_back(heading_rad);
+      heading_rad += piece.curvature_per_m * piece.length_m;
+      series.x.push_back(piece.time_s + piece.length_m / speed_mps);
+      series.y.push_back(heading_rad);
     }
   }
   return series;

@@ -9,9 +9,8 @@
 
 namespace fairway {
 
-/// Heading against time (Figs. 6b, 8a): seconds, radians in [-pi, pi]; the final leg, if there is
-/// one, goes on. Exact: a point at each end of every piece, and two where a turn passes pi, with a
-/// NaN between them, so that no line is drawn from one to the other.
+/// Heading against time (Figs. 6b, 8a): seconds, radians, unwrapped, that is, without jumps of
+/// 2 pi; the final leg, if there is one, goes on. Exact: one point at each end of every piece.
 [[nodiscard]] ChartSeries heading_over_time(const Flight& flight, double speed_mps,
                                             std::string name);
 

@@ -99,7 +99,7 @@ std::vector<Finding> findings(const Plan& plan, const Verification& v) {
 
 std::vector<Finding> findings(const Plan& plan, const BitmapVerification& v) {
   std::vector<Finding> found{{estimated_reach_text(v), all_states,
-                              "reach, estimated from border samples: nothing is proved"}};
+                              "reach, estimated from border samples (not a proof)"}};
   for (Finding& finding : plan_findings(plan)) found.push_back(std::move(finding));
   return found;
 }

@@ -50,7 +50,7 @@ TEST(Overrides, ReadLikeTheSameLinesInTheFile) {
       {"cell_m = 4", "cell_m = 2.5"},
       {"speed_mps = 10.0", "speed_mps = 1e1"},
       {"goal_m = [120.0, 340.0]", "goal_m = [ 1, -2.5 ]"},
-      {"states = [[10.0, 20, 0.0], [1, 2, 3]]", "states = [[7, 8, 9]]"},
+      {"states = [[10.0, 20, 0.0], [1, 2, 3]]", "states = [[7, 8, 0.9]]"},
       {"file = \"maps/campus.yaml\"", "file = \"other.yaml\""}};
   const std::vector<std::string> tables{"map", "vehicle", "mission", "simulate", "map"};
   for (std::size_t i = 0; i < cases.size(); ++i) {

@@ -10,7 +10,7 @@ RADIUS_M = 3.0
 
 
 def random_poses(rng, n):
-    return np.column_stack([rng.uniform(-30, 30, (n, 2)), rng.uniform(-9, 9, n)])
+    return np.column_stack([rng.uniform(-30, 30, (n, 2)), rng.uniform(-7, 7, n)])
 
 
 def test_paths_end_at_the_goal_and_are_those_of_one_pair_at_a_time():

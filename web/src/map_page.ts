@@ -348,10 +348,15 @@ export class MapPage implements MapHands, PlanView {
   }
 
   private fit(): void {
-    const { width, height } = mapSize(this.grid.nx / this.grid.ny);
-    byId("stage").style.setProperty("--map-width", `${width}px`);
-    this.map.style.height = `${height}px`;
-    this.map.style.width = isPrinting() ? `${width}px` : "";
+    // The replay below the map wraps where the map is narrow: start from the style's own width and
+    // measure twice, so that the previous size does not matter.
+    byId("stage").style.removeProperty("--map-width");
+    for (let pass = 0; pass < 2; ++pass) {
+      const { width, height } = mapSize(this.grid.nx / this.grid.ny);
+      byId("stage").style.setProperty("--map-width", `${width}px`);
+      this.map.style.height = `${height}px`;
+      this.map.style.width = isPrinting() ? `${width}px` : "";
+    }
     this.view.resize(this.map.clientWidth, this.map.clientHeight);
     this.moved();
     this.slider.strip();
