@@ -133,7 +133,7 @@ struct PageServer::Parts {
     if (request.get_header_value_count("Host") != 1 ||
         !is_local_host(request.get_header_value("Host"), port)) {
       refuse(response, 403,
-             fmt::format("the Host header must be {}:{} or localhost", loopback, port));
+             fmt::format("the Host header must be {0}:{1} or localhost:{1}", loopback, port));
       return true;
     }
     const std::string from = request.get_header_value("Sec-Fetch-Site");
