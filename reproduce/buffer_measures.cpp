@@ -7,7 +7,7 @@
 namespace fairway::reproduce {
 namespace {
 
-/// From any point of one cell to any of another so many columns and rows away.
+/// From any point of one cell to any of another, a number of columns and rows away.
 double least_between_m(int dx, int dy, double cell_m) {
   const auto gap = [](int d) { return static_cast<double>(std::max(std::abs(d) - 1, 0)); };
   return cell_m * std::hypot(gap(dx), gap(dy));

@@ -1,4 +1,4 @@
-// What distance a plan's buffer keeps. Eq. 3 of paper 1 measures from points of obstacles to
+// The distance that a plan's buffer keeps. Eq. 3 of paper 1 measures from points of obstacles to
 // points; the program from cell to cell.
 #pragma once
 

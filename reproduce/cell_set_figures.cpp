@@ -135,7 +135,7 @@ Picture draw_two_sets(double y_m) {
   const Color right_color = series_color(1);
   const PlotFrame frame{
       {50.0, 34.0, 300.0, 300.0}, {0.0, cell_m, "x (m)", 5}, {0.0, cell_m, "y (m)", 5}};
-  Canvas canvas(520.0, 380.0, 2.0, "Two disjoint forward sets in one point");
+  Canvas canvas(520.0, 380.0, 2.0, "Two disjoint forward sets at one point");
   draw_axes(canvas, frame, false);
   const auto sets = forward_headings(Side::bottom, Side::right, y_m, command, shape);
   {

@@ -1,4 +1,4 @@
-// What the text of paper 1 claims about Figs. 6 to 8, held against our own map. Orders and ratios,
+// The claims of paper 1's text about Figs. 6 to 8, tested on our own map. Orders and ratios,
 // not digits: the paper's maps are not published.
 #include <cmath>
 #include <numeric>
@@ -37,7 +37,7 @@ TEST_P(PaperClaims, EveryFigureIsDrawn) {
   }
 }
 
-// Over many starts; single flights differ by less than they scatter.
+// Over many starts; single flights differ by less than their scatter.
 TEST_P(PaperClaims, LargerSigmaGivesSmootherHeadings) {
   const auto& rows = figures(GetParam()).goal_by_sigma;
   ASSERT_EQ(rows.size(), 3U);
@@ -86,7 +86,7 @@ TEST_P(PaperClaims, EveryFlightOfTheFiguresReachesTheGoalAndNearlyAllRandomOnesD
 }
 
 // docs/field.md: Eq. 3 measures from point to point, the program from centre to centre.
-TEST(BufferClaims, TheBufferKeepsItsWidthButForACellsDiagonalAndThatOfThePaperAllOfIt) {
+TEST(BufferClaims, TheBufferKeepsItsWidthLessACellsDiagonalAndThePapersAllOfIt) {
   const auto demo = std::filesystem::path(FAIRWAY_SOURCE_DIR) / "demo" / "demo.toml";
   struct Documented {
     double cell_m, least_m, percent;

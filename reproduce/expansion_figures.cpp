@@ -209,7 +209,7 @@ void draw_column(ExpansionFigures& out) {
                                               "S3, reaches S2", backward, nullptr, "");
 }
 
-/// Towards a goal off the middle of 20 by 20 free cells.
+/// Towards a goal off the centre of 20 by 20 free cells.
 Plan plan_of_figure_23() {
   ObstacleMap map;
   map.grid = {cells_per_side, cells_per_side, 0.0, 0.0, cell_m};

@@ -103,7 +103,7 @@ struct PathCurves {
   std::vector<PathRow> rows;
 };
 
-/// The flight from `from_s` on, its clock started anew.
+/// The flight from `from_s` on, with its clock restarted.
 Flight later_part(const Flight& flight, double from_s) {
   Flight part;
   part.result = flight.result;

@@ -40,7 +40,7 @@ struct Reproduction {
   std::vector<PathRow> path_by_cell;        ///< Fig. 8b
 };
 
-/// Metric, filter and blend as printed. What the paper leaves open lies in the middle of its
+/// Metric, filter and blend as printed. Values that the paper leaves open are the middle of its
 /// ranges.
 [[nodiscard]] FieldOptions options_to_the_letter();
 

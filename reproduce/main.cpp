@@ -1,5 +1,5 @@
 // fairway-reproduce DEMO_FOLDER OUT_FOLDER: redraws Figs. 3 to 8 of paper 1 on the project's own
-// map and prints what can be measured on them. Twice: to the letter of the paper (metric, filter
+// map and prints measurements of them. Twice: to the letter of the paper (metric, filter
 // and blend "paper"), and with the project's defaults. Then Figs. 6, 8 and 20 to 23 of paper 2, and
 // 5 to 7 of paper 3.
 #include <array>
@@ -42,7 +42,7 @@ int reproduce(const std::filesystem::path& demo, const std::filesystem::path& ou
   using namespace fairway;
   const std::array<Setting, 2> settings{
       {{"paper", "To the letter of the paper", reproduce::options_to_the_letter()},
-       {"default", "With the defaults (but for sigma)", FieldOptions{}}}};
+       {"default", "With the defaults (except sigma)", FieldOptions{}}}};
   std::string text;
   nlohmann::json numbers;
   for (const Setting& setting : settings) {

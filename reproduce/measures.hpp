@@ -1,4 +1,4 @@
-// What the text of paper 1 says about its figures, as numbers.
+// Numbers for what paper 1's text says about its figures.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 namespace fairway::reproduce {
 
 /// How smooth a heading is over time, after the first turn: from any start the vehicle first turns
-/// to the field, which says nothing of the field.
+/// to the field, which says nothing about the field.
 struct HeadingMeasures {
   double turning_rad = 0.0;         ///< all turning added up, left and right: total variation
   int reversals = 0;                ///< left turns followed by right turns, or the other way round
@@ -26,11 +26,11 @@ struct PathMeasures {
   double mean_m = 0.0;  ///< over the flight's length
   double max_m = 0.0;
   std::vector<double> corner_m;  ///< per corner of the path: the most within `corner_reach_m` of it
-  double mean_of_straights_m = 0.0;  ///< over what lies farther from every corner
+  double mean_of_straights_m = 0.0;  ///< over the parts farther from every corner
 };
 
-/// Corners are the vertices, of open paths without the ends. `step_m` > 0: how finely a flight is
-/// looked at.
+/// Corners are the vertices, for open paths without the ends. `step_m` > 0: how finely a flight is
+/// sampled.
 [[nodiscard]] PathMeasures path_measures(const Flight& flight, double speed_mps,
                                          const PathMission& path, double corner_reach_m,
                                          double step_m);

@@ -25,7 +25,7 @@ Flight flight_of(const std::vector<std::pair<double, double>>& pieces, State her
   return flight;
 }
 
-TEST(HeadingMeasures, AStraightFlightTurnsNothing) {
+TEST(HeadingMeasures, AStraightFlightDoesNotTurn) {
   const auto m = heading_measures(flight_of({{500.0, 0.0}}), 10.0, 4.0);
   EXPECT_EQ(m.turning_rad, 0.0);
   EXPECT_EQ(m.reversals, 0);
@@ -56,7 +56,7 @@ TEST(HeadingMeasures, WeavingReversesButDoesNotShowInTheMeanRate) {
   EXPECT_NEAR(m.largest_rate_radps, 0.0, 1e-9);
 }
 
-TEST(PathMeasures, AFlightBesideAStraightPathIsAlwaysAsFarOff) {
+TEST(PathMeasures, AFlightAlongsideAStraightPathKeepsItsDistance) {
   const PathMission path{{{-100.0, 3.0}, {600.0, 3.0}}, false};
   const auto m = path_measures(flight_of({{500.0, 0.0}}), 10.0, path, 50.0, 1.0);
   EXPECT_NEAR(m.mean_m, 3.0, 1e-9);
@@ -65,7 +65,7 @@ TEST(PathMeasures, AFlightBesideAStraightPathIsAlwaysAsFarOff) {
   EXPECT_TRUE(m.corner_m.empty());
 }
 
-TEST(PathMeasures, ACornerCutByAQuarterCircleHasTheSpikeOfGeometry) {
+TEST(PathMeasures, ACornerCutByAQuarterCircleHasTheSpikeThatGeometryGives) {
   // Path: east, then north at (200, 0). Flight: leaves it 20 m before, on a circle of 20 m.
   const PathMission path{{{0.0, 0.0}, {200.0, 0.0}, {200.0, 300.0}}, false};
   const auto m = path_measures(flight_of({{180.0, 0.0}, {10.0 * pi, 0.05}, {200.0, 0.0}}), 10.0,
@@ -76,7 +76,7 @@ TEST(PathMeasures, ACornerCutByAQuarterCircleHasTheSpikeOfGeometry) {
   EXPECT_NEAR(m.mean_of_straights_m, 0.0, 1e-9);
 }
 
-TEST(PathMeasures, TheLengthOfAClosedPathHasItsClosingEdge) {
+TEST(PathMeasures, TheLengthOfAClosedPathIncludesItsClosingEdge) {
   EXPECT_DOUBLE_EQ(length_of({{{0.0, 0.0}, {3.0, 0.0}, {3.0, 4.0}}, false}), 7.0);
   EXPECT_DOUBLE_EQ(length_of({{{0.0, 0.0}, {3.0, 0.0}, {3.0, 4.0}}, true}), 12.0);
 }

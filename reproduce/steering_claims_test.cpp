@@ -1,4 +1,4 @@
-// What docs/steering.md and docs/papers.md say of paper 3's law.
+// What docs/steering.md and docs/papers.md say about paper 3's law.
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -50,7 +50,7 @@ TEST(SteeringClaims, Figure6PushesTheLeftCircleAwayThenTheRightOneUntil1Point5) 
   EXPECT_LT(value.d_ll, value.d_rr);  // D_LL' is the one that is reduced then
 }
 
-TEST(SteeringClaims, BothLawsCatchGoalsThatMoveAndBearNoise) {
+TEST(SteeringClaims, BothLawsCatchMovingGoalsAndTolerateNoise) {
   for (const RobustnessRow& row : steering_robustness(60)) {
     for (std::size_t law = 0; law < law_names.size(); ++law) {
       EXPECT_EQ(row.caught[law], row.starts)
@@ -61,7 +61,7 @@ TEST(SteeringClaims, BothLawsCatchGoalsThatMoveAndBearNoise) {
   }
 }
 
-TEST(SteeringClaims, TheLawConvergesEverywhereAndIsShortestFromMostStartsNotFromAll) {
+TEST(SteeringClaims, TheLawConvergesEverywhereAndIsShortestFromMostStartsButNotAll) {
   for (const Repulsion repulsion : {Repulsion::none, Repulsion::overlap_behind}) {
     const SteeringStudy study = study_of(repulsion, 16, 16);
     EXPECT_EQ(study.converged, 1.0) << study.name;

@@ -235,7 +235,7 @@ SteeringStudy study_of(Repulsion repulsion, int per_side, int headings) {
     shortest += o.length <= o.shortest + same_length ? 1 : 0;
     const double ratio = o.length / o.shortest;
     ratios += ratio;
-    // Next to the goal a ratio says nothing: both lengths are within the tolerance.
+    // Next to the goal a ratio is meaningless: both lengths are within the tolerance.
     if (ratio > study.worst_ratio && o.shortest > 0.5) {
       study.worst_ratio = ratio;
       study.worst_start = start_of(i);

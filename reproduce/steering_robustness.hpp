@@ -1,5 +1,5 @@
-// Both steering laws towards goals that move and against disturbances: how many arrive, how far
-// they drive. Paper 3 claims that its law copes with both, and measures neither.
+// Both steering laws with moving goals and disturbances: how many flights arrive, how far they
+// drive. Paper 3 claims that its law handles both, but measures neither.
 #pragma once
 
 #include <array>

@@ -88,7 +88,7 @@ class View(unittest.TestCase):
             port = probe.getsockname()[1]
         _, said = self.start("run", "--port", port)
         self.assertEqual(said["port"], port)
-        self.assertIn(f"--port: {port} cannot be had", self.refused(65, "run", "--port", port))
+        self.assertIn(f"--port: {port} is in use", self.refused(65, "run", "--port", port))
 
     def test_the_usual_port_unless_it_is_taken(self):
         ports = [self.start("run")[1]["port"] for _ in range(2)]

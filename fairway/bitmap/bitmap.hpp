@@ -1,4 +1,5 @@
-// Paper 2's product for a plan, whole: the samples of every border, and what a query needs besides.
+// Paper 2's complete product for a plan: the samples of every border, and what a query needs
+// besides.
 //
 // Properties that always hold: set.grid is the grid of the arrays; commands are those of the plan;
 // kind follows from region and region_of_interest (cell_kinds); 0 < cell side < turning radius.
@@ -25,17 +26,17 @@ struct Bitmap {
   std::vector<Region> region;      ///< [iy][ix], of the plan
   std::vector<CellKind> kind;      ///< [iy][ix]
   BorderBitmap set;
-  PlanDigests plan;            ///< which plan it is of
-  std::optional<Frame> frame;  ///< where the plan's grid lies; none: the plan did not say
-  /// How it was made and what it amounts to, one JSON object: program, options, shares.
+  PlanDigests plan;            ///< of the plan it belongs to
+  std::optional<Frame> frame;  ///< where the plan's grid lies; none: unknown to the plan
+  /// How it was made and its results, one JSON object: program, options, shares.
   std::string evidence_json = "{}";
 
   const Grid& grid() const { return set.grid; }
   Flow flow() const { return {set.grid, vehicle, heading_rad.data(), kind.data()}; }
 };
 
-/// What a bitmap's file says beside its arrays, but for what follows from them; one JSON object
-/// with sorted keys.
+/// The metadata of a bitmap's file, except what follows from its arrays; one JSON object with
+/// sorted keys.
 [[nodiscard]] std::string record_text(const Bitmap& bitmap);
 
 }  // namespace fairway

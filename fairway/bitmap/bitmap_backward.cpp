@@ -11,10 +11,10 @@
 namespace fairway {
 namespace {
 
-/// Two bits a state while at work: whether its answer is known, and the answer. Both lie in one
-/// word, so that a reader never sees one without the other. Threads write by a plain load and
-/// store: when two write to one word at once the marks of one can get lost, whose states are then
-/// worked out again with the same answer. That is far cheaper than locking every mark.
+/// Two bits a state during the computation: whether its answer is known, and the answer. Both lie
+/// in one word, so that a reader never sees one without the other. Threads write by a plain load
+/// and store: when two write to one word at once, the marks of one can get lost, and those states
+/// are computed again with the same answer. That is far cheaper than locking every mark.
 class Marks {
  public:
   explicit Marks(const BitmapGraph& graph)
@@ -23,7 +23,7 @@ class Marks {
         words_per_border_(2 * ((states_per_border_ + 63) / 64)),
         words_(graph.borders().count() * words_per_border_) {}
 
-  /// A place is 32 times the word's number plus the state's number in the word.
+  /// A place is 32 times the word's index plus the state's index in the word.
   std::size_t place(std::size_t border, std::size_t state) const {
     return 32 * border * words_per_border_ + state;
   }
@@ -58,7 +58,7 @@ class Marks {
   static_assert(static_cast<int>(BitmapEnd::reached) == 1 &&
                 static_cast<int>(BitmapEnd::not_reached) == 2);
 
-  /// Every second bit, gathered: the low halves of pairs, quadruples and so on move together.
+  /// Gathers every second bit: the low halves of pairs, quadruples and so on move together.
   static std::uint64_t reached_bits(std::uint64_t w) {
     w &= 0x5555555555555555U;
     w = (w | w >> 1) & 0x3333333333333333U;
@@ -73,7 +73,7 @@ class Marks {
   BitmapWords words_;
 };
 
-/// Works out answers for whole borders. One per thread.
+/// Computes answers for whole borders. One per thread.
 class Follower {
  public:
   Follower(const BitmapGraph& graph, Marks& marks)
@@ -165,7 +165,7 @@ class Follower {
                             static_cast<std::size_t>(node.position));
   }
 
-  /// Neighbouring states fly through the same rows: those of late are kept.
+  /// Neighbouring states fly through the same rows: recent ones are kept.
   const BitmapRow& row_of(const BitmapGraph::Node& node) {
     const std::uint64_t key =
         (static_cast<std::uint64_t>(node.place) * 4 + static_cast<std::uint64_t>(node.entry)) *
@@ -199,7 +199,7 @@ BorderBitmap backward_reachable_set(const Plan& plan, const std::vector<std::uin
   const std::size_t borders = graph.borders().count();
   for_ranges(borders, 16,
              [&](std::size_t begin, std::size_t end) { decide_borders(graph, marks, begin, end); });
-  // Marks that got lost between threads; alone nothing gets lost.
+  // Recomputes marks lost between threads; a single thread loses none.
   decide_borders(graph, marks, 0, borders);
   return {plan.grid, options.samples, marks.take_reached()};
 }

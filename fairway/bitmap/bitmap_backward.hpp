@@ -1,13 +1,13 @@
 // The backward reachable set of a region of interest on border samples (paper 2, section V), in one
-// pass: the fast way of what Algorithm 1 does in repeated sweeps (bitmap_expansion.hpp).
+// pass: a fast equivalent of Algorithm 1's repeated sweeps (bitmap_expansion.hpp).
 //
 // Since every sample state has one successor, the states form a graph with one edge out of each
-// node; each is followed until a state is met whose answer is known, and the whole path is given
-// that answer. So every successor is worked out about once.
+// node; each is followed until it meets a state whose answer is known, and the whole path gets
+// that answer. So every successor is computed about once.
 // Properties that always hold:
 //   1. The bits are those of the successor relation (bitmap_graph.hpp), the same as the reference's
 //      and the same for any number of threads.
-//   2. Peak of memory: two bits a state while at work, one afterwards.
+//   2. Peak memory: two bits a state during the computation, one afterwards.
 #pragma once
 
 #include <cstdint>

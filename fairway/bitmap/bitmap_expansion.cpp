@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t in_region = nowhere - 1;
 
-/// For every state where it flies to: a state, the region, or nowhere.
+/// Where every state flies to: a state, the region, or nowhere.
 std::vector<std::uint32_t> successors_of(const BitmapGraph& graph) {
   const int m = graph.samples().count();
   const auto ends_as = [](BitmapEnd end) {

@@ -1,6 +1,6 @@
 // Algorithm 1 of paper 2, the iterative border expansion: the reference for bitmap_backward.hpp.
 //
-// Sweeps over all borders, each taking over from its neighbours, until a sweep adds nothing. The
+// Sweeps over all borders, each updated from its neighbours, until a sweep adds nothing. The
 // neighbours of a border are eight: the three other borders of the cell on either side, and itself
 // through either cell, since a shallow arc can leave by the border it came in by. (The paper counts
 // six.) Cost: as many sweeps as the longest path in sample states, each over every state, and four

@@ -27,7 +27,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* format_name = "fairway-bitmap";
-constexpr int format_version = 2;  // 1 had neither grid nor commands, so that nothing could read it
+constexpr int format_version = 2;  // 1 had neither grid nor commands, so nothing could read it
 constexpr const char* own_keys[] = {"format",
                                     "format_version",
                                     "method",
@@ -122,7 +122,7 @@ void take_words(const Safetensors& file, const json& record, const std::string& 
   const std::size_t used = b.set.states_per_border() % 64;
   for (std::size_t last = each - 1; used != 0 && last < b.set.words.size(); last += each) {
     if (b.set.words[last] >> used != 0) {
-      throw InputError(where + ": \"border_words\"", "has bits behind the last sample of a border");
+      throw InputError(where + ": \"border_words\"", "has bits after the last sample of a border");
     }
   }
 }
@@ -193,7 +193,8 @@ Bitmap bitmap_of_bytes(std::span<const std::byte> bytes, const std::string& wher
   b.region_of_interest = region_of_interest_of(member(record, "region_of_interest", place), b.kind,
                                                place + ".region_of_interest");
   take_words(file, record, where, place, b);
-  if (file.tensors.size() != 4) throw InputError(where, "has arrays that no bitmap has");
+  if (file.tensors.size() != 4)
+    throw InputError(where, "has arrays that do not belong in a bitmap");
   const json found = digests_of(file.tensors);
   require_digests(record, found, place);
   require_cells(b, where);

@@ -1,7 +1,7 @@
 // Bitmap files: safetensors (docs/formats.md).
 //
 // Properties that always hold: read_bitmap(write_bitmap(b)) == b, array for array; the bytes depend
-// on the bitmap alone.
+// only on the bitmap.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ namespace fairway {
 /// Writes it whole or not at all. Throws InputError when the place cannot be written.
 void write_bitmap(const Bitmap& bitmap, const std::filesystem::path& path, Existing existing);
 
-/// Throws InputError{path, which field, what is expected} for anything but a whole bitmap with the
-/// digests it claims. That its samples are right is for nobody to check: it is a picture.
+/// Throws InputError{path, which field, what is expected} for anything but a complete bitmap with
+/// the digests it claims. Its samples are not checked: it is a picture.
 [[nodiscard]] Bitmap read_bitmap(const std::filesystem::path& path);
 
 /// The same for bytes already in memory; `where` names them in errors.

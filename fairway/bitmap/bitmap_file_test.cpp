@@ -144,13 +144,13 @@ TEST(BitmapFile, WithAnyByteOfItsArraysChangedIsRefused) {
   EXPECT_NE(refusal(good.substr(0, good.size() - 1)), "read");
 }
 
-TEST(BitmapFile, MayHaveNoBitsBehindTheLastSampleOfABorder) {
+TEST(BitmapFile, HasNoBitsAfterTheLastSampleOfABorder) {
   Bitmap bitmap = sample({}, 12);  // 144 bits in three words
   bitmap.set.words[2] |= std::uint64_t{1} << 16;
-  EXPECT_THAT(refusal(written(bitmap)), testing::HasSubstr("behind the last sample"));
+  EXPECT_THAT(refusal(written(bitmap)), testing::HasSubstr("after the last sample"));
 }
 
-TEST(BitmapFile, MayHaveNoCommandThatIsNoHeading) {
+TEST(BitmapFile, AcceptsOnlyHeadingsAsCommands) {
   Bitmap bitmap = sample();
   bitmap.heading_rad[3] = 4.0F;
   bitmap.plan.heading_rad = sha256_hex(std::as_bytes(std::span(bitmap.heading_rad)));

@@ -30,7 +30,7 @@ BitmapGraph::BitmapGraph(const Plan& plan, const std::vector<std::uint8_t>& targ
                                     ? Direction::none()
                                     : Direction::of(Heading::from_rad(heading_rad));
       cell.command = BitmapCommand::of(command, samples_);
-      // Numbers of outer borders are wrong, and never used.
+      // Numbers of outer borders are wrong, but never used.
       cell.right_border = static_cast<std::uint32_t>(borders_.of({ix, iy}, Side::right));
       cell.top_border = static_cast<std::uint32_t>(borders_.of({ix, iy}, Side::top));
       cell.end = target_cells[i] != 0                 ? BitmapEnd::reached

@@ -1,16 +1,17 @@
 // The successor relation of the border samples of a plan: every sample state has one successor.
 //
 // A state flies from its sample through the cell it enters (exactly, bitmap_row.hpp) to the next
-// border and is snapped to the nearest sample there. What the model leaves open, here:
+// border and is snapped to the nearest sample there. How open points of the model are decided here:
 //   - no sample heads along a border, and snapping keeps the quadrant of a heading, so a state that
 //     has crossed a border enters the next cell;
-//   - exits at corners belong to one of the two borders, as rounding has it; a corner that is only
+//   - exits at corners belong to one of the two borders, depending on rounding; a corner that is
+//   only
 //     touched is not seen;
 //   - two commands that oppose each other across a border make a state weave along it in hops of at
-//     least 2 r sin(pi / m): that is far more than half a sample, so it gets on; a loop in the
-//     relation never reaches;
+//     least 2 r sin(pi / m): that is far more than half a sample, so it advances; a loop in
+//     the relation never reaches;
 //   - cells of the region end a flight with success, other obstacle cells and the grid's edge
-//     without; all else is flown through, goal cells too when they are not the region;
+//     without; everything else is flown through, including goal cells that are not the region;
 //   - a state of a border of the region that heads out of it has not reached it. (The paper counts
 //     the region's whole border as reached, whatever the heading.)
 #pragma once
@@ -39,7 +40,7 @@ class BitmapGraph {
     int position = 0;
   };
 
-  /// Keeps nothing of `plan`. `target_cells` is [iy][ix], not 0 for cells of the region of
+  /// Keeps no reference to `plan`. `target_cells` is [iy][ix], not 0 for cells of the region of
   /// interest. Throws PreconditionViolation when sizes do not fit or the cell is not smaller than
   /// the turning radius.
   BitmapGraph(const Plan& plan, const std::vector<std::uint8_t>& target_cells, int samples);

@@ -21,7 +21,7 @@ BitmapLookup::BitmapLookup(const Plan& plan, const std::vector<std::uint8_t>& ta
     : flow_{plan.grid, plan.vehicle, plan.heading_rad.data(), nullptr},
       set_(set),
       samples_(set.samples) {
-  require(set.grid == plan.grid, "the bitmap is of the plan's grid");
+  require(set.grid == plan.grid, "the bitmap has the plan's grid");
   require(target_cells.size() == plan.grid.size() && plan.region.size() == plan.grid.size() &&
               plan.heading_rad.size() == plan.grid.size(),
           "a plan's arrays and the region have one entry per cell");
@@ -37,7 +37,7 @@ void BitmapLookup::require_fit() const {
   require(flow_.grid.cell_m > 0.0 && flow_.grid.cell_m < flow_.vehicle.turn_radius_m,
           "0 < cell side < turning radius");
   require(set_.words.size() == set_.borders().count() * set_.words_per_border(),
-          "the bitmap is as large as its borders ask");
+          "the bitmap has the size that its borders require");
 }
 
 BitmapLookup::First BitmapLookup::first_border(const State& state) const {

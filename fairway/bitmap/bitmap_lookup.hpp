@@ -16,7 +16,7 @@
 
 namespace fairway {
 
-/// Keeps references to what it is made of, which must outlive it.
+/// Keeps references to its arguments, which must outlive it.
 class BitmapLookup {
  public:
   /// Throws PreconditionViolation when the parts do not fit together.
@@ -25,14 +25,14 @@ class BitmapLookup {
   BitmapLookup(const Plan& plan, const std::vector<std::uint8_t>& target_cells,
                const BorderBitmap& set);
 
-  /// What the samples say of a state: those whose square of place and heading holds the state in
-  /// which its flight first meets a border, and the (up to) eight squares about it on that border.
-  /// All must agree; else `undecided`. In the region: reach. In an obstacle, outside the closed
-  /// grid, or out of the grid at the first border: other. A state on a border is looked at in the
-  /// cell above and to the right of it, which it leaves at once when it heads out of it.
+  /// What the samples say about a state: the one whose square of place and heading contains the
+  /// state in which its flight first meets a border, and the (up to) eight squares around it on
+  /// that border. All must agree; else `undecided`. In the region: reach. In an obstacle, outside
+  /// the closed grid, or out of the grid at the first border: other. A state on a border counts as
+  /// in the cell above and to the right of it, which it leaves at once when it heads out of it.
   [[nodiscard]] Sampled answer(const State& state) const;
 
-  /// Whether the one square that holds it reaches: the paper's way.
+  /// Whether the single square that contains it reaches: the paper's method.
   [[nodiscard]] bool reaches(const State& state) const;
 
   const Grid& grid() const { return set_.grid; }
@@ -47,7 +47,7 @@ class BitmapLookup {
     int heading = 0;
     int position = 0;
   };
-  /// What is known without looking at samples, or where to look.
+  /// The answer if known without samples, or where to look.
   struct First {
     Sampled known = Sampled::other;
     std::optional<Sample> sample;

@@ -18,7 +18,7 @@ State random_state(const Grid& grid, Random& random) {
           Heading::from_rad(random.uniform(-pi, pi))};
 }
 
-TEST(BitmapLookup, OfTheContradictionsToExactFlightsThoseAboutAnEdgeAreUndecided) {
+TEST(BitmapLookup, ContradictionsToExactFlightsNearAnEdgeAreUndecided) {
   Random random(77);
   int decided = 0;
   int undecided = 0;
@@ -45,7 +45,7 @@ TEST(BitmapLookup, OfTheContradictionsToExactFlightsThoseAboutAnEdgeAreUndecided
   }
   EXPECT_GT(by_one_sample, 100);
   EXPECT_LT(10 * contradictions, by_one_sample);  // 9 of 10 and more lie within one sample
-  EXPECT_LT(contradictions, decided / 1000);      // what is left comes from snapping, many times
+  EXPECT_LT(contradictions, decided / 1000);      // the rest comes from repeated snapping
   EXPECT_GT(undecided, decided / 100);
   EXPECT_LT(undecided, decided / 5);
 }
@@ -58,7 +58,7 @@ TEST(BitmapLookup, KnowsRegionObstaclesAndTheOutsideOfAnyRegionOfInterest) {
   RegionOfInterest cells{RegionOfInterest::Kind::cells, {}, {}};
   cells.cells.assign(plan.grid.size(), 0);
   cells.cells[plan.grid.index({1, 1})] = 1;
-  cells.cells[plan.grid.index(wall)] = 1;  // an obstacle all the same
+  cells.cells[plan.grid.index(wall)] = 1;  // still an obstacle
   plan.region[plan.grid.index({1, 1})] = Region::free;
   const Bitmap bitmap = bitmap_of(plan, cells, 8);
   const BitmapLookup lookup(bitmap);

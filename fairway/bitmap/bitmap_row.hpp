@@ -1,9 +1,9 @@
 // The exact motion (vehicle/cell_motion.hpp) of all samples that enter one cell by one side with
 // one heading: a row of a border's bitmap.
 //
-// What does not depend on the position along the side is worked out once per row: the arc until it
-// is aligned, meets the far side, or comes back to its own ("free arc", as if the cell had no sides
-// beside the entry). Along the row there are then at most four stretches:
+// What does not depend on the position along the side is computed once per row: the arc until it is
+// aligned, meets the far side, or comes back to its own ("free arc", as if the cell had no sides
+// next to the entry). Along the row there are then at most four stretches:
 //   - so far right that the arc meets the right side first, so far left that it meets the left one:
 //     one square root a sample;
 //   - between them: an exit moved by the same shift for all (far side, or back to the entry side),
@@ -26,7 +26,7 @@
 
 namespace fairway {
 
-/// A cell's command, made ready.
+/// A cell's command, prepared.
 struct BitmapCommand {
   Vec2 unit;  ///< (0, 0): none, straight
   double x_per_y = 0.0;

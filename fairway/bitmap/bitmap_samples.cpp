@@ -38,7 +38,7 @@ BitmapSamples::BitmapSamples(int m) : m_(m), step_(1.0 / m), slots_per_one_(8.0 
 
   first_bins_.resize(static_cast<std::size_t>(16 * m) + 1);
   for (std::size_t slot = 0; slot < first_bins_.size(); ++slot) {
-    // A little below the slot's lower end, so that rounding of the slot cannot pass a sector.
+    // Slightly below the slot's lower end, so that rounding of the slot cannot skip a sector.
     const double lowest = static_cast<double>(slot) / slots_per_one_ - 1.0 - 1e-12;
     const auto above = std::upper_bound(sines_.begin(), sines_.end(), lowest);
     first_bins_[slot] =

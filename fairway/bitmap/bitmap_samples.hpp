@@ -34,13 +34,13 @@ class BitmapSamples {
   double position(int i) const { return (i + 0.5) * step_; }
   int wrapped(int k) const { return k < 0 ? k + m_ : k < m_ ? k : k - m_; }
 
-  /// The piece that holds a position in shares of the side; what lies outside belongs to the end.
+  /// The piece that contains a position in shares of the side; outside values belong to the end.
   int position_bin(double share) const {
     const int i = static_cast<int>(share * m_);
     return i < 0 ? 0 : i < m_ ? i : m_ - 1;
   }
-  /// The sector, counted from that which begins at -90 degrees, of the heading in [-90, 90) degrees
-  /// with this sine; what lies outside [-1, 1] belongs to the end.
+  /// The sector, counted from the one that begins at -90 degrees, of the heading in [-90, 90)
+  /// degrees with this sine; values outside [-1, 1] belong to the end.
   int sine_bin(double sine) const {
     const double slot = (sine + 1.0) * slots_per_one_;
     const int last = static_cast<int>(first_bins_.size()) - 1;

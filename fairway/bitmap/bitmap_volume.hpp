@@ -1,4 +1,4 @@
-// How much of the configuration volume reaches, by a border bitmap (bitmap_lookup.hpp).
+// The share of the configuration volume that reaches, by a border bitmap (bitmap_lookup.hpp).
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct VolumeShare {
                                                const BorderBitmap& set, std::size_t draws,
                                                std::uint64_t seed = 1);
 
-/// The same of a lookup: of the cells that are ordinary to it.
+/// The same for a lookup: of the cells that it treats as ordinary.
 [[nodiscard]] VolumeShare volume_share_reached(const BitmapLookup& lookup, std::size_t draws,
                                                std::uint64_t seed = 1);
 

@@ -53,7 +53,7 @@ TEST(VolumeShare, AgreesWithExactFlightsFromAnywhere) {
   }
   EXPECT_GT(reached, draws / 2);
   EXPECT_LT(reached, draws - draws / 20);
-  EXPECT_LT(contradictions, draws / 200);  // samples prove nothing; they come close
+  EXPECT_LT(contradictions, draws / 200);  // samples prove nothing, but come close
 }
 
 TEST(VolumeShare, IsThatOfALoopOverDrawsAndTheSameForAnyNumberOfThreads) {

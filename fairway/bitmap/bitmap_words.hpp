@@ -1,5 +1,5 @@
-// A flat array of 64-bit words, zero at first, that can give back its end without being copied:
-// a copy of a large bitmap would double the peak of memory.
+// A flat array of 64-bit words, initially zero, that can free its tail without being copied: a copy
+// of a large bitmap would double the peak memory.
 #pragma once
 
 #include <cstddef>

@@ -1,11 +1,11 @@
 // The noun of the paper's method: for every inner border of a grid a bitmap of the sample states
 // (position along the border, heading) from which the region of interest is reached (paper 2,
 // section V.B). A picture of the backward reachable set, not a proof: samples say nothing certain
-// of the states between them.
+// about the states between them.
 //
 // Memory: m^2 bits for each of the nx (ny - 1) + ny (nx - 1) inner borders, the paper's figure
 // m^2 (2 n (n - 1)) for a square grid (each border rounded up to whole 64-bit words). The grid's
-// outer borders are not kept: a flight that meets one leaves, and none comes in.
+// outer borders are not kept: a flight that meets one leaves, and none enters.
 #pragma once
 
 #include <bit>
@@ -18,7 +18,7 @@
 
 namespace fairway {
 
-/// Which inner border is which: first those between neighbours in a row, [iy][ix] by the cell on
+/// Numbering of the inner borders: first those between neighbours in a row, [iy][ix] by the cell on
 /// their left, then those between neighbours in a column, [iy][ix] by the cell below.
 struct BorderNumbers {
   int nx = 0;

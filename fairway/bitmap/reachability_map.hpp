@@ -1,10 +1,10 @@
-// What a bitmap says, place by place: paper 2's three-dimensional reachability map (section V.B,
+// A bitmap's answers, place by place: paper 2's three-dimensional reachability map (section V.B,
 // Fig. 23a) as slices of one heading each, and as the share of headings that reach. A noun for
 // pictures.
 //
-// Properties that always hold: samples lie as those of verify/verdict_map.hpp, whose `places` says
-// where; where the cell is not ordinary nothing is asked: undecided, counts 0. Elsewhere the counts
-// sum to headings_per_sample.
+// Properties that always hold: samples lie as in verify/verdict_map.hpp, at its `places`; where the
+// cell is not ordinary nothing is asked: undecided, counts 0. Elsewhere the counts sum to
+// headings_per_sample.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
-// Bitmap -> what it says of many states: rows of states, every cell at one heading, a map of all.
+// Bitmap -> its answers for many states: rows of states, every cell at one heading, a map of all.
 //
 // Properties that always hold: those of bitmap_lookup.hpp and reachability_map.hpp; the answers
-// depend on the arguments alone, not on threads. Cost: about a tenth of a microsecond a state.
+// depend only on the arguments, not on threads. Cost: about a tenth of a microsecond a state.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// What a bitmap says of a state. Not a verdict: samples say nothing certain of the states between
-// them, so the words are words of their own.
+// A bitmap's answer for a state. Not a verdict: samples say nothing certain about the states
+// between them, so it has its own words.
 #pragma once
 
 #include <array>
@@ -9,9 +9,9 @@ namespace fairway {
 
 /// Codes are written to files: add, never renumber.
 enum class Sampled : std::uint8_t {
-  undecided = 0,  ///< the samples about the state disagree
+  undecided = 0,  ///< the samples around the state disagree
   reach = 1,      ///< they all reach the region
-  other = 2       ///< none does: they collide, leave, or fly for ever; a bitmap does not know which
+  other = 2  ///< none does: they collide, leave, or fly for ever; a bitmap cannot distinguish these
 };
 inline constexpr int sampled_count = 3;
 inline constexpr std::array<Sampled, sampled_count> sampled_in_order{Sampled::reach, Sampled::other,

@@ -65,7 +65,7 @@ double ahead(double a_rad, double b_rad) { return HeadingRange{a_rad, 0.0}.from_
 std::optional<double> heading_past(const Corner& corner, Vec2 p, Vec2 command, double command_rad,
                                    double r) {
   // Commands between the two ends are reached before the corner: an arc, then the straight line
-  // through it (Eqs. 8 to 10). The line is as far from p as the arc moves aside.
+  // through it (Eqs. 8 to 10). The line's distance from p is the arc's sideways shift.
   const double between = ahead(corner.right.end_rad, corner.left.end_rad);
   if (ahead(corner.right.end_rad, command_rad) <= between) {
     const double left_of_line_m = cross(command, p - corner.at_m);

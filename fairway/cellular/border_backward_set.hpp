@@ -2,20 +2,19 @@
 // which a vehicle at a point of a cell leaves it by a given border under the bang-bang law.
 //
 // Two arcs of one radius from one point do not meet again within a cell, and straight ends of one
-// direction never do. So, as the starting heading turns counter-clockwise from that opposite to the
-// command all the way round to it again, the exit moves counter-clockwise along the cell's border.
-// The headings for one border therefore are one range, whose ends are the headings that lead past
-// the border's two corners; or nothing, when both corners lie in the gap that no path reaches
-// (behind the vehicle's turning circles, Eq. 11). Which path leads past a corner depends on the
-// command (Eqs. 4 to 10): a left arc, a right arc, an arc and then the straight line through the
-// corner; arcs that would bulge out of the cell before the corner give way to the arc that touches
-// the side. Angles are taken from chords and from tangents, never from slopes, so that vertical and
-// horizontal commands are no exception.
-// Properties that always hold, for points that are not corners:
+// direction never do. So, as the starting heading turns counter-clockwise once round, starting
+// opposite to the command, the exit moves counter-clockwise along the cell's border. The headings
+// for one border therefore are one range, whose ends are the headings that lead past the border's
+// two corners; or nothing, when both corners lie in the gap that no path reaches (behind the
+// vehicle's turning circles, Eq. 11). Which path leads past a corner depends on the command (Eqs. 4
+// to 10): a left arc, a right arc, an arc and then the straight line through the corner; arcs that
+// would bulge out of the cell before the corner are replaced by the arc that touches the side.
+// Angles are taken from chords and tangents, never from slopes, so that vertical and horizontal
+// commands are not special cases. Properties that always hold, for points that are not corners:
 //   1. On the cell's border, headings out of the cell count as leaving at once.
 //   2. The ends of ranges belong to both borders that meet there.
 // Error (observed against cross_cell over random draws, see the test): no heading farther than 1e-7
-// rad from an end is told the wrong border. (Where an arc touches a side, an ulp of position is the
+// rad from an end gets the wrong border. (Where an arc touches a side, an ulp of position is the
 // square root of an ulp in heading.)
 #pragma once
 
@@ -32,7 +31,7 @@ namespace fairway {
                                            const CellShape& shape, Side exit);
 
 /// The paper's border-to-border Theta (section III.C): only headings that enter the cell. Nothing,
-/// one range, or two: back to the border of entry shallow arcs lead from both ends of the half
+/// one range, or two: shallow arcs lead back to the border of entry from both ends of the half
 /// circle.
 [[nodiscard]] HeadingSet backward_headings_on_border(Side entry, double along_m,
                                                      const Direction& command,

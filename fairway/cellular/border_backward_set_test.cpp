@@ -30,8 +30,8 @@ CellShape drawn_shape(Random& random) {
   return {d, d * (1.0 + over)};
 }
 
-/// Whether the exact motion agrees with the four sets about a heading. Near the ends of ranges the
-/// exact motion may say either.
+/// Whether the exact motion agrees with the four sets about a heading. Near the ends of ranges
+/// either answer is allowed.
 struct Agreement {
   int agree = 0;
   int near_ends = 0;
@@ -117,7 +117,7 @@ TEST(BackwardHeadings, WithoutACommandAreTheDirectionsToTheBorder) {
   EXPECT_GT(agreement.agree, 50'000);
 }
 
-TEST(BackwardHeadings, OfTheFourBordersShareOutTheCircle) {
+TEST(BackwardHeadings, OfTheFourBordersDivideTheCircle) {
   Random random(53);
   for (int draw = 0; draw < 5000; ++draw) {
     const CellShape shape = drawn_shape(random);
@@ -141,7 +141,7 @@ TEST(BackwardHeadings, ForABackwardCommandCanBeEmpty) {
   EXPECT_FALSE(backward_headings({0.5, 0.9}, direction(-pi / 2), tight, Side::top).empty());
 }
 
-TEST(BackwardHeadings, EmptySetsAreMetForBackwardCommandsOnly) {
+TEST(BackwardHeadings, EmptySetsOccurForBackwardCommandsOnly) {
   Random random(59);
   int empty = 0;
   for (int draw = 0; draw < 20'000; ++draw) {
@@ -157,8 +157,8 @@ TEST(BackwardHeadings, EmptySetsAreMetForBackwardCommandsOnly) {
   EXPECT_GT(empty, 20);
 }
 
-TEST(BackwardHeadings, ForABackwardCommandCloseAboutTheOppositeHeading) {
-  // Seen from the middle the range holds the heading opposite to the command, where left turns
+TEST(BackwardHeadings, ForABackwardCommandCloseAroundTheOppositeHeading) {
+  // Seen from the centre the range contains the heading opposite to the command, where left turns
   // begin and right turns end (the second interval of Fig. 7).
   const HeadingSet set = backward_headings({0.5, 0.5}, direction(-pi / 2), {1.0, 3.0}, Side::top);
   ASSERT_EQ(set.count, 1U);
@@ -239,7 +239,7 @@ TEST(BackwardHeadings, ThroughACornerAreThoseOfEquations4To6) {
   const Vec2 left{(p.x + e.x) / 2 - (e.y - p.y) * h, (p.y + e.y) / 2 - (p.x - e.x) * h};
   const double by_left = std::atan2(p.y - left.y, p.x - left.x) + pi / 2;
   const double by_right = std::atan2(p.y - right.y, p.x - right.x) - pi / 2;
-  // Commands far to one side make the whole way an arc.
+  // With commands far to one side the whole way is an arc.
   const HeadingSet with_left = backward_headings(p, direction(2.5), {1.0, r}, Side::top);
   const HeadingSet with_right = backward_headings(p, direction(-0.5), {1.0, r}, Side::top);
   ASSERT_EQ(with_left.count, 1U);
@@ -248,7 +248,7 @@ TEST(BackwardHeadings, ThroughACornerAreThoseOfEquations4To6) {
   EXPECT_NEAR(std::remainder(with_right.ranges[0].from_rad - by_right, two_pi), 0.0, 1e-12);
 }
 
-TEST(BackwardHeadings, ThroughACornerAndStraightAreThoseOfEquations8To10MadeRight) {
+TEST(BackwardHeadings, ThroughACornerAndStraightAreThoseOfEquations8To10Corrected) {
   // Eq. 9 for a point above the line: its root is right for commands heading east, and the printed
   // atan2 is already rotated by a quarter turn: no further pi / 2.
   const double d = 1.0;

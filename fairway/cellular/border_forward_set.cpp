@@ -52,8 +52,8 @@ Stretch flown_left_arcs(const Stretch& arcs, Vec2 q, double command_rad, double 
 
 double on_circle(double rad) { return HeadingRange{0.0, 0.0}.from_start(rad); }
 
-/// With the bottom as border of entry. Headings that leave the cell are those within a quarter turn
-/// of the outward normal.
+/// With the bottom as border of entry. Headings leave the cell when within a quarter turn of the
+/// outward normal.
 HeadingSet from_bottom(Side exit, Vec2 q, const Direction& command, const CellShape& shape) {
   const double d = shape.cell_m;
   const double r = shape.turn_radius_m;

@@ -8,8 +8,8 @@
 // the heading whose arc begins opposite to the command (Eqs. 12, 15). Right arcs are their mirror
 // image (Eqs. 13, 14). A vehicle that has aligned leaves with the command itself: possible when the
 // command lies between the first right arc and the last left one. Together up to three pieces: two
-// disjoint ranges for backward commands (Figs. 12c, 18c, 20), and the command by itself where no
-// arc ends with it (Figs. 10c, 16b).
+// disjoint ranges for backward commands (Figs. 12c, 18c, 20), and the command alone where no arc
+// ends with it (Figs. 10c, 16b).
 // Angles are taken from chords and tangents; the paper's comparisons of angles are made on the
 // circle. All pairs of borders, the border of entry itself included.
 // Properties that always hold, for points that are not corners:

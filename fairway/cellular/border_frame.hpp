@@ -1,5 +1,5 @@
-// Quarter turns of a cell about its middle, which carry what is worked out for one border to the
-// other three.
+// Quarter turns of a cell about its centre, which transfer results for one border to the other
+// three.
 #pragma once
 
 #include "fairway/base/vec2.hpp"

@@ -47,7 +47,7 @@ struct HeadingSet {
   }
 };
 
-/// What two ranges share: nothing, one range, or two.
+/// The intersection of two ranges: nothing, one range, or two.
 inline HeadingSet common(const HeadingRange& a, const HeadingRange& b) {
   HeadingSet set;
   const double b_at = a.from_start(b.from_rad);

@@ -4,7 +4,7 @@
 // Theta of (entry, exit) at a place of `entry`: the headings that enter there and lead out by
 // `exit` (section III.C). Phi of (entry, exit) at a place of `exit`: the headings with which a
 // vehicle that came in anywhere on `entry` can leave there (section IV). Headings between the
-// tabulated places follow from the formulas, not from the table.
+// tabulated places come from the formulas, not from the table.
 #pragma once
 
 #include <array>

@@ -7,7 +7,7 @@
 namespace fairway {
 
 CellSets compute_cell_sets(const Direction& command, const CellShape& shape, int places) {
-  require(places >= 1, "cellular sets at one place at least");
+  require(places >= 1, "cellular sets have at least one place");
   CellSets sets;
   sets.shape = shape;
   sets.command = command;

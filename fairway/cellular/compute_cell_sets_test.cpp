@@ -15,7 +15,7 @@ double entering(Side entry, Random& random) {
   return (static_cast<int>(entry) + 1) * (pi / 2) + random.uniform(0.01, pi - 0.01);
 }
 
-TEST(CellSets, TellWhereExactMotionLeavesFromTheirPlacesAndWithWhichHeading) {
+TEST(CellSets, MatchWhereAndWithWhichHeadingExactMotionLeaves) {
   Random random(4);
   const CellShape shape{8.0, 20.0};
   for (int trial = 0; trial < 400; ++trial) {
@@ -60,7 +60,7 @@ TEST(CellSets, HaveTheForwardSetsOfTheirPlaces) {
   }
 }
 
-TEST(CellSets, WantAPlaceAndACellSmallerThanATurn) {
+TEST(CellSets, NeedAPlaceAndACellSmallerThanATurn) {
   EXPECT_THROW((void)compute_cell_sets(Direction::none(), {8.0, 20.0}, 0), PreconditionViolation);
   EXPECT_THROW((void)compute_cell_sets(Direction::none(), {8.0, 8.0}, 1), PreconditionViolation);
 }

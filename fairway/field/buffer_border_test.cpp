@@ -78,7 +78,7 @@ TEST(BufferBorderCells, TheNearestReachableOneIsFoundFromEveryCell) {
   }
 }
 
-TEST(BufferBorderCells, AWalledOffPocketIsNoWayOut) {
+TEST(BufferBorderCells, AWalledOffPocketIsNotAWayOut) {
   Random random(92);
   Scene s = random_scene(random, 12, 9);
   std::fill(s.region.begin(), s.region.end(), Region::buffer);

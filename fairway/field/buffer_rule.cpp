@@ -10,9 +10,9 @@
 namespace fairway {
 namespace {
 
-// Distances to the nearest obstacle in the metric whose circles are squares, in cells: what
-// Algorithm 1 widens obstacles by, since a sweep reaches all eight neighbours. Two passes are exact
-// for it (Rosenfeld and Pfaltz 1968).
+// Distances to the nearest obstacle in the metric whose circles are squares, in cells: the amount
+// by which Algorithm 1 widens obstacles, since a sweep reaches all eight neighbours. Two passes are
+// exact for it (Rosenfeld and Pfaltz 1968).
 std::vector<std::int32_t> square_distances(const ObstacleMap& map) {
   const Grid& g = map.grid;
   const std::int32_t beyond = std::max(g.nx, g.ny);

@@ -1,8 +1,9 @@
-// What makes a cell buffer (paper 1, Eq. 3), turned round: how wide a buffer a cell is free of.
+// The rule that makes a cell buffer (paper 1, Eq. 3), and its inverse: the buffer widths for which
+// a cell stays free.
 //
 // With the exact metrics a cell is buffer if its centre is within alpha * r of the centre of an
 // obstacle cell; with Metric::paper if Algorithm 1's wave reaches it in ceil(alpha r / cell)
-// sweeps. complete_map() marks by this rule, and what advises alphas and radii counts by it.
+// sweeps. complete_map() marks by this rule, and advice on alphas and radii uses it.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +15,17 @@
 
 namespace fairway {
 
-/// How far each cell is from the nearest obstacle cell, centre to centre, as the buffer counts.
+/// How far each cell is from the nearest obstacle cell, centre to centre, in the buffer's metric.
 struct Clearances {
   Grid grid;
   Metric metric = Metric::euclidean;
   /// [iy][ix]: the squared distance in cells; with Metric::paper the distance along x or y,
-  /// whichever is more, in cells. 0 on an obstacle, no_feature_distance without any.
+  /// whichever is larger, in cells. 0 on an obstacle, no_feature_distance without any.
   std::vector<std::int32_t> measure;
 
   [[nodiscard]] double clearance_m(std::size_t index) const;
-  /// A cell is free of a buffer narrower than this, with Metric::paper also of one as wide; 0: of
-  /// none. +inf without obstacles.
+  /// A cell is outside a buffer narrower than this, with Metric::paper also one as wide; 0: inside
+  /// any. +inf without obstacles.
   [[nodiscard]] double free_width_m(std::size_t index) const;
 };
 

@@ -60,7 +60,7 @@ struct Shortage {
   std::size_t index = 0;     // the mission cell that comes closest to an obstacle
   double clearance_m = 0.0;  // what it has
   double lacks_m = 0.0;
-  double largest_alpha = 0.0;  // that the clearance would do for: below, with the paper's up to it
+  double largest_alpha = 0.0;  // alphas below it fit; with the paper's metric it fits, too
   std::string needs;           // the demand in words
 };
 Shortage shortage_of(const CompleteMap& complete, const ObstacleMap& map, const Vehicle& vehicle,
@@ -76,11 +76,11 @@ Shortage shortage_of(const CompleteMap& complete, const ObstacleMap& map, const 
   if (options.metric == Metric::paper) {
     const double needed_m = (paper_sweeps(map.grid, width_m) + 1) * map.grid.cell_m;
     s.lacks_m = std::max(needed_m - s.clearance_m, 0.0);
-    // Rounded down, so that the printed digits do.
+    // Rounded down, so that the alpha printed fits.
     s.largest_alpha = std::floor(1e4 * s.largest_alpha) / 1e4;
     s.needs = fmt::format(
-        "and must stay at least {} m away, a cell more than alpha * turn_radius_m in whole "
-        "cells, both along x or y, whichever is more, as metric \"paper\" counts",
+        "and must stay at least {} m away, one cell more than alpha * turn_radius_m in whole "
+        "cells (metric \"paper\" takes the larger of the distances along x and y)",
         length_text(needed_m));
     return s;
   }
@@ -90,7 +90,7 @@ Shortage shortage_of(const CompleteMap& complete, const ObstacleMap& map, const 
   return s;
 }
 
-/// "[x, y]", as a scenario has it.
+/// "[x, y]", as in a scenario.
 std::string pair_text(Vec2 p) {
   constexpr int centimetres = 2;
   return metres_text(p, centimetres);
@@ -102,11 +102,12 @@ bool all_free(const CompleteMap& complete) {
 }
 
 std::string lack_words(const Shortage& shortage) {
-  return fmt::format("it lacks {} m{}", length_text(shortage.lacks_m),
-                     shortage.lacks_m > 0.0 ? "" : " and a trifle, for as far is not farther");
+  return fmt::format(
+      "it lacks {} m{}", length_text(shortage.lacks_m),
+      shortage.lacks_m > 0.0 ? "" : " (the clearance equals the limit but must exceed it)");
 }
 
-/// `cause` has {} where the goal stands.
+/// `cause` has {} in place of the goal.
 MissionRefusal with_advice(Reason reason, const GoalMission& goal, const std::string& cause,
                            double lacks_m, GoalAdvice advice) {
   MissionRefusal out;
@@ -140,7 +141,7 @@ std::optional<MissionRefusal> place_goal(CompleteMap& complete, const ObstacleMa
     return refusal(
         Reason::goal_too_small,
         fmt::format("no cell lies wholly inside the goal disc of radius beta * "
-                    "turn_radius_m = {} m about {}: cells are {} m wide; enlarge beta "
+                    "turn_radius_m = {} m around {}: cells are {} m wide; enlarge beta "
                     "or reduce cell_m",
                     length_text(radius), pair_text(goal.goal_m), length_text(grid.cell_m)));
   }
@@ -148,7 +149,7 @@ std::optional<MissionRefusal> place_goal(CompleteMap& complete, const ObstacleMa
   const Shortage shortage = shortage_of(complete, map, vehicle, options);
   return with_advice(
       Reason::in_buffer, goal,
-      fmt::format("the goal disc (radius beta * turn_radius_m = {} m about {{}}) reaches into the "
+      fmt::format("the goal disc (radius beta * turn_radius_m = {} m around {{}}) reaches into the "
                   "buffer: it comes within {} m of an obstacle, {}, so {}",
                   length_text(radius), length_text(shortage.clearance_m), shortage.needs,
                   lack_words(shortage)),
@@ -175,11 +176,11 @@ std::optional<MissionRefusal> place_path(CompleteMap& complete, const ObstacleMa
     return refusal(Reason::in_obstacle, "the path crosses an obstacle near " + pair_text(where));
   }
   std::string next_try =
-      fmt::format("alpha below {:.4g} would do", rounded_down(shortage.largest_alpha, 4));
+      fmt::format("alpha below {:.4g} would fit", rounded_down(shortage.largest_alpha, 4));
   if (options.metric == Metric::paper) {
     next_try = shortage.largest_alpha > 0.0
-                   ? fmt::format("alpha up to {:.4f} would do", shortage.largest_alpha)
-                   : "no alpha would do";
+                   ? fmt::format("alpha up to {:.4f} would fit", shortage.largest_alpha)
+                   : "no alpha fits";
   }
   return refusal(Reason::in_buffer,
                  fmt::format("the path enters the buffer near {}: it comes within {} m "

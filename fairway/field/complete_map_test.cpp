@@ -88,7 +88,7 @@ std::vector<Region> by_algorithm_1(const ObstacleMap& map, double alpha) {
   return out;
 }
 
-// A map with a free corner for a goal, so that the rest can be looked at.
+// A map with a free corner for a goal, so that the rest can be checked.
 struct Case {
   ObstacleMap map;
   GoalMission goal;
@@ -239,7 +239,7 @@ int square_distance(const ObstacleMap& map, std::size_t index) {
 TEST(Assumption1, WithThePapersMetricTheShortageIsCountedInItsSquareBuffer) {
   Random random(75);
   int refused = 0;
-  int round_enough = 0;  // in a corner of the square, where straight distance would lack nothing
+  int round_enough = 0;  // in a corner of the square, where the straight distance would suffice
   for (int draw = 0; draw < 300; ++draw) {
     const Case c = random_case(random, 1.3);
     FieldOptions options;
@@ -270,7 +270,7 @@ TEST(Assumption1, WithThePapersMetricTheShortageIsCountedInItsSquareBuffer) {
   EXPECT_GT(round_enough, 5);
 }
 
-TEST(Assumption1, WithThePapersMetricTheAlphaProposedForAPathIsTheLargestThatDoes) {
+TEST(Assumption1, WithThePapersMetricTheAlphaProposedForAPathIsTheLargestThatFits) {
   Random random(76);
   int tried = 0;
   int hopeless = 0;
@@ -290,7 +290,7 @@ TEST(Assumption1, WithThePapersMetricTheAlphaProposedForAPathIsTheLargestThatDoe
     if (refusal == nullptr || refusal->reason != Reason::in_buffer) continue;
     std::smatch number;
     if (!std::regex_search(refusal->message, number, std::regex("alpha up to ([0-9.]+) would"))) {
-      EXPECT_NE(refusal->message.find("no alpha would do"), std::string::npos);
+      EXPECT_NE(refusal->message.find("no alpha fits"), std::string::npos);
       options.alpha = 1e-6;
       EXPECT_TRUE(std::holds_alternative<MissionRefusal>(placed(c.map, path, options)));
       ++hopeless;
@@ -308,7 +308,7 @@ TEST(Assumption1, WithThePapersMetricTheAlphaProposedForAPathIsTheLargestThatDoe
   EXPECT_GT(hopeless, 2);
 }
 
-// The nearest cell centre about which the disc's cells are all free, by trying every one.
+// The nearest cell centre around which the disc's cells are all free, by trying every one.
 double nearest_fit(const ObstacleMap& map, Vec2 goal, const FieldOptions& options) {
   const std::vector<Region> region = by_equation_3(map, options.alpha);
   double best = std::numeric_limits<double>::infinity();
@@ -344,7 +344,7 @@ TEST(Assumption1, TheGoalProposedInsteadFitsAndIsTheNearest) {
     const std::regex pattern(R"(the nearest goal that fits is \[([^,]*), ([^\]]*)\])");
     const double nearest = nearest_fit(c.map, c.goal.goal_m, options);
     if (!std::regex_search(refusal->message, place, pattern)) {
-      EXPECT_NE(refusal->message.find("fits about no cell"), std::string::npos) << refusal->message;
+      EXPECT_NE(refusal->message.find("no such goal fits"), std::string::npos) << refusal->message;
       EXPECT_TRUE(std::isinf(nearest)) << refusal->message;
       ++hopeless;
       continue;
@@ -387,7 +387,7 @@ TEST(Assumption1, EveryReasonIsNamed) {
   EXPECT_EQ(reason_of(GoalMission{{10.0, 10.0}, {}}), Reason::goal_too_small);
 }
 
-TEST(Assumption1, AMapOfObstaclesAloneHasNoRoomForAnyMission) {
+TEST(Assumption1, AMapOfOnlyObstaclesHasNoRoomForAnyMission) {
   for (const auto& [nx, ny] : std::vector<std::array<int, 2>>{{1, 1}, {1, 9}, {9, 1}, {20, 20}}) {
     const ObstacleMap map = samples::map_of(Mask(nx, ny, 1), 1.0);
     for (const Metric metric : {Metric::euclidean, Metric::octile, Metric::paper}) {
@@ -413,7 +413,7 @@ TEST(Assumption1, AGoalAtTheCornerOfFourCellsOrOfTheMapIsPlaced) {
   }
 }
 
-TEST(Assumption1, APathWithoutLengthIsNoMission) {
+TEST(Assumption1, APathWithoutLengthIsNotAMission) {
   const ObstacleMap map = samples::map_of(Mask(20, 20), 1.0);
   const PathMission path{{{5.0, 5.0}, {5.0, 5.0}}, true};
   EXPECT_THROW(static_cast<void>(placed(map, path, {})), PreconditionViolation);

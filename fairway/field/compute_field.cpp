@@ -69,8 +69,8 @@ double captured_by_axis(double angle_rad, double capture_rad) {
   return std::fabs(angle_rad - axis_rad) <= capture_rad ? axis_rad : angle_rad;
 }
 
-// Directions become headings. Where the filter's mean nearly vanished it has no direction of its
-// own: such a cell keeps the direction it had before the filter, and is counted.
+// Directions become headings. Where the filter's mean nearly vanishes it has no direction: such a
+// cell keeps the direction it had before the filter, and is counted.
 void set_headings(Field& out, const VectorField& smoothed, const VectorField& before,
                   double capture_rad) {
   constexpr float vanishing = 1e-4F;

@@ -1,5 +1,5 @@
 // The field stage in one call: complete map, cost-to-go, raw field, transitions, filter
-// (paper 1, Fig. 2). The steps stand in headers of their own beside this one.
+// (paper 1, Fig. 2). Each step has its own header next to this one.
 #pragma once
 
 #include "fairway/field/field.hpp"
@@ -10,7 +10,7 @@
 namespace fairway {
 
 /// Throws PreconditionViolation when vehicle, mission or options are out of range or not finite;
-/// readers check them before. A mission that the map does not allow is a MissionRefusal.
+/// readers check them beforehand. A mission that the map does not allow is a MissionRefusal.
 [[nodiscard]] FieldOrRefusal compute_field(const ObstacleMap& map, const Vehicle& vehicle,
                                            const Mission& mission, const FieldOptions& options);
 

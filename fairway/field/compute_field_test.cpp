@@ -82,7 +82,7 @@ void expect_field(const Field& f, const ObstacleMap& map) {
   ASSERT_GT(goals, 0U);
 }
 
-TEST(ComputeField, KeepsItsPromisesWithEveryMetricFilterBlendAndMission) {
+TEST(ComputeField, HoldsItsPropertiesWithEveryMetricFilterBlendAndMission) {
   Random random(131);
   std::size_t unreachable = 0;
   for (int draw = 0; draw < 6; ++draw) {
@@ -196,7 +196,8 @@ void expect_same_regions_and_costs(const Image& image, const Field& other) {
   for (std::size_t i = 0; i < image.cost_m.size(); ++i) {
     const bool finite = std::isfinite(image.cost_m[i]);
     ASSERT_EQ(std::isfinite(other.cost_m[i]), finite) << "cell " << i;
-    if (!finite || image.region[i] == Region::buffer) continue;  // of tied exits either may count
+    if (!finite || image.region[i] == Region::buffer)
+      continue;  // either of two tied exits may count
     ASSERT_NEAR(other.cost_m[i], image.cost_m[i], 1e-5 * (1.0 + image.cost_m[i])) << "cell " << i;
   }
 }
@@ -217,7 +218,7 @@ bool tied_exits(const Image& image, std::size_t i) {
   return count > 1;
 }
 
-TEST(ComputeField, TurnsAndMirrorsWithMapAndMissionButForTiedExitsAndRidges) {
+TEST(ComputeField, TurnsAndMirrorsWithMapAndMissionExceptForTiedExitsAndRidges) {
   for (const Metric metric : {Metric::euclidean, Metric::octile, Metric::paper}) {
     Random random(133);
     std::size_t commands = 0;
@@ -396,7 +397,7 @@ TEST(ComputeField, CommandsNearAnAxisAreCapturedOnlyAsFarAsAsked) {
 
 // --- Preconditions -------------------------------------------------------------------------------
 
-TEST(ComputeField, BrokenPromisesThrow) {
+TEST(ComputeField, BrokenPreconditionsThrow) {
   const ObstacleMap map = samples::map_of(Mask(20, 20), 1.0);
   const Mission mission = GoalMission{{10.0, 10.0}, {}};
   const auto with_options = [&](auto change) {

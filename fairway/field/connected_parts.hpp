@@ -1,5 +1,5 @@
-// The connected parts of a set of cells. Cells that touch at a corner are connected, as they are
-// for the cost-to-go.
+// The connected parts of a set of cells. Cells that touch at a corner are connected, as for the
+// cost-to-go.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ struct ConnectedParts {
   std::vector<std::uint32_t> part;  ///< [iy][ix], from 0; no_part outside the set
   std::vector<std::size_t> cells;   ///< of each part
 
-  /// The largest part, of several the first; no_part when there is none.
+  /// The largest part, the first of several equal ones; no_part when there is none.
   [[nodiscard]] std::uint32_t largest() const;
 };
 

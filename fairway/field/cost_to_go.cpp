@@ -22,8 +22,8 @@ std::vector<std::uint8_t> safe_start(const CompleteMap& complete) {
 
 // Exact distances where the mission gives them: to the centre in the goal disc, to the path in a
 // path's cells and their neighbours. Without the neighbours, a cell right next to the path would
-// measure to the centre of a path cell first, up to a cell too far, and the field next to a slanted
-// path would waver with it.
+// measure to the centre of a path cell, up to a cell too far, and the field next to a slanted path
+// would waver.
 std::vector<EikonalSource> exact_sources(const Grid& grid, const CompleteMap& complete,
                                          const Mission& mission) {
   std::vector<EikonalSource> sources;

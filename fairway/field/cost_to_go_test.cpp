@@ -60,7 +60,7 @@ ObstacleMap blob_map(Random& random) {
 const GoalMission goal{{28.3, 34.2}, {}};
 const PathMission path{{{18.2, 28.1}, {37.9, 29.5}, {37.0, 38.0}}, false};
 
-TEST(CostToGo, IsFiniteExactlyWhereSafeStartIsJoinedToTheGoal) {
+TEST(CostToGo, IsFiniteExactlyWhereSafeStartIsConnectedToTheGoal) {
   Random random(81);
   std::size_t pockets = 0;
   for (int draw = 0; draw < 10; ++draw) {

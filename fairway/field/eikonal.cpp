@@ -242,7 +242,7 @@ std::vector<CellList> sorted_starts(std::span<const EikonalSource> sources, int 
   return starts;
 }
 
-// The arena does not know the limit for the whole process (--threads), so both are queried.
+// The arena does not reflect the limit for the whole process (--threads), so both are queried.
 int allowed_threads() {
   const std::size_t bound =
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);

@@ -103,7 +103,7 @@ Sources some_sources(Random& random, const Mask& m, int count, double largest) {
   return out;
 }
 
-TEST(Eikonal, SolvesItsEquationsAsSweepsInDoubleDo) {
+TEST(Eikonal, SolvesItsEquationsLikeSweepsInDouble) {
   Random random(51);
   for (const auto& [nx, ny] : std::vector<std::array<int, 2>>{
            {1, 1}, {1, 25}, {25, 1}, {2, 2}, {3, 40}, {40, 3}, {45, 35}}) {

@@ -30,10 +30,10 @@ enum class Filter {
 /// How the field turns near a path or a buffer border (paper 1, Eqs. 13-17).
 enum class Blend {
   paper,      ///< Eq. 16 as printed: jumps at the outer rim of the transition region
-  continuous  ///< the rotation falls to nothing at the rim
+  continuous  ///< the rotation falls to zero at the rim
 };
 
-/// The paper's parameters, the paper's names. Ranges are beside them; readers refuse the rest.
+/// The paper's parameters, by the paper's names, with their ranges; readers refuse values outside.
 struct FieldOptions {
   double alpha = 2.0;  ///< buffer width / turn radius, > 0 (the paper: >= 2)
   double beta = 2.0;   ///< goal radius / turn radius, > 0 (the paper: >= 2)
@@ -45,7 +45,7 @@ struct FieldOptions {
   double sigma_border = 0.5;  ///< the same at the buffer's border
   Filter filter = Filter::free_space;
   Blend blend = Blend::continuous;
-  /// Commands this close to a grid axis are put on it, [0, 0.1]; Metric::paper never does. Where
+  /// Commands this close to a grid axis are set to it, [0, 0.1]; never with Metric::paper. Where
   /// commands on both sides of a border oppose each other at an angle d to it, the vehicle weaves
   /// along the border in hops of 2 r sin d: without this, in millions of them.
   double axis_capture_rad = 0.02;
@@ -62,7 +62,7 @@ struct Field {
       0;  ///< cells whose filtered vector was too short to have a direction
 };
 
-/// A place as the user writes places, in so many decimals of metres: "[x, y]".
+/// Formats a place as the user writes it, with a number of decimals for metres: "[x, y]".
 using PlaceText = std::function<std::string(Vec2 place_m, int decimals)>;
 
 /// Why there is no field for this mission on this map. `message` is one sentence for the user.
@@ -71,8 +71,8 @@ struct MissionRefusal {
   Reason reason;
   std::string message;
   double lacks_m = 0.0;               ///< in_buffer: the clearance that is missing (Assumption 1)
-  std::vector<std::string> warnings;  ///< of the map: the reason may stand there
-  /// The message with the places in it as the user writes them; empty: it names none.
+  std::vector<std::string> warnings;  ///< of the map: they may explain the refusal
+  /// The message with its places as the user writes them; empty: it names none.
   std::function<std::string(const PlaceText&)> words = {};
 };
 

@@ -19,7 +19,7 @@ namespace fairway {
 /// Filters both components in place. sigma_cells > 0.
 void gaussian_filter(VectorField& field, int nx, int ny, double sigma_cells);
 
-/// The same, but a cell averages only what it sees: along its row, then along its column, up to
+/// The same, but a cell averages only what it sees along its row, then along its column, up to
 /// the first wall (`wall`: [iy][ix], nonzero). Walls themselves do not contribute.
 void gaussian_filter_between_walls(VectorField& field, std::span<const std::uint8_t> wall, int nx,
                                    int ny, double sigma_cells);

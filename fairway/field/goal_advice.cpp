@@ -17,7 +17,7 @@
 namespace fairway {
 namespace {
 
-/// With so many a rounded place is still within a cell's quarter of where it was.
+/// Decimals with which a rounded place moves by less than a quarter of a cell.
 int decimals_for(const Grid& grid) {
   return std::max(2, static_cast<int>(std::ceil(std::log10(2.0 / grid.cell_m))));
 }
@@ -29,7 +29,7 @@ Vec2 rounded(Vec2 p, int decimals) {
   return {std::round(steps * p.x) / steps, std::round(steps * p.y) / steps};
 }
 
-/// Which cells lie in a goal that fits: whether the disc about a cell's centre is free, quickly.
+/// Answers quickly whether the disc around a cell's centre is free.
 class FreeDiscs {
  public:
   FreeDiscs(const Grid& grid, const std::vector<Region>& region, double radius_m)
@@ -63,8 +63,8 @@ ConnectedParts free_parts(const Grid& grid, const std::vector<Region>& region) {
   return connected_parts(free, grid.nx, grid.ny);
 }
 
-/// For each part the cell about which a goal fits that `is_better` than the others; grid.size()
-/// where none does.
+/// For each part the cell, best by `is_better`, around which a goal fits; grid.size() where none
+/// does.
 template <typename IsBetter>
 std::vector<std::size_t> best_of_parts(const Grid& grid, const ConnectedParts& parts,
                                        const FreeDiscs& discs, const IsBetter& is_better) {
@@ -84,12 +84,12 @@ GoalPlace place_of(const Grid& grid, const ConnectedParts& parts, std::size_t i,
           static_cast<double>(parts.cells[parts.part[i]]) / static_cast<double>(free_cells)};
 }
 
-/// A disc of this radius holds the cell about whose centre it lies.
+/// A disc of this radius contains the cell at its centre.
 bool holds_a_cell(const Grid& grid, double radius_m) {
   return radius_m >= std::numbers::sqrt2 / 2.0 * grid.cell_m;
 }
 
-/// The largest part that a goal fits in, by its best cell; grid.size(): none fits.
+/// The best cell of the largest part that a goal fits in; grid.size(): none fits.
 std::size_t in_largest_part(const Grid& grid, const ConnectedParts& parts,
                             const std::vector<std::size_t>& best) {
   std::size_t largest = grid.size();
@@ -101,7 +101,7 @@ std::size_t in_largest_part(const Grid& grid, const ConnectedParts& parts,
   return largest;
 }
 
-// With room for rounding; where no place has that, the exact places, all digits told.
+// With room for rounding; where no place has that, the exact places, in all their digits.
 template <typename Take>
 void for_places(const Grid& grid, const std::vector<Region>& region, double radius_m,
                 const Take& take) {
@@ -112,7 +112,7 @@ void for_places(const Grid& grid, const std::vector<Region>& region, double radi
   take(FreeDiscs(grid, region, radius_m + moved_m(exact)), exact);
 }
 
-/// What fits about one place: the clearances of the cells that a disc about it holds.
+/// What fits around one place: the clearances of the cells in a disc around it.
 class Room {
  public:
   Room(const Clearances& clearances, Vec2 place_m, int decimals)
@@ -130,10 +130,11 @@ class Room {
                        [&](std::uint32_t c) { return clearances_.measure[c] > limit; });
   }
 
-  /// About the largest value below `above` that `fits`, in three digits that fit themselves.
+  /// About the largest value below `above` that `fits`, rounded to three digits that also fit.
   template <typename Fits>
   [[nodiscard]] static std::optional<double> largest(double above, const Fits& fits) {
-    // What fits is an interval that need not begin at 0: from above, then closer.
+    // The values that fit form an interval that need not begin at 0: search from above, then
+    // refine.
     double high = above;
     double low = 0.9 * above;
     for (int steps = 0; !fits(low); ++steps) {
@@ -190,11 +191,11 @@ std::string words_of(const GoalRoom& room, const PlaceText& place) {
   add("alpha", room.alpha);
   add("beta", room.beta);
   return fmt::format(
-      "such a goal fits about no cell of this map: the widest place is {}, {} m from the nearest "
+      "no such goal fits on this map: the widest place is {}, {} m from the nearest "
       "obstacle, {}",
       place(room.place_m, room.decimals), length_text(room.clearance_m),
       would_do.empty()
-          ? "and no turn_radius_m, alpha or beta alone would make one fit there: reduce "
+          ? "and changing turn_radius_m, alpha or beta alone would not make one fit there: reduce "
             "cell_m too"
           : "where one would fit with " + would_do);
 }
@@ -254,9 +255,8 @@ std::string metres_text(Vec2 place_m, int decimals) {
 
 std::string words(const GoalAdvice& advice, const PlaceText& place) {
   if (!advice.nearest) {
-    return advice.room
-               ? words_of(*advice.room, place)
-               : "no cell of this map is free, so that no alpha, beta or turn_radius_m would do";
+    return advice.room ? words_of(*advice.room, place)
+                       : "no cell of this map is free, whatever alpha, beta or turn_radius_m";
   }
   const GoalPlace& nearest = *advice.nearest;
   const GoalPlace& other = *advice.in_largest_part;

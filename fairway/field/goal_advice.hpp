@@ -1,5 +1,5 @@
-// What to try instead of a goal that does not fit: nearby goals that do, and how much of the map
-// each of them serves; or, where none fits, how much smaller the vehicle's turns would have to be.
+// What to try when a goal does not fit: nearby goals that do, and how much of the map each serves;
+// or, where none fits, how much smaller the vehicle's turns would have to be.
 #pragma once
 
 #include <optional>
@@ -12,18 +12,18 @@
 
 namespace fairway {
 
-/// A cell's centre about which the goal disc lies in free cells.
+/// A cell's centre around which the goal disc lies in free cells.
 struct GoalPlace {
   Vec2 place_m;
-  int decimals = 2;     ///< of metres with which it still fits; five more of degrees
+  int decimals = 2;     ///< decimals of metres with which it still fits; five more for degrees
   double serves = 0.0;  ///< share of all free cells that are connected to it
 };
 
-/// The place with the largest clearance, and what would fit there if it alone were changed.
+/// The place with the largest clearance, and the values that would fit there, each changed alone.
 struct GoalRoom {
   Vec2 place_m;
   int decimals = 2;
-  double clearance_m = 0.0;  ///< to the nearest obstacle cell, as the buffer counts
+  double clearance_m = 0.0;  ///< to the nearest obstacle cell, in the buffer's metric
   std::optional<double> turn_radius_m;
   std::optional<double> alpha;
   std::optional<double> beta;
@@ -33,7 +33,7 @@ struct GoalAdvice {
   std::optional<GoalPlace> nearest;  ///< to the goal asked for
   std::optional<GoalPlace>
       in_largest_part;           ///< the nearest in the largest part that a goal fits in
-  std::optional<GoalRoom> room;  ///< where no goal fits and some cell is no obstacle
+  std::optional<GoalRoom> room;  ///< where no goal fits and some cell is not an obstacle
 };
 
 /// `region` without goal cells. Places are centres of cells, rounded to centimetres, or finer where

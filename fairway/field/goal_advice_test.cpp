@@ -65,7 +65,7 @@ std::optional<Refused> drawn_refusal(Random& random) {
   return r;
 }
 
-TEST(GoalAdvice, GoalsProposedFitAsPrintedAndServeTheShareThatIsTold) {
+TEST(GoalAdvice, GoalsProposedFitAsPrintedAndServeTheShareReported) {
   Random random(611);
   const std::regex pattern(
       R"((nearest goal that fits|in the largest part of them the nearest) is \[([^,]*), ([^\]]*)\]; it serves (under 1|[0-9]+) %)");
@@ -102,7 +102,7 @@ TEST(GoalAdvice, GoalsProposedFitAsPrintedAndServeTheShareThatIsTold) {
   EXPECT_GT(pockets, 8);
 }
 
-TEST(GoalAdvice, WhereNoGoalFitsEachOfTheChangesToldLetsOneFit) {
+TEST(GoalAdvice, WhereNoGoalFitsEachProposedChangeMakesOneFit) {
   Random random(612);
   const std::regex where(R"(the widest place is \[([^,]*), ([^\]]*)\])");
   const std::regex change(R"((turn_radius_m|alpha|beta) = ([0-9.e+-]+))");
@@ -130,7 +130,7 @@ TEST(GoalAdvice, WhereNoGoalFitsEachOfTheChangesToldLetsOneFit) {
   for (const int n : changes) EXPECT_GT(n, 8);
 }
 
-TEST(GoalAdvice, OnCellsOfMillimetresPlacesAreToldFinely) {
+TEST(GoalAdvice, OnCellsOfMillimetresPlacesArePrintedFinely) {
   Mask mask(60, 60);
   mask.at(30, 30) = 1;
   const ObstacleMap map = samples::map_of(mask, 0.001);

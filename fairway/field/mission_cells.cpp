@@ -19,8 +19,8 @@ int clamped_floor(double value, int low, int high) {
       std::clamp(std::floor(value), static_cast<double>(low), static_cast<double>(high)));
 }
 
-// Cells of one piece, row by row: the stretch of the piece inside the row, widened by nothing
-// but the closed sides of the cells.
+// Cells of one piece, row by row: the stretch of the piece inside the row, widened only by the
+// closed sides of the cells.
 template <typename Visit>
 void visit_cells(const Grid& g, const PathPiece& s, const Visit& visit) {
   const Vec2 a{(s.from.x - g.x0_m) / g.cell_m, (s.from.y - g.y0_m) / g.cell_m};
@@ -67,8 +67,8 @@ std::vector<PathCell> nearest_pieces(const Grid& grid, const PathMission& path, 
     });
     to_end_m -= piece.length_m;
   });
-  // Of the pieces that come to a cell the nearest to its centre gives the tangent; of equally near
-  // ones the first along the path (the sort is stable).
+  // The piece nearest to a cell's centre gives the tangent; of equally near ones the first along
+  // the path (the sort is stable).
   std::stable_sort(cells.begin(), cells.end(), [](const PathCell& a, const PathCell& b) {
     return a.index != b.index ? a.index < b.index : a.distance_m < b.distance_m;
   });

@@ -14,7 +14,7 @@ namespace fairway {
 [[nodiscard]] std::vector<std::uint32_t> cells_inside_disc(const Grid& grid, Vec2 center_m,
                                                            double radius_m);
 
-/// One cell that a path crosses, and of the pieces that cross it the nearest to the cell's centre.
+/// One cell that a path crosses, and the piece, of those crossing it, nearest to its centre.
 struct PathCell {
   std::uint32_t index = 0;
   Vec2 tangent;             ///< unit vector along that piece
@@ -29,7 +29,7 @@ struct PathCell {
 [[nodiscard]] std::vector<PathCell> cells_on_path(const Grid& grid, const PathMission& path);
 
 /// The same with all their neighbours, each with the nearest of the pieces that cross the cell or a
-/// neighbour of it. The distances to the path of cells on both of its sides.
+/// neighbour: distances to the path on both of its sides.
 [[nodiscard]] std::vector<PathCell> cells_near_path(const Grid& grid, const PathMission& path);
 
 }  // namespace fairway

@@ -266,7 +266,7 @@ TEST(CellsOnPath, AlongALineBetweenCellsBothSidesCount) {
     return out;
   };
   Cells expected;
-  for (int ix = 1; ix <= 4; ++ix) {  // x from 2 to 4 touches the cells beside its ends as well
+  for (int ix = 1; ix <= 4; ++ix) {  // x from 2 to 4 also touches the cells next to its ends
     for (const int iy : {2, 3}) expected.insert(static_cast<std::uint32_t>(g.index({ix, iy})));
   }
   EXPECT_EQ(listed({2.0, 3.0}, {4.0, 3.0}), expected);
@@ -304,7 +304,7 @@ TEST(CellsNearPath, AreThoseOfThePathAndTheirNeighboursWithDistancesToPieces) {
         found.insert(c.index);
         const double exact = nearest_on_path(g.center(g.cell_at(c.index)), path).distance_m;
         ASSERT_GE(c.distance_m, exact - 1e-8);
-        // A piece that passes within a cell of the centre comes to a neighbour at the farthest.
+        // A piece that passes within a cell of the centre reaches at most a neighbour.
         if (exact < g.cell_m) {
           ASSERT_NEAR(c.distance_m, exact, 1e-8) << "cell " << c.index << ", draw " << draw;
         }

@@ -52,7 +52,7 @@ std::vector<std::uint32_t> widest_way(const Clearances& room, std::span<const Re
         if (!grid.contains(n)) continue;
         const auto i = static_cast<std::uint32_t>(grid.index(n));
         if (from[i] != unseen || room.free_width_m(i) <= 0.0) continue;
-        // Seen first from the widest side: a later way here is no wider.
+        // Reached first by the widest way: a later one is not wider.
         from[i] = here;
         waiting.emplace(std::min(width, room.measure[i]), i);
       }
@@ -61,7 +61,7 @@ std::vector<std::uint32_t> widest_way(const Clearances& room, std::span<const Re
   return {};
 }
 
-/// Where a way is narrowest; of several such cells the one in their middle.
+/// Where a way is narrowest; of several such cells the middle one.
 std::uint32_t narrowest(const Clearances& room, const std::vector<std::uint32_t>& way) {
   const auto narrower = [&](std::uint32_t a, std::uint32_t b) {
     return room.measure[a] < room.measure[b];

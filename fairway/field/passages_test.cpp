@@ -61,7 +61,7 @@ std::size_t cells_in_largest_part(const Field& field, const Field& without_buffe
   return most;
 }
 
-/// As the sentence of a warning prints it.
+/// As printed in a warning.
 double printed(double value) { return std::stod(fmt::format("{:.4g}", value)); }
 
 Planned drawn_case(Random& random, Metric metric) {
@@ -85,7 +85,7 @@ Planned drawn_case(Random& random, Metric metric) {
   return p;
 }
 
-TEST(CutOff, TheAlphaAndTheRadiusToldOpenThePassageAndALittleMoreDoesNot) {
+TEST(CutOff, TheReportedAlphaAndRadiusOpenThePassageAndSlightlyMoreDoesNot) {
   Random random(901);
   int opened = 0;
   int by_radius = 0;

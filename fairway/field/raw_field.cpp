@@ -58,7 +58,7 @@ bool barred(const Grid& grid, const std::vector<Region>& region, std::size_t fro
   return false;
 }
 
-// Straight to the nearest border cell where nothing bars the way. Answers the cells where
+// Straight to the nearest border cell where nothing bars the way. Returns the cells where
 // something does, ascending.
 std::vector<std::uint32_t> leave_buffer_straight(const Grid& grid, const CompleteMap& complete,
                                                  const BufferBorder& border, bool through_walls,
@@ -91,8 +91,8 @@ std::vector<std::uint32_t> leave_buffer_straight(const Grid& grid, const Complet
   return out;
 }
 
-// The barred cells find the shortest way round: distances to the border spread into them from the
-// cells beside them that go straight.
+// The barred cells find the shortest way round: distances to the border spread into them from
+// neighbouring cells that go straight.
 void leave_buffer_around(const Grid& grid, const std::vector<std::uint32_t>& cells,
                          BufferBorder& border, std::vector<float>& cost, VectorField& field) {
   std::vector<std::uint8_t> inside(grid.size(), 0);

@@ -17,7 +17,7 @@ namespace fairway {
 /// Reads the safe-start cost and adds to it the cost of buffer cells (way to the border, and the
 /// border's cost). Where the straight line from a buffer cell to the nearest border cell is barred
 /// by an obstacle, the shortest way round through the buffer is taken instead, and `border` is
-/// given that way's border cell; buffer cells with no way out keep +inf and get no direction.
+/// set to that way's border cell; buffer cells with no way out keep +inf and get no direction.
 /// With Metric::paper everything is straight, and obstacle cells are given directions too, as
 /// printed. Metric::euclidean follows the eikonal's triangles, the others the steepest of the
 /// eight neighbours.

@@ -81,7 +81,7 @@ TEST(RawField, IsAUnitVectorExactlyWhereTheCostIsFinite) {
   }
 }
 
-// Bilinear interpolation between the four cell centres about a point given in cells.
+// Bilinear interpolation between the four cell centres around a point given in cells.
 double interpolated(const Grid& g, const std::vector<float>& cost, double x, double y) {
   const int ix = std::clamp(static_cast<int>(std::floor(x)), 0, g.nx - 2);
   const int iy = std::clamp(static_cast<int>(std::floor(y)), 0, g.ny - 2);
@@ -105,7 +105,7 @@ TEST(RawField, ASmallStepAlongItLowersTheInterpolatedCost) {
       const Cell c = g.cell_at(i);
       const Vec2 step = 0.25 * direction(s, i);
       const double after = interpolated(g, s.safe_start_cost, c.ix + step.x, c.iy + step.y);
-      if (!std::isfinite(after)) continue;  // beside the buffer there is nothing to interpolate
+      if (!std::isfinite(after)) continue;  // next to the buffer there is nothing to interpolate
       ++looked_at;
       ASSERT_LT(after, s.cost[i]) << "cell " << c.ix << ", " << c.iy << ", draw " << draw;
     }
@@ -175,7 +175,7 @@ TEST(RawField, InTheOpenItPointsToTheGoalWithinItsMeasuredErrorAndIsNotQuantised
   }
 }
 
-TEST(RawField, InTheGoalDiscItPointsToTheGoalAndNowhereIsItNothing) {
+TEST(RawField, InTheGoalDiscItPointsToTheGoalAndNowhereIsItZero) {
   const ObstacleMap map = samples::map_of(Mask(40, 40), 1.0);
   for (const Vec2 at : {Vec2{20.5, 20.5}, Vec2{20.0, 20.0}, Vec2{19.7, 22.1}}) {
     const GoalMission point{at, {}};
@@ -232,7 +232,7 @@ bool clear_line(const ObstacleMap& map, std::size_t from, std::size_t to) {
                      [&](const PathCell& c) { return map.obstacle[c.index] == 0; });
 }
 
-// Does it pass through the middle of an obstacle cell, the inner two fifths of its width?
+// Does it pass through the core of an obstacle cell, the inner two fifths of its width?
 bool walled_line(const ObstacleMap& map, std::size_t from, std::size_t to) {
   const Grid& g = map.grid;
   const Vec2 a = g.center(g.cell_at(from));
@@ -335,7 +335,7 @@ TEST(RawFieldInTheBuffer, OnlyCellsWithoutAWayOutAreLeftWithoutACommand) {
     const ObstacleMap map = thin_walls(random);
     const Grid& g = map.grid;
     const Steps s = steps_of(map, middle, Metric::euclidean, 0.9);
-    // Flood from reachable safe start: through the buffer alone, and through all that is no wall.
+    // Flood from reachable safe start: through the buffer only, and through everything but walls.
     for (const bool through_pockets : {false, true}) {
       std::vector<std::uint8_t> joined(g.size(), 0);
       std::vector<std::size_t> open;
@@ -367,7 +367,7 @@ TEST(RawFieldInTheBuffer, OnlyCellsWithoutAWayOutAreLeftWithoutACommand) {
   }
 }
 
-TEST(RawFieldInTheBuffer, AWalledInYardHasNoCommandAndNobodyIsSentIntoIt) {
+TEST(RawFieldInTheBuffer, AWalledInYardHasNoCommandAndNoCellPointsIntoIt) {
   // A yard of 5 x 5 cells behind a wall of one cell; alpha r is two cells and more.
   Mask m(60, 50);
   for (int k = 20; k <= 26; ++k) {
@@ -387,7 +387,7 @@ TEST(RawFieldInTheBuffer, AWalledInYardHasNoCommandAndNobodyIsSentIntoIt) {
         EXPECT_EQ(norm(direction(s, i)) > 0.0, !yard) << ix << ", " << iy;
       }
     }
-    // Just outside the wall the nearest free cell is far nearer to the north than in the yard.
+    // Just outside the wall the nearest free cell to the north is much nearer than the yard.
     EXPECT_LT(direction(s, map.grid.index({23, 19})).y, -0.99);
     EXPECT_GT(direction(s, map.grid.index({27, 23})).x, 0.99);
   }

@@ -16,18 +16,18 @@ namespace fairway {
 ///   Blend::continuous  the same a inside, brought to 1 at the rim: a + (1 - a) ratio^(1/mu)
 [[nodiscard]] float transition_share(float ratio, float angle_rad, float mu, Blend blend);
 
-/// By what that share is multiplied where the nearest path cell lies `to_end_m` before the end of
+/// The factor for that share where the nearest path cell lies `to_end_m` before the end of
 /// an open path: 1 along the path, falling to 0 over half a turning radius, 0 within a cell of the
 /// end. There the raw field points back at the end and the path on past it: a field turned to the
 /// path would lead away from its end, and flights would circle beyond it for ever. Not in the
-/// paper, whose paths have no end; Blend::paper does without.
+/// paper, whose paths have no end; Blend::paper omits it.
 [[nodiscard]] float share_near_open_end(double to_end_m, double cell_m, double turn_radius_m);
 
 /// Eq. 13: near an edge the raw field turns towards the field at the nearest edge cell, the shorter
 /// way round (Eq. 15 in its corrected form: towards F(p_e) on either side); elsewhere it stays.
 /// Edges are the border cells of the buffer and, in path missions, the path's cells; the nearest
 /// edge counts. At the end of an open path the turn fades out (Blend::continuous). Obstacles and
-/// cells without a direction stay as they are.
+/// cells without a direction are unchanged.
 [[nodiscard]] VectorField transition_field(const Grid& grid, const CompleteMap& complete,
                                            const BufferBorder& border, const VectorField& raw,
                                            const Vehicle& vehicle, const FieldOptions& options);

@@ -215,7 +215,7 @@ TEST(TransitionField, FollowsEquations13To17CellByCell) {
   EXPECT_GT(right, 1000U);
 }
 
-// One row: the edge is the path cell at the west end; every cell has a direction of its own.
+// One row: the edge is the path cell at the west end; every cell has its own direction.
 VectorField turned_in_a_row(const std::vector<double>& theta, FieldOptions options) {
   Scene s;
   const auto n = static_cast<int>(theta.size());
@@ -255,7 +255,7 @@ TEST(TransitionField, BothSensesTurnTowardsTheEdgesDirectionAcrossTheCutAtPiToo)
   }
 }
 
-TEST(TransitionField, ContinuousFallsToNothingAtTheRimWhereThePaperJumps) {
+TEST(TransitionField, ContinuousFallsToZeroAtTheRimWhereThePaperJumps) {
   // 60 cells across the transition of one turning radius at 1/10 m cells.
   constexpr int n = 130;
   Scene s;
@@ -285,7 +285,7 @@ TEST(TransitionField, ContinuousFallsToNothingAtTheRimWhereThePaperJumps) {
   EXPECT_LT(jump(Blend::continuous), 0.08);
 }
 
-TEST(TransitionField, FadesOutAtTheEndOfAnOpenPathUnlessThePapersBlendIsAsked) {
+TEST(TransitionField, FadesOutAtTheEndOfAnOpenPathUnlessThePapersBlendIsUsed) {
   const ObstacleMap map = samples::map_of(Mask(60, 50), 1.5);
   const PathMission open{{{20.0, 40.0}, {60.0, 40.0}}, false};
   const Scene s = scene_of(map, open);
@@ -309,7 +309,7 @@ TEST(TransitionField, FadesOutAtTheEndOfAnOpenPathUnlessThePapersBlendIsAsked) {
   }
 }
 
-TEST(ShareNearOpenEnd, RisesFromNothingACellFromTheEndToOneHalfARadiusFarther) {
+TEST(ShareNearOpenEnd, RisesFromZeroACellFromTheEndToOneHalfARadiusFarther) {
   EXPECT_EQ(share_near_open_end(0.0, 2.0, 20.0), 0.0F);
   EXPECT_EQ(share_near_open_end(2.0, 2.0, 20.0), 0.0F);
   EXPECT_FLOAT_EQ(share_near_open_end(7.0, 2.0, 20.0), 0.5F);

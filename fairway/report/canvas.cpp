@@ -32,7 +32,8 @@ std::size_t character_length(std::string_view bytes) {
   return overlong || no_character ? 0 : length;
 }
 
-/// Titles may hold file names, that is, any bytes: Cairo and XML both refuse malformed UTF-8.
+/// Titles may contain file names, that is, arbitrary bytes: Cairo and XML both reject malformed
+/// UTF-8.
 std::string printable(std::string_view text) {
   std::string clean;
   while (!text.empty()) {
@@ -43,9 +44,9 @@ std::string printable(std::string_view text) {
   return clean;
 }
 
-/// Not every viewer heeds the wish for sharp pixels (librsvg blurs), so each becomes a block of so
-/// many that a blur from one to the next is a third of a point wide at most. PNG keeps the blocks
-/// small.
+/// Not every viewer honours the request for sharp pixels (librsvg blurs), so each pixel becomes a
+/// block, large enough that the blur between neighbours is at most a third of a point wide. PNG
+/// compresses the blocks well.
 Raster with_blocks(const Raster& raster, const Rect& place) {
   constexpr double pixels_per_pt = 3.0;
   const int kx =

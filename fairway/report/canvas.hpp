@@ -1,4 +1,4 @@
-// A page that is drawn once and comes out as SVG and PNG.
+// A page drawn once and written as both SVG and PNG.
 //
 // Every call draws on both: the SVG is written here (named layers, text that stays text, exact
 // arcs), the PNG by Cairo. Cairo's own SVG surface is not used: it numbers its groups by a counter
@@ -57,14 +57,14 @@ class CairoPage;
 
 class Canvas {
  public:
-  /// A white page. `title` is for readers of the SVG that speak. Throws PreconditionViolation when
+  /// A white page. `title` is for screen readers of the SVG. Throws PreconditionViolation when
   /// a size is not positive or the PNG would be wider or higher than 20000 pixels.
   Canvas(double width_pt, double height_pt, double pixels_per_pt, std::string_view title);
   ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  /// A named group for as long as it lives; what it draws is cut at `clip` when that is given.
+  /// A named group during its lifetime; its drawing is clipped to `clip` if given.
   class Layer {
    public:
     ~Layer();
@@ -86,7 +86,7 @@ class Canvas {
   /// Pixels become sharp squares, never blurred.
   void image(const Raster& raster, const Rect& place);
 
-  /// The page as it stands; every layer must be closed.
+  /// The finished page; every layer must be closed.
   [[nodiscard]] Picture finish() const;
 
  private:

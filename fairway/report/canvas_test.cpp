@@ -108,7 +108,7 @@ TEST(Canvas, AFullCircleIsDrawnInFull) {
   EXPECT_EQ(std::count(data.begin(), data.end(), 'A'), 3);
 }
 
-TEST(Canvas, MistakesOfTheCallerAreNamed) {
+TEST(Canvas, CallerMistakesAreReported) {
   EXPECT_THROW(Canvas(0.0, 10.0, 1.0, ""), PreconditionViolation);
   EXPECT_THROW(Canvas(10.0, 1e9, 1.0, ""), PreconditionViolation);
   Canvas canvas(10.0, 10.0, 1.0, "");
@@ -123,7 +123,7 @@ TEST(Canvas, LongerTextsAreWider) {
   EXPECT_GT(text_width_pt("m", {.size_pt = 20.0}), 2.0 * text_width_pt("m", {.size_pt = 9.0}));
 }
 
-TEST(Hatch, StrokesStayWhereTheTestSaysAndFillIt) {
+TEST(Hatch, StrokesStayInTheAreaAndFillIt) {
   const Rect area{0.0, 0.0, 40.0, 30.0};
   const auto covers = [](Vec2 p) { return norm(p - Vec2{20.0, 15.0}) < 9.0; };
   for (const bool rising : {false, true}) {

@@ -1,4 +1,4 @@
-// A plan's cells as pixels: regions and, if wanted, the cost to go as shading.
+// A plan's cells as pixels: regions and, optionally, the cost to go as shading.
 #pragma once
 
 #include "fairway/plan/plan.hpp"

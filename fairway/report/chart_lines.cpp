@@ -33,7 +33,7 @@ struct Range {
   }
 };
 
-/// An axis that holds the range with a little air, and something even for no or one value.
+/// An axis that holds the range with a small margin; not empty even for no or one value.
 Axis axis_of(Range range, const std::string& label, bool from_zero, double air) {
   if (!(range.low <= range.high)) range = {0.0, 1.0};
   if (from_zero) range.hold(0.0);

@@ -32,7 +32,7 @@ Color color_of_oklch(double lightness, double chroma, double hue_deg) {
 }
 
 Color cost_ramp(double share) {
-  require(!std::isnan(share), "cost_ramp wants a number");
+  require(!std::isnan(share), "cost_ramp takes a number");
   const double t = std::clamp(share, 0.0, 1.0);
   // Yellow (105 degrees) to blue (260), by way of green-grey: chroma dips in the middle so that
   // the two hues at the ends carry the order together with lightness.

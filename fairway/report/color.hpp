@@ -1,4 +1,4 @@
-// Colours of the pictures, chosen to be told apart by the colour-blind.
+// Colours of the pictures, chosen to be distinguishable to the colour-blind.
 //
 // The ramp runs from pale yellow to deep blue with lightness falling evenly: it is computed in
 // Oklab (Bjorn Ottosson 2020, a space of equal perceived steps), so that equal steps of value look

@@ -73,7 +73,7 @@ TEST(Contours, AHoleInTheSamplesCutsTheLine) {
     for (const Vec2 p : line) EXPECT_TRUE(p.y <= 2.0 || p.y >= 4.0);
 }
 
-TEST(Contours, NothingComesOfNoSamplesOneSampleOrALevelOutside) {
+TEST(Contours, AreNoneForNoSamplesOneSampleOrALevelOutside) {
   EXPECT_TRUE(contour_lines(0, 0, {}, 1.0).empty());
   EXPECT_TRUE(contour_lines(1, 1, std::vector<float>{1.0F}, 1.0).empty());
   EXPECT_TRUE(contour_lines(3, 3, cone(3, 1, 1), 99.0).empty());

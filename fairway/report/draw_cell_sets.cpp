@@ -66,7 +66,7 @@ void draw_panel(Canvas& canvas, const PlotFrame& frame, const std::string& name,
 }  // namespace
 
 Picture draw_cell_sets(const CellSets& sets, const std::string& title) {
-  require(!sets.along_m.empty(), "cellular sets at one place at least");
+  require(!sets.along_m.empty(), "cellular sets have at least one place");
   const double width = 70.0 + 4 * step_x_pt + 90.0;
   Canvas canvas(width, 60.0 + 2 * step_y_pt, 2.0, title);
   for (const Side side : all_sides) {

@@ -76,7 +76,7 @@ RC_GTEST_PROP(DrawChart, AnyNumbersGiveAChart, (std::uint64_t seed)) {
   RC_ASSERT(picture.svg.find("inf") == std::string::npos);
 }
 
-TEST(DrawChart, MistakesOfTheCallerAreNamed) {
+TEST(DrawChart, CallerMistakesAreReported) {
   const std::vector<ChartSeries> uneven{{"u", {0.0, 1.0}, {0.0}, {}}};
   EXPECT_THROW(static_cast<void>(draw_chart(uneven, {})), PreconditionViolation);
   EXPECT_THROW(static_cast<void>(draw_chart({}, {.width_pt = 1.0})), PreconditionViolation);
@@ -109,7 +109,7 @@ TEST(FlightSeries, HeadingsOverTimeDoNotJumpByATurn) {
               0.5 * (series.x[i] - series.x[i - 1]) + 1e-9);  // v / r = 0.5 rad/s
 }
 
-TEST(FlightSeries, HeadingsAsACompassShowsThemBreakWhereTheyPassTheBack) {
+TEST(FlightSeries, HeadingsWithin180DegreesBreakWhereTheyWrap) {
   const ChartSeries whole = heading_over_time(twice_round(), 10.0, "h");
   const ChartSeries wrapped = wrapped_degrees(whole);
   std::size_t breaks = 0;

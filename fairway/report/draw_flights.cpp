@@ -19,7 +19,7 @@ namespace {
 constexpr double start_dot_pt = 2.4;
 constexpr double start_tick_pt = 9.0;
 
-/// Rare outcomes are drawn last and strongest, so that they are seen among many flights.
+/// Rare outcomes are drawn last and strongest, so that they stand out among many flights.
 constexpr std::array as_drawn{Outcome::reach, Outcome::leave, Outcome::collide, Outcome::trapped};
 
 /// One style with all flights that share it.
@@ -30,7 +30,7 @@ struct Bundle {
   std::vector<const Flight*> flights;
 };
 
-/// Followed along a path, into an obstacle or off the grid: it looks like what it ends with.
+/// Followed along a path, into an obstacle or off the grid: drawn like the outcome it ends with.
 bool ended_after_reaching(const Flight& flight) {
   return flight.onward.after == After::collide || flight.onward.after == After::leave;
 }
@@ -62,7 +62,7 @@ std::vector<Bundle> bundles_by_outcome(std::span<const Flight> flights) {
 std::vector<Bundle> bundles_by_name(std::span<const Flight> flights,
                                     const std::vector<std::string>& names) {
   static const std::array<std::vector<double>, 3> dashes{
-      {{}, {1.5, 1.8}, {5.0, 2.0}}};  // solid, dotted, dashed, as the charts have them
+      {{}, {1.5, 1.8}, {5.0, 2.0}}};  // solid, dotted, dashed, as in the charts
   std::vector<Bundle> bundles;
   std::map<std::string, std::size_t> place;
   for (std::size_t i = 0; i < flights.size(); ++i) {
@@ -140,7 +140,7 @@ LegendEntry leg_entry(const LegBundle& bundle) {
   }
   const bool shortest = bundle.state == FinalLegState::shortest;
   return line_entry(
-      fmt::format("last leg, {} ({})", shortest ? "shortest" : "another way", bundle.count),
+      fmt::format("last leg, {} ({})", shortest ? "shortest" : "other path", bundle.count),
       bundle.pen);
 }
 
@@ -182,7 +182,7 @@ Picture draw_flights(const Plan& plan, std::span<const Flight> flights,
 
   for (const LegBundle& bundle : legs) entries.push_back(leg_entry(bundle));
 
-  // Every outcome keeps its fair part: the few that collide matter more than the many that do not.
+  // Every outcome keeps its fair share: the few that collide matter more than the many that do not.
   std::vector<std::size_t> drawn(bundles.size(), 0);
   std::size_t left = static_cast<std::size_t>(options.most_drawn);
   for (bool any = true; any && left > 0;) {
@@ -207,7 +207,7 @@ Picture draw_flights(const Plan& plan, std::span<const Flight> flights,
   for (const LegBundle& bundle : legs) {
     draw_legs(page, bundle, flights, static_cast<std::size_t>(options.most_drawn));
   }
-  if (!legs.empty()) page.mark_mission();  // the goal's arrow is what they are about
+  if (!legs.empty()) page.mark_mission();  // the legs end at the goal's arrow
   return page.finish();
 }
 

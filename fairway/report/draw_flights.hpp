@@ -1,8 +1,8 @@
 // Flights over a plan: every piece an exact arc or straight line, a dot and a tick at the start.
 //
-// Without names, colour and dash tell the outcome and the legend counts them over all flights.
-// With names (one per flight), colour and dash tell the name, as in a figure that compares plans.
-// Final legs are drawn over the flights with strokes of their own: solid where the leg is the
+// Without names, colour and dash show the outcome and the legend counts them over all flights.
+// With names (one per flight), colour and dash show the name, as in a figure that compares plans.
+// Final legs are drawn over the flights with their own strokes: solid where the leg is the
 // shortest path, dashed where it is another approach; a cross where no approach is clear.
 #pragma once
 

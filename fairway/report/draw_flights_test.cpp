@@ -126,7 +126,7 @@ TEST(DrawFlights, TheLegendCountsOutcomesAndEachHasALayer) {
   EXPECT_FALSE(has_layer(picture.svg, "flights-leave"));
 }
 
-TEST(DrawFlights, WhatCollidesAfterItReachedIsNotDrawnAsReaching) {
+TEST(DrawFlights, FlightsThatCollideAfterReachingAreNotDrawnAsReaching) {
   const State start{{100.0, 100.0}, Heading()};
   std::vector<Flight> flights(4, flight_of(start, {{50.0, 0.0}}));
   flights[0].onward.after = After::follow;
@@ -183,7 +183,7 @@ TEST(DrawFlights, NamesReplaceOutcomesAndEqualNamesShareAStyle) {
                PreconditionViolation);
 }
 
-TEST(DrawFlights, FinalLegsHaveStrokesOfTheirOwnAndTheGoalsArrowOnTop) {
+TEST(DrawFlights, FinalLegsHaveTheirOwnStrokesAndTheGoalsArrowOnTop) {
   std::vector<Flight> flights(4, flight_of({{100.0, 100.0}, Heading()}, {{50.0, 0.0}}));
   const std::array states{FinalLegState::shortest, FinalLegState::shortest, FinalLegState::other,
                           FinalLegState::none_clear};
@@ -196,7 +196,7 @@ TEST(DrawFlights, FinalLegsHaveStrokesOfTheirOwnAndTheGoalsArrowOnTop) {
   const Picture picture = draw_flights(open_water(), flights,
                                        {.mission = GoalMission{{165.0, 120.0}, 1.5}, .names = {}});
   EXPECT_TRUE(has_text(picture.svg, "last leg, shortest (2)"));
-  EXPECT_TRUE(has_text(picture.svg, "last leg, another way (1)"));
+  EXPECT_TRUE(has_text(picture.svg, "last leg, other path (1)"));
   EXPECT_TRUE(has_text(picture.svg, "no clear last leg (1)"));
   EXPECT_EQ(testing::elements_of_layer(picture.svg, "final-legs-shortest").size(), 2U);
   const auto other = testing::elements_of_layer(picture.svg, "final-legs-other");

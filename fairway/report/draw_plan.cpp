@@ -17,7 +17,7 @@ const Pen arrow_pen{palette::ink, 0.7, {}};
 constexpr double stream_head_pt = 5.0;
 constexpr double between_stream_heads_pt = 70.0;
 
-/// Vertices that change the line by less than a tenth of a point carry nothing but bytes.
+/// Vertices that change the line by less than a tenth of a point only add bytes.
 std::vector<Vec2> thinned(const std::vector<Vec2>& line) {
   constexpr double tolerance_pt = 0.1;
   constexpr std::size_t longest_look_back = 64;

@@ -2,7 +2,7 @@
 //
 // Free cells are shaded by their cost to go with contour lines at the colour bar's ticks; the
 // buffer, the obstacles, the goal and unreachable pockets have a colour and, where colour alone
-// might not tell them apart, a pattern. Big plans are averaged down to one colour a pixel; lines
+// might not distinguish them, a pattern. Big plans are averaged down to one colour a pixel; lines
 // and text stay vectors.
 #pragma once
 
@@ -20,7 +20,7 @@ struct PlanPictureOptions {
   std::optional<Mission> mission = {};  ///< the goal point and heading, or the path, drawn on top
   bool cost = true;                     ///< shade the free cells by cost to go, with contours
   bool streamlines = true;              ///< evenly spaced lines along the field
-  bool arrows = false;                  ///< the commanded heading of every so many cells
+  bool arrows = false;                  ///< the commanded heading, one for every few cells
   int streamlines_across = 40;  ///< lines that fit side by side along the longer side, 1..200
   int arrows_across = 40;       ///< arrows along the longer side, 1..200
   double frame_pt = 420.0;      ///< longer side of the map, points (1/72 inch), 100..2000

@@ -33,7 +33,7 @@ Color color_at(const Plan& p, const PlanPictureOptions& options, Vec2 place_m) {
   return png.at(at.x * options.pixels_per_pt, at.y * options.pixels_per_pt);
 }
 
-TEST(DrawPlan, ColoursTellTheRegionsApartWhereTheyAre) {
+TEST(DrawPlan, ColoursShowTheRegionsWhereTheyAre) {
   const PlanPictureOptions options{.title = "Title", .streamlines = false};
   Plan p = plan();
   EXPECT_EQ(color_at(p, options, grid.center(rock)), palette::obstacle);
@@ -72,7 +72,7 @@ TEST(DrawPlan, EveryPartIsANamedLayer) {
   EXPECT_FALSE(has_text(picture.svg, "path to follow"));
 }
 
-TEST(DrawPlan, PartsThatAreNotWantedAreNotThere) {
+TEST(DrawPlan, PartsSwitchedOffAreNotDrawn) {
   const Picture picture = draw_plan(plan(), {.cost = false, .streamlines = false});
   for (const char* layer : {"contours", "streamlines", "arrows", "mission", "color-bar", "title"})
     EXPECT_FALSE(has_layer(picture.svg, layer)) << layer;
@@ -139,12 +139,12 @@ TEST(DrawPlan, TheBytesDoNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(all.png, single.png);
 }
 
-TEST(DrawPlan, ABigPlanGivesAnSvgThatAPaperCanHold) {
+TEST(DrawPlan, ABigPlanGivesAnSvgSmallEnoughForAPaper) {
   const Plan p = testing::island_plan({1000, 1000, 0.0, 0.0, 4.0}, {3100.0, 2900.0}, {400, 400});
   EXPECT_LT(draw_plan(p, {}).svg.size(), 1'500'000U);
 }
 
-TEST(DrawPlan, MistakesOfTheCallerAreNamed) {
+TEST(DrawPlan, CallerMistakesAreReported) {
   Plan p = plan();
   EXPECT_THROW(static_cast<void>(draw_plan(p, {.frame_pt = 0.0})), PreconditionViolation);
   EXPECT_THROW(static_cast<void>(draw_plan(p, {.pixels_per_pt = 99.0})), PreconditionViolation);

@@ -90,7 +90,7 @@ Picture draw_reachability_shares(const ReachabilityMap& map, const VerdictPictur
     shares.names[panel] = words_of(sampled_in_order[panel]);
   }
   shares.each = static_cast<std::size_t>(map.headings_per_sample);
-  shares.of = fmt::format("of {} headings a cell", map.headings_per_sample);
+  shares.of = fmt::format("of {} headings per cell", map.headings_per_sample);
   shares.part = part;
   return draw_share_panels(map.places, shares, options);
 }

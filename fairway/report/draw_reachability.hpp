@@ -1,4 +1,4 @@
-// What a bitmap says, as pictures: paper 2's reachability map (section V.B, Fig. 23a).
+// Pictures of a bitmap: paper 2's reachability map (section V.B, Fig. 23a).
 #pragma once
 
 #include "fairway/bitmap/reachability_map.hpp"
@@ -7,13 +7,13 @@
 
 namespace fairway {
 
-/// A panel for each heading, four in a row: what the samples say of the vehicle at each cell's
-/// middle with that heading. Throws PreconditionViolation as draw_verdicts does.
+/// A panel for each heading, four in a row: what the samples say about a vehicle at each cell's
+/// centre with that heading. Throws PreconditionViolation as draw_verdicts does.
 [[nodiscard]] Picture draw_reachability_slices(const ReachabilityMap& map,
                                                const VerdictPictureOptions& options);
 
-/// Three panels: of the headings at each cell's middle, the share that reaches, the share that does
-/// not, and the share about which samples disagree; in the classes of draw_proved_shares.
+/// Three panels: of the headings at each cell's centre, the share that reaches, the share that does
+/// not, and the share for which samples disagree; in the classes of draw_proved_shares.
 [[nodiscard]] Picture draw_reachability_shares(const ReachabilityMap& map,
                                                const VerdictPictureOptions& options);
 

@@ -24,7 +24,7 @@ ReachabilityMap four_cells() {
   return map;
 }
 
-TEST(ReachabilityPictures, SaySharesOfTheOrdinaryCellsAndThatTheyAreNoProof) {
+TEST(ReachabilityPictures, SaySharesOfTheOrdinaryCellsAndThatTheyAreNotAProof) {
   const Picture slices = draw_reachability_slices(four_cells(), {.title = "t"});
   EXPECT_TRUE(has_text(slices.svg, "33.3 % reach"));
   EXPECT_TRUE(has_text(slices.svg, "66.7 % reach"));
@@ -33,7 +33,7 @@ TEST(ReachabilityPictures, SaySharesOfTheOrdinaryCellsAndThatTheyAreNoProof) {
   EXPECT_TRUE(has_layer(slices.svg, "panel-2"));
   EXPECT_FALSE(has_layer(slices.svg, "panel-3"));
   const Picture shares = draw_reachability_shares(four_cells(), {});
-  EXPECT_TRUE(has_text(shares.svg, "of 10 headings a cell"));
+  EXPECT_TRUE(has_text(shares.svg, "of 10 headings per cell"));
   EXPECT_TRUE(has_text(shares.svg, "33.3 %"));
   EXPECT_TRUE(has_layer(shares.svg, "panel-3"));
 }

@@ -55,7 +55,7 @@ void hold_path(Window& window, const SteeredPath& path, double radius_m) {
   }
 }
 
-/// Everything that is drawn, with a little air.
+/// Bounds of everything drawn, with a small margin.
 Window window_of(const SteeringPicture& p) {
   Window window{p.start.position_m, p.start.position_m};
   const auto hold_circles = [&](const State& s) {
@@ -66,7 +66,7 @@ Window window_of(const SteeringPicture& p) {
   hold_path(window, p.path, p.turn_radius_m);
   if (p.compared) hold_path(window, *p.compared, p.turn_radius_m);
   const Vec2 size = window.high - window.low;
-  // Not thinner than fits a page, nor than numbers can tell apart.
+  // Not too thin for a page, nor for the precision of its numbers.
   const double farthest = std::max(norm(window.low), norm(window.high));
   const double least =
       std::max({thinnest_aspect * std::max(size.x, size.y), 1e-9 * farthest, 1e-290});
@@ -109,7 +109,7 @@ void draw_pose(Canvas& canvas, const PlotFrame& frame, const State& s, const Col
   draw_arrow(canvas, frame.to_page(s.position_m), page_unit(s.heading), color);
 }
 
-/// Beside its waypoint, as paths come and go along its heading; on the side that is emptier.
+/// To the side of its waypoint, since paths come and go along its heading; on the emptier side.
 void draw_number(Canvas& canvas, const PlotFrame& frame, const SteeringPicture& p, std::size_t k) {
   const Vec2 at = frame.to_page(p.goals[k].position_m);
   const Vec2 across = left_of(page_unit(p.goals[k].heading));
@@ -128,7 +128,7 @@ void draw_number(Canvas& canvas, const PlotFrame& frame, const SteeringPicture& 
               {.size_pt = 8.5, .anchor = Anchor::middle, .bold = true, .color = goal_color});
 }
 
-/// An arrow head half-way along each leg would hide short legs: one in the middle of all.
+/// An arrow head half-way along each leg would hide short legs, so there is one for the whole path.
 void draw_direction(Canvas& canvas, const PlotFrame& frame, const SteeredPath& path) {
   double left_m = 0.0;
   for (const FlightSegment& piece : path.segments) left_m += 0.5 * piece.length_m;

@@ -1,8 +1,8 @@
 // A vehicle steered to a pose, or along waypoints: its path with the circles of least radius at
-// every pose, the shortest path to compare, and beside them a chart of what the law brings to
-// nothing.
+// every pose, the shortest path to compare, and beside them a chart of the quantity that the law
+// reduces to zero.
 //
-// Every piece of a path is drawn as the arc or line that it is. Both axes of the map have one
+// Every piece of a path is drawn exactly, as an arc or a line. Both axes of the map have the same
 // scale.
 #pragma once
 

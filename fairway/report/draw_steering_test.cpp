@@ -80,7 +80,7 @@ TEST(DrawSteering, EverythingIsOnThePageAtAnyScaleAndAnyPlace) {
   }
 }
 
-TEST(DrawSteering, StayingWhereItIsIsDrawnToo) {
+TEST(DrawSteering, APathWithoutLengthIsDrawnToo) {
   SteeringPicture picture;
   picture.goals = {picture.start};
   picture.path.name = "LSL, 0 m";
@@ -88,7 +88,7 @@ TEST(DrawSteering, StayingWhereItIsIsDrawnToo) {
   EXPECT_TRUE(has_text(draw_steering(picture).svg, "LSL, 0 m"));
 }
 
-TEST(DrawSteering, RefusesSizesThatFitNoPage) {
+TEST(DrawSteering, RefusesSizesOutOfRange) {
   SteeringPicture picture = quarter_and_straight();
   picture.map_pt = 10.0;
   EXPECT_THROW((void)draw_steering(picture), PreconditionViolation);

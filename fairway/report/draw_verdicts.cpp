@@ -66,7 +66,7 @@ Picture draw_proved_shares(const VerdictMap& map, const VerdictPictureOptions& o
   SharePanels shares;
   shares.names = {"proved to reach", "proved to fail", "undecided"};
   shares.each = static_cast<std::size_t>(map.states_per_sample);
-  shares.of = fmt::format("of {} states a cell", map.states_per_sample);
+  shares.of = fmt::format("of {} states per cell", map.states_per_sample);
   shares.part = [&map](std::size_t i, std::size_t panel) {
     return states_of(map, i, static_cast<Share>(panel));
   };

@@ -1,4 +1,4 @@
-// A verdict map as pictures.
+// Pictures of a verdict map.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@ namespace fairway {
 
 struct VerdictPictureOptions {
   std::string title = {};
-  double panel_pt = 0.0;       ///< longer side of a panel, points, 30..1000; 0: what suits a page
+  double panel_pt = 0.0;  ///< longer side of a panel, points, 30..1000; 0: chosen to suit a page
   double pixels_per_pt = 2.0;  ///< resolution of the PNG, 0.5..8
 };
 
-/// A panel for each heading, four in a row: the verdict of the vehicle at each cell's middle with
+/// A panel for each heading, four in a row: the verdict of a vehicle at each cell's centre with
 /// that heading, by colour and pattern. Throws PreconditionViolation when an option is out of
 /// range, the map's arrays do not fit, or it has no heading.
 [[nodiscard]] Picture draw_verdicts(const VerdictMap& map, const VerdictPictureOptions& options);

@@ -25,7 +25,7 @@ constexpr int states = 32;
 constexpr std::array<Verdict, verdict_count> all_verdicts{
     Verdict::undecided, Verdict::reach, Verdict::collide, Verdict::leave, Verdict::trapped};
 
-/// `kind(ix, iy)` and `verdict(heading, ix, iy)` tell what is where; all states of a cell have the
+/// `kind(ix, iy)` and `verdict(heading, ix, iy)` give the contents; all states of a cell have the
 /// verdict of its first heading.
 template <typename Kind, typename Of>
 VerdictMap map_of(int nx, int ny, int headings, const Kind& kind, const Of& verdict) {
@@ -66,7 +66,8 @@ VerdictMap stripes(int headings = 8) {
                 [](int, int ix, int) { return all_verdicts[static_cast<std::size_t>(ix / 2)]; });
 }
 
-/// The colour in the middle of a cell of the first panel, which lies the same in every picture.
+/// The colour at the centre of a cell of the first panel, which has the same place in every
+/// picture.
 Color color_at(const testing::PngPicture& png, const VerdictMap& map, double panel_pt, Vec2 cell) {
   const MapPanels page(map, {"", 1, panel_pt, 2.0}, {{"panel"}}, {});
   const Grid& g = map.grid;
@@ -94,7 +95,7 @@ TEST(VerdictStyle, GroundsDifferInGreyPrintAndFromObstacles) {
   }
 }
 
-TEST(VerdictStyle, EveryVerdictHasAPatternOfItsOwn) {
+TEST(VerdictStyle, EveryVerdictHasItsOwnPattern) {
   const auto pattern = [](Verdict v) {
     const VerdictStyle s = style_of(v);
     return std::tuple(s.rising, s.falling, s.rising || s.falling ? s.pen.dash_pt.size() : 0);
@@ -134,7 +135,7 @@ TEST(DrawVerdicts, ArrowsPointAlongTheHeadings) {
   }
 }
 
-TEST(DrawVerdicts, ColoursStandWhereTheVerdictsAre) {
+TEST(DrawVerdicts, ColoursAreWhereTheVerdictsAre) {
   const VerdictMap map = stripes();
   const auto png = read_png(draw_verdicts(map, {.panel_pt = 300.0}).png);
   const auto at = [&](Vec2 cell) { return color_at(png, map, 300.0, cell); };
@@ -190,7 +191,7 @@ TEST(DrawProvedShares, ThreePanelsCountTheStatesOfAllHeadings) {
   VerdictMap map = stripes(1);
   const Picture picture = draw_proved_shares(map, {.title = "shares"});
   for (const char* text : {"shares", "proved to reach", "proved to fail", "undecided",
-                           "of 32 states a cell", "all", "none", "up to 1/8", "obstacle"}) {
+                           "of 32 states per cell", "all", "none", "up to 1/8", "obstacle"}) {
     EXPECT_TRUE(has_text(picture.svg, text)) << text;
   }
   EXPECT_TRUE(has_layer(picture.svg, "panel-3"));
@@ -246,7 +247,7 @@ TEST(DrawVerdicts, ACoarseMapIsCutAtTheGridsEdge) {
   EXPECT_EQ(color_at(png, map, 300.0, {28.6, 10.0}), palette::white);  // beside the panel
 }
 
-TEST(DrawVerdicts, AMapOfThePlansOfABigCityGivesSvgsThatAPaperCanHold) {
+TEST(DrawVerdicts, AMapOfABigCitysPlanGivesSvgsSmallEnoughForAPaper) {
   Random random(5);
   const auto blob = [](double x, double y) { return std::sin(0.11 * x) + std::sin(0.07 * y); };
   VerdictMap map = map_of(
@@ -262,7 +263,7 @@ TEST(DrawVerdicts, AMapOfThePlansOfABigCityGivesSvgsThatAPaperCanHold) {
   EXPECT_LT(draw_proved_shares(map, {}).svg.size(), 1'000'000U);
 }
 
-TEST(DrawVerdicts, MistakesOfTheCallerAreNamed) {
+TEST(DrawVerdicts, CallerMistakesAreReported) {
   VerdictMap map = stripes();
   EXPECT_THROW(static_cast<void>(draw_verdicts(map, {.panel_pt = 5.0})), PreconditionViolation);
   EXPECT_THROW(static_cast<void>(draw_verdicts(map, {.pixels_per_pt = 99.0})),

@@ -6,7 +6,7 @@ namespace fairway {
 namespace {
 
 void add_piece(DrawingPath& path, const FlightSegment& piece, const PlotFrame& frame) {
-  // Straight to the eye; the centre of so flat an arc would be too far away for its digits.
+  // Looks straight; the centre of so flat an arc would be too far away for the digits written.
   constexpr double flat_rad = 1e-4;
   if (std::abs(piece.length_m * piece.curvature_per_m) < flat_rad) {
     path.line_to(frame.to_page(state_at(piece, piece.length_m).position_m));

@@ -14,7 +14,7 @@ namespace fairway {
 [[nodiscard]] ChartSeries heading_over_time(const Flight& flight, double speed_mps,
                                             std::string name);
 
-/// The same headings as on a compass: degrees in (-180, 180], the line broken where it passes 180.
+/// The same headings for a chart in degrees, in (-180, 180], the line broken where it passes 180.
 [[nodiscard]] ChartSeries wrapped_degrees(const ChartSeries& headings);
 
 /// Distance from the mission's path against time (Figs. 7b, 8b): seconds, metres, sampled at least

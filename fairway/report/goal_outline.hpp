@@ -11,7 +11,7 @@ namespace fairway {
 /// Every cell side between a goal cell and one that is not, neighbouring sides joined.
 [[nodiscard]] DrawingPath goal_outline(const Plan& plan, const PlotFrame& frame);
 
-/// The same for the cells of which `inside` is true; it is asked of cells just outside, too.
+/// The same for the cells for which `inside` is true; it is also called for cells just outside.
 [[nodiscard]] DrawingPath outline_of_cells(const Grid& grid, const PlotFrame& frame,
                                            const std::function<bool(Cell)>& inside);
 

@@ -1,5 +1,5 @@
-// Parallel strokes over an area that only a test knows, as vectors without a clipping outline: the
-// cost and the size depend on the page alone, not on the number of cells.
+// Parallel strokes over an area given by a predicate, as vectors without a clipping outline: the
+// cost and the size depend only on the page, not on the number of cells.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace fairway {
 
 /// Strokes `spacing_pt` apart within `area`, falling (to the right and down) or rising, wherever
-/// `covers(point)`; ends are right to half a point.
+/// `covers(point)`; ends are accurate to half a point.
 template <typename Covers>
 [[nodiscard]] DrawingPath hatch(const Rect& area, double spacing_pt, bool rising,
                                 const Covers& covers) {

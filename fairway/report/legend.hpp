@@ -1,4 +1,4 @@
-// A column of small samples with their names.
+// A legend: a column of small samples with their names.
 #pragma once
 
 #include <functional>

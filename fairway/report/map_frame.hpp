@@ -1,4 +1,4 @@
-// How a grid lies in a frame of a page, and how long a metre is there.
+// Places a grid in a frame of a page, and sets its scale.
 #pragma once
 
 #include "fairway/base/grid.hpp"

@@ -75,7 +75,7 @@ MapPage::MapPage(const Plan& plan, const MapPageOptions& options, std::vector<Le
     : plan_(plan), options_(options), entries_(std::move(entries)) {
   check(plan, options);
   largest_cost_m_ = largest_cost_m(plan);
-  if (!(largest_cost_m_ > 0.0)) options_.cost = false;  // nothing to tell apart
+  if (!(largest_cost_m_ > 0.0)) options_.cost = false;  // a single value: no scale
   for (auto& entry : region_entries(plan, options_.cost)) entries_.push_back(std::move(entry));
   if (options_.mission) entries_.push_back(mission_entry(*options_.mission));
   lay_out();

@@ -34,7 +34,7 @@ class MapPage {
   const PlotFrame& frame() const { return frame_; }
   double pt_per_m() const { return frame_.rect.width / (frame_.x.high - frame_.x.low); }
 
-  /// The goal point or the path, above what was drawn before; nothing without a mission.
+  /// Draws the goal point or the path, above what was drawn before; nothing without a mission.
   void mark_mission();
 
   /// Axes, scale bar and legend on top of everything else.

@@ -47,7 +47,7 @@ void draw_heading_arrow(Canvas& canvas, Vec2 middle, double heading_rad) {
 MapPanels::MapPanels(const VerdictMap& map, const MapPanelsOptions& options,
                      std::vector<PanelCaption> captions, std::vector<LegendEntry> entries)
     : map_(map), options_(options), captions_(std::move(captions)), entries_(std::move(entries)) {
-  require(options.columns >= 1 && !captions_.empty(), "a page of panels has a panel");
+  require(options.columns >= 1 && !captions_.empty(), "a page of panels has at least one panel");
   require(options.panel_pt >= 30.0 && options.panel_pt <= 1000.0, "panel_pt is in 30..1000");
   require(options.pixels_per_pt >= 0.5 && options.pixels_per_pt <= 8.0,
           "pixels_per_pt is in 0.5..8");

@@ -63,7 +63,7 @@ class MapPanels {
   MapPanelsOptions options_;
   std::vector<PanelCaption> captions_;
   std::vector<LegendEntry> entries_;
-  PlotFrame world_;       // axes alone
+  PlotFrame world_;       // only the axes
   Vec2 size_pt_;          // of a panel
   double step_x_pt_ = 0;  // from one panel to the next
   double top_pt_ = 0;

@@ -1,4 +1,4 @@
-// What the vehicle was asked to do, drawn on the map.
+// The vehicle's mission, drawn on the map.
 #pragma once
 
 #include "fairway/report/legend.hpp"

@@ -1,4 +1,4 @@
-// How flights look by their outcome: of the hues of the verdicts' grounds (verdict_style.hpp).
+// The look of flights by outcome, in the hues of the verdicts' grounds (verdict_style.hpp).
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace fairway {
 
 struct OutcomeStyle {
   Pen pen;                      ///< of the pictures
-  Color on_screen;              ///< of the page: deeper, since its lines lie on the verdicts
+  Color on_screen;              ///< of the page: deeper, since its lines lie on top of the verdicts
   std::vector<double> dash_px;  ///< of the page; empty: solid
 };
 

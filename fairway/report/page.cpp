@@ -77,7 +77,7 @@ json styles_json() {
           {"unreachable_pattern", hex(palette::unreachable_pattern)}};
 }
 
-/// What the page has to know of the codes of verdicts.
+/// What the page needs to know about the codes of verdicts.
 json codes_json() {
   json failing = json::array();
   for (const Verdict verdict : verdicts_in_order) {
@@ -102,6 +102,7 @@ json flights_json(const std::vector<PageFlights>& groups) {
            {"start", {f.start.position_m.x, f.start.position_m.y, f.start.heading.rad()}},
            {"pieces", {begin, begin + f.segments.size()}}});
       if (!group.ground.empty()) shown.back()["ground"] = group.ground;
+      if (f.onward.after != After::none) shown.back()["after"] = name_of(f.onward.after);
       begin += f.segments.size();
       const FinalLeg& leg = f.final_leg;
       if (leg.state == FinalLegState::not_asked) continue;
@@ -145,7 +146,7 @@ json record_of(const PageContent& content) {
           {"summary", json::parse(content.summary_json)}};
 }
 
-/// JSON that may stand in a script element.
+/// JSON that is safe in a script element.
 std::string inert(const json& value) {
   std::string text;
   for (const char c : value.dump(-1, ' ', true, json::error_handler_t::replace)) {
@@ -205,9 +206,9 @@ std::string page_html(const PageContent& content, std::string_view html) {
        {"@FAIRWAY_ARRAYS@", base64(payload.bytes())}}};
   std::string page;
   std::size_t done = 0;
-  for (const auto& [mark, text] : marks) {  // in the order in which the template has them
+  for (const auto& [mark, text] : marks) {  // in the template's order
     const std::size_t at = html.find(mark, done);
-    require(at != std::string_view::npos, "a template of the page has all marks, in their order");
+    require(at != std::string_view::npos, "a page template has all marks, in order");
     page += html.substr(done, at - done);
     page += text;
     done = at + mark.size();
@@ -217,7 +218,7 @@ std::string page_html(const PageContent& content, std::string_view html) {
 }
 
 std::string page_html(const PageContent& content) {
-  require(has_page_template(), "this build has a template of the page");
+  require(has_page_template(), "this build has the page's template");
   return page_html(content, page_template());
 }
 

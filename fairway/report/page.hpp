@@ -1,4 +1,4 @@
-// A run as one HTML file: nothing is fetched, it opens from a disk (docs/report.md).
+// A run as one self-contained HTML file that can be opened from disk (docs/report.md).
 //
 // The bundle of web/ has two marks, which are replaced:
 //   @FAIRWAY_RECORD@   JSON of everything small: grid, mission, styles, words, numbers
@@ -7,7 +7,7 @@
 // Properties that always hold:
 //   1. No text of a file becomes markup: `<`, `>` and `&` are escaped in the record, and the page
 //      shows texts as texts.
-//   2. The bytes depend on what is shown alone: not on the time, the machine, or threads.
+//   2. The bytes depend only on what is shown: not on the time, the machine, or threads.
 #pragma once
 
 #include <cstddef>
@@ -28,8 +28,8 @@ namespace fairway {
 struct PageFlights {
   std::string group;
   std::span<const Flight> flights;  ///< recorded
-  std::size_t most = 100;           ///< so many are shown; the page says when there are more
-  std::string ground = {};          ///< of failing ones: "safe_start", "buffer" or "cut_off"
+  std::size_t most = 100;           ///< shown at most; the page says when there are more
+  std::string ground = {};          ///< for failing ones: "safe_start", "buffer" or "cut_off"
 };
 
 struct PageContent {
@@ -41,13 +41,13 @@ struct PageContent {
   std::vector<std::string> words = {};        ///< what was found, in prose, by groups
   std::string summary_json = "{}";            ///< an object: findings and warnings head the page
   std::vector<std::string> assumptions = {};  ///< what a proof rests on
-  LonLatOf lon_lat = {};                      ///< none: the map has no place on Earth
+  LonLatOf lon_lat = {};                      ///< none: the map is not georeferenced
 };
 
 /// Throws PreconditionViolation when there is no template (page_template.hpp) or arrays do not fit.
 [[nodiscard]] std::string page_html(const PageContent& content);
 
-/// The same with a template of the caller's.
+/// The same with the caller's template.
 [[nodiscard]] std::string page_html(const PageContent& content, std::string_view html);
 
 /// Text between tags or in a quoted attribute.

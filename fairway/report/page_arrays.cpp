@@ -180,7 +180,7 @@ void add_verdict_arrays(const VerdictMap& map, PagePayload& payload) {
       "verdict",
       {map.heading_rad.size(), static_cast<std::size_t>(map.ny), static_cast<std::size_t>(map.nx)},
       code);
-  // For each sample, of how many headings each verdict is that; 255 headings at most fit a byte.
+  // For each sample, the number of headings with each verdict; a byte holds up to 255 headings.
   require(map.heading_rad.size() <= 255, "a page has at most 255 headings");
   std::vector<std::uint8_t> count(verdict_count * map.samples());
   for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {

@@ -1,4 +1,4 @@
-// What the page draws, as arrays: the names and meanings are in docs/report.md.
+// The arrays that the page draws; their names and meanings are in docs/report.md.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace fairway {
 
-/// Which cells' values the page carries: one of each block of cells_per_value^2 cells, the middle
-/// one of those on the grid, so that a page of the largest plan stays small.
+/// The cells whose values the page carries: the middle one of each block of cells_per_value^2 cells
+/// (of those on the grid), so that the page of the largest plan stays small.
 struct PageValues {
   int cells_per_value = 1;
   int nx = 0;
@@ -24,7 +24,7 @@ struct PageValues {
 /// `region`, `heading`, `cost` of the plan, `streamline_*`, `contour_*`.
 void add_plan_arrays(const Plan& plan, PagePayload& payload);
 
-/// Codes of the array `verdict` where there are no states, out of the way of any verdict's.
+/// Codes of the array `verdict` where there are no states, distinct from any verdict's.
 inline constexpr std::uint8_t page_obstacle = 250;
 inline constexpr std::uint8_t page_target = 249;
 static_assert(verdict_count <= page_target);

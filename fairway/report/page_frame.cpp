@@ -11,7 +11,7 @@ using nlohmann::json;
 
 constexpr int across = 17;
 
-/// Eight decimals are a millimetre.
+/// Eight decimals: about a millimetre.
 double rounded(double degrees) { return std::round(degrees * 1e8) / 1e8; }
 
 json lattice(const Grid& grid, const LonLatOf& lon_lat) {

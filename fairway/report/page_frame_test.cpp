@@ -13,7 +13,7 @@ namespace {
 
 const Grid grid{80, 40, -200.0, 100.0, 5.0};
 
-/// A plane of degrees about a place, longitudes in [-180, 180].
+/// A plane of degrees around a place, longitudes in [-180, 180].
 LonLatOf degrees_about(double latitude_deg, double longitude_deg) {
   return [=](Vec2 p) {
     return LonLat{std::remainder(longitude_deg + p.x / 1e5, 360.0), latitude_deg + p.y / 1e5};
@@ -48,7 +48,7 @@ TEST(PageFrame, LongitudesHaveNoJumpAtTheDateLine) {
   EXPECT_NEAR(most - least, 400.0 / 1e5, 1e-8);
 }
 
-TEST(PageFrame, WithoutAPlaceOnEarthThereIsNone) {
+TEST(PageFrame, HasNoDegreesWhenNotGeoreferenced) {
   EXPECT_TRUE(page_frame_json(grid, {}, {})["earth"].is_null());
   const LonLatOf outside = [](Vec2) -> LonLat { throw InputError("map", "outside its system"); };
   EXPECT_TRUE(page_frame_json(grid, {}, outside)["earth"].is_null());

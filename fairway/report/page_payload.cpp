@@ -15,7 +15,8 @@
 namespace fairway {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "arrays are written as they lie");
+static_assert(std::endian::native == std::endian::little,
+              "arrays are written as they lie in memory");
 
 std::string deflated(std::span<const std::uint8_t> raw) {
   uLongf size = compressBound(static_cast<uLong>(raw.size()));
@@ -60,10 +61,10 @@ std::size_t product(const std::vector<std::size_t>& shape) {
 }  // namespace
 
 void PagePayload::add_entry(Entry entry, std::size_t elements) {
-  require(product(entry.shape) == elements, "an array of the page has the shape it says");
+  require(product(entry.shape) == elements, "an array of the page has the shape it states");
   const bool taken = std::any_of(entries_.begin(), entries_.end(),
                                  [&](const Entry& other) { return other.name == entry.name; });
-  require(!taken, "every array of the page has a name of its own");
+  require(!taken, "every array of the page has its own name");
   entries_.push_back(std::move(entry));
 }
 
@@ -97,7 +98,7 @@ void PagePayload::add(std::string_view name, std::vector<std::size_t> shape,
 
 void PagePayload::add_layers(std::string_view name, std::vector<std::size_t> shape,
                              std::span<const std::uint8_t> values) {
-  require(!shape.empty() && product(shape) == values.size(), "layers fill the shape they say");
+  require(!shape.empty() && product(shape) == values.size(), "layers fill the shape they state");
   const std::size_t each = shape[0] == 0 ? 0 : values.size() / shape[0];
   std::vector<std::string> streams(shape[0]);
   for_ranges(streams.size(), 1, [&](std::size_t begin, std::size_t end) {

@@ -1,10 +1,10 @@
-// Arrays for the page of a run: each compressed by itself, so that a browser inflates what it
-// shows and no more.
+// Arrays for the page of a run, each compressed separately, so that a browser inflates only what
+// it shows.
 //
 // Layout: 8 bytes little-endian length N of a JSON header; the header, an object of
 // `{"dtype", "shape", "filter", "at": [begin, end]}` by name; then the compressed arrays (zlib
 // streams, RFC 1950), `at` counted from byte 8 + N. Before compression an array is filtered:
-//   none    its little-endian bytes as they are
+//   none    its little-endian bytes unchanged
 //   planes  the first byte of every element, then every second byte, and so on
 //   delta   of integers: differences to the element before (the first to 0) modulo their size,
 //           then as planes
@@ -37,7 +37,7 @@ class PagePayload {
   void add_layers(std::string_view name, std::vector<std::size_t> shape,
                   std::span<const std::uint8_t> values);
 
-  /// The whole, as it stands in the page.
+  /// The whole payload, as embedded in the page.
   [[nodiscard]] std::string bytes() const;
 
  private:

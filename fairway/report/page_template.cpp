@@ -1,7 +1,7 @@
 #include "fairway/report/page_template.hpp"
 
-// The bundle lies in the program itself: a command that is copied elsewhere still has its page.
-// `.incbin` takes 700 kB in no time, where an array of numbers takes the compiler many seconds.
+// The bundle is embedded in the program, so that a command copied elsewhere still has its page.
+// `.incbin` takes 700 kB instantly, where an array of numbers takes the compiler many seconds.
 __asm__(
     ".pushsection .rodata\n"
     ".global fairway_page_template_begin\n"

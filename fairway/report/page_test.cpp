@@ -118,7 +118,7 @@ Flight flight_of(std::vector<FlightSegment> segments, Outcome outcome) {
 
 const Mission goal = GoalMission{{60.0, 40.0}, {}};
 
-TEST(Base64, IsThatOfTheRfc) {
+TEST(Base64, MatchesTheRfc) {
   EXPECT_EQ(base64(""), "");
   EXPECT_EQ(base64("f"), "Zg==");
   EXPECT_EQ(base64("fo"), "Zm8=");
@@ -202,7 +202,7 @@ TEST(Page, OfTheLargestPlansItCarriesOneCellOfEachBlock) {
   ASSERT_EQ(region.size(), 834U * 3U);
   EXPECT_EQ(region[1 * 834 + 13], 1 + static_cast<int>(Region::obstacle));  // cell (40, 4)
   EXPECT_EQ(region[1 * 834 + 666], 1 + static_cast<int>(Region::goal));     // cell (1999, 4)
-  // The last block is cut by the grid's edge: its cell is on the grid all the same.
+  // The last block is cut by the grid's edge, but its cell is on the grid.
   EXPECT_EQ(page_values(plan.grid).cell_of(833, 2, plan.grid), (Cell{2499, 6}));
 }
 
@@ -251,7 +251,7 @@ TEST(Page, EveryVerdictLayerIsThatOfTheMap) {
   }
   for (std::size_t k = 0; k < sums.size(); ++k) EXPECT_EQ(counts[k], sums[k]);
   EXPECT_EQ(info["heading_rad"], json(map.heading_rad));
-  // The place of a sample, as the page tells it.
+  // The place of a sample, as given by the page.
   const Vec2 place = map.place_m(17);
   const Vec2 middle = map.grid.center(map.cell_of_sample(17));
   EXPECT_NEAR(info["offset_m"][0].get<double>(), place.x - middle.x, 1e-9);
@@ -294,6 +294,7 @@ TEST(Page, FlightsComeWithTheirPiecesAndLegsAndSayHowManyAreLeftOut) {
       record_of(page_html({"t", plan, goal, {{"failing", flights, 1, "cut_off"}}}, bare));
   EXPECT_EQ(failing["flights"][0]["ground"], "cut_off");
   EXPECT_FALSE(record["flights"][0].contains("ground"));
+  EXPECT_FALSE(record["flights"][0].contains("after"));
   ASSERT_EQ(record["flights"].size(), 2U);
   EXPECT_EQ(record["flights_left_out"], json({{"given", 1}}));
   EXPECT_EQ(record["flights"][0]["pieces"], json({0, 2}));
@@ -303,6 +304,19 @@ TEST(Page, FlightsComeWithTheirPiecesAndLegsAndSayHowManyAreLeftOut) {
   const Decoded arrays = arrays_of(page);
   EXPECT_EQ(arrays.array<float>("piece_x_m"), (std::vector<float>{10.0F, 20.0F, 20.0F, 10.0F}));
   EXPECT_EQ(arrays.array<float>("piece_length_m"), (std::vector<float>{12.0F, 3.0F, 2.0F, 9.0F}));
+}
+
+TEST(Page, FollowedFlightsSayWhatComesAfterReaching) {
+  const Plan plan = island_plan({14, 12, -300.0, 5.0, 6.0}, {-240.0, 40.0}, {4, 6});
+  const State start{{-290.0, 20.0}, Heading::from_rad(1.0)};
+  std::vector<Flight> flights(3, flight_of({{start, 0.0, 12.0, 0.1}}, Outcome::reach));
+  for (std::size_t i = 0; i < flights.size(); ++i) flights[i].onward.after = afters_in_order[i];
+  const json shown =
+      record_of(page_html({"t", plan, goal, {{"given", flights, 3}}}, bare))["flights"];
+  EXPECT_EQ(shown[0]["after"], "follow");
+  EXPECT_EQ(shown[1]["after"], "collide");
+  EXPECT_EQ(shown[2]["after"], "leave");
+  for (const json& flight : shown) EXPECT_EQ(flight["outcome"], "reach");
 }
 
 TEST(Page, NoTextOfAFileBecomesMarkup) {
@@ -322,7 +336,7 @@ TEST(Page, NoTextOfAFileBecomesMarkup) {
   EXPECT_NO_THROW((void)arrays_of(page).array<std::uint8_t>("region"));
 }
 
-TEST(Page, BytesThatAreNoTextDoNotBreakIt) {
+TEST(Page, BytesThatAreNotTextDoNotBreakIt) {
   const Plan plan = island_plan({14, 12, -3.0, 5.0, 6.0}, {60.0, 40.0}, {4, 6});
   const std::string page = page_html({"\xff\xfe", plan, goal, {}, nullptr, {"\xc3("}}, bare);
   EXPECT_EQ(record_of(page)["words"].size(), 1U);

@@ -1,4 +1,4 @@
-// What a page knows of verdicts beside their arrays.
+// What a page knows about verdicts besides their arrays.
 #pragma once
 
 #include <string>

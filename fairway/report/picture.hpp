@@ -1,5 +1,5 @@
-// A finished picture in both formats, drawn by the same code. Bytes depend on what is drawn and on
-// the installed DejaVu Sans font alone: no dates, no counters.
+// A finished picture in both formats, drawn by the same code. The bytes depend only on what is
+// drawn and on the installed DejaVu Sans font: no dates, no counters.
 #pragma once
 
 #include <string>

@@ -19,7 +19,7 @@ struct PlotFrame {
   Axis x;
   Axis y;
 
-  /// Where a point of the quantities lies on the page.
+  /// The place on the page of a point given in the quantities.
   Vec2 to_page(Vec2 p) const {
     return {rect.x + (p.x - x.low) / (x.high - x.low) * rect.width,
             rect.bottom() - (p.y - y.low) / (y.high - y.low) * rect.height};

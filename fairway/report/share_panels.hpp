@@ -1,4 +1,4 @@
-// Three panels of shares side by side, and what they have in common with other panels of a map.
+// Three panels of shares side by side, and code shared with other panels of a map.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct SharePanels {
   static constexpr std::size_t count = 3;  ///< reaches, fails, open: the colours are theirs
   std::array<const char*, count> names{};
   std::size_t each = 0;  ///< what is counted in a sample, at least 1
-  std::string of;        ///< "of 32 states a cell": the legend's first line
+  std::string of;        ///< "of 32 states per cell": the legend's first line
   std::function<std::size_t(std::size_t sample, std::size_t panel)> part;
 };
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double least_agreement = 0.3;
 constexpr double closest_share = 0.5;  // d_test / d_sep of the paper
 
-/// The points drawn so far, in buckets of one separation, so that a look around is nine buckets.
+/// The points drawn so far, in buckets of one separation, so that a neighbour search reads nine.
 class Crowd {
  public:
   Crowd(const Grid& grid, double separation_m)
@@ -79,7 +79,7 @@ class Weaver {
         crowd_(plan.grid, separation_m) {}
 
   std::vector<std::vector<Vec2>> weave() {
-    // Seeds half a separation apart: parts of the field that no neighbour line leads to get theirs.
+    // Seeds half a separation apart, for parts of the field that no neighbouring line leads to.
     const Grid& grid = plan_.grid;
     const int columns = static_cast<int>(std::ceil(2.0 * grid.width_m() / separation_m_));
     const int rows = static_cast<int>(std::ceil(2.0 * grid.height_m() / separation_m_));
@@ -93,7 +93,7 @@ class Weaver {
   }
 
  private:
-  /// Lines beside lines, until there is no room left beside any of them.
+  /// Adds lines next to lines, until there is no room left next to any of them.
   void spread() {
     for (std::size_t line = lines_.size() - 1; line < lines_.size(); ++line) {
       for (std::size_t i = 0; i < lines_[line].size(); ++i) {
@@ -107,7 +107,7 @@ class Weaver {
   }
 
   bool draw_through(Vec2 seed) {
-    // A hair less than the separation: seeds beside a straight line are one separation away.
+    // Slightly less than the separation: seeds next to a straight line are one separation away.
     if (!field_direction(plan_, seed) || crowd_.has_near(seed, 0.999 * separation_m_)) return false;
     std::deque<Vec2> line{seed};
     while (const auto p = step_from(plan_, line.back(), step_m_)) {

@@ -2,7 +2,7 @@
 // streamlines of arbitrary density, 1997).
 //
 // Between cell centres the direction is the bilinear mean of the commanded unit vectors of the
-// cells that have one and are no obstacle; where they cancel to less than `least_agreement` of
+// cells that have one and are not obstacles; where they cancel to less than `least_agreement` of
 // their length, there is no direction and a line ends.
 //
 // Properties that always hold:

@@ -99,7 +99,7 @@ RC_GTEST_PROP(Streamlines, FollowTheFieldAndKeepTheirDistance, (std::uint64_t se
   }
 }
 
-TEST(Streamlines, NothingComesOfNoCellsOrNoCommands) {
+TEST(Streamlines, AreNoneWithoutCellsOrCommands) {
   EXPECT_TRUE(evenly_spaced_streamlines(Plan{}, 1.0).empty());
   Plan plan = whirl({5, 5, 0.0, 0.0, 1.0});
   for (float& heading : plan.heading_rad) heading = std::numeric_limits<float>::quiet_NaN();

@@ -43,8 +43,8 @@ std::string escaped(std::string_view text) {
   return safe;
 }
 
-/// An arc command cannot tell a full circle from nothing, and is exact only with both ends well
-/// apart: long arcs go in parts of at most 120 degrees.
+/// An arc command cannot distinguish a full circle from nothing, and is exact only with its ends
+/// well apart: long arcs are split into parts of at most 120 degrees.
 std::string arc_data(const DrawingPath::Piece& arc) {
   const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(arc.sweep_rad) * 1.5 / pi)));
   const double sagitta = arc.radius * (1.0 - std::cos(std::min(pi, 0.5 * std::abs(arc.sweep_rad))));
@@ -159,8 +159,8 @@ void SvgPage::text(const std::string& text, Vec2 at, const TextStyle& style) {
 }
 
 void SvgPage::image(int width, int height, const std::string& png, const Rect& place) {
-  // The image is as large as its pixels and then stretched: viewers that ignore `none` for the
-  // aspect ratio still show it right.
+  // The image has the size of its pixels and is then stretched: viewers that ignore `none` for the
+  // aspect ratio still show it correctly.
   body_ += fmt::format(
       "<image width=\"{0}\" height=\"{1}\" preserveAspectRatio=\"none\" "
       "transform=\"matrix({2:.6g} 0 0 {3:.6g} {4} {5})\" "

@@ -40,7 +40,7 @@ class Line {
   }
 
  private:
-  /// Whether the line may end at p; then it has narrowed the directions it may still go in.
+  /// Whether the line may end at p; if so, narrows the directions it may still take.
   bool passes(Vec2 p) {
     const Vec2 along = p - anchor_;
     const double length = norm(along);

@@ -56,7 +56,7 @@ double farthest(const std::vector<Vec2>& from, const std::vector<Vec2>& to) {
   return most;
 }
 
-/// Lines, arcs and repeated points of all sizes about the tolerance, 1; with loops and returns.
+/// Lines, arcs and repeated points of sizes around the tolerance, 1; with loops and returns.
 DrawingPath random_path(Random& random) {
   DrawingPath path;
   Vec2 here{random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0)};
@@ -129,7 +129,7 @@ TEST(ThinnedPath, KeepsACurveThatShowsAndFlattensOneThatDoesNot) {
   EXPECT_EQ(thinned(path, 10.0).pieces().back().kind, Kind::line);
 }
 
-TEST(ThinnedPath, OfNothingIsNothing) { EXPECT_TRUE(thinned({}, 0.05).empty()); }
+TEST(ThinnedPath, OfAnEmptyPathIsEmpty) { EXPECT_TRUE(thinned({}, 0.05).empty()); }
 
 }  // namespace
 }  // namespace fairway

@@ -19,10 +19,10 @@ double round_length_below(double length) {
 
 Ticks ticks_between(double low, double high, int wanted) {
   require(std::isfinite(low) && std::isfinite(high) && low <= high && wanted >= 1,
-          "ticks want a finite range");
+          "ticks need a finite range");
   Ticks ticks;
   const double range = high - low;
-  // Below a billionth of the numbers' size a step would drown in their rounding.
+  // Below a billionth of the numbers' size a step would be lost in rounding.
   if (range <= 1e-9 * std::max(std::abs(low), std::abs(high))) {
     ticks.values.push_back(low);
     return ticks;

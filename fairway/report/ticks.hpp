@@ -15,7 +15,7 @@ struct Ticks {
 /// one tick at most.
 [[nodiscard]] Ticks ticks_between(double low, double high, int wanted);
 
-/// With as many decimals as the step needs; as a power of ten where digits would run on.
+/// With as many decimals as the step needs; in scientific notation where there would be too many.
 [[nodiscard]] std::string tick_label(double value, double step);
 
 /// The largest 1, 2 or 5 times a power of ten that is at most `length` > 0.

@@ -11,7 +11,7 @@
 namespace fairway {
 namespace {
 
-RC_GTEST_PROP(Ticks, AreRoundNumbersWithinTheRangeAndOfTheWantedNumber, (std::uint64_t seed)) {
+RC_GTEST_PROP(Ticks, AreRoundNumbersWithinTheRangeAndAboutAsManyAsWanted, (std::uint64_t seed)) {
   Random random(seed);
   const double range = std::pow(10.0, random.uniform(-6.0, 9.0));
   const double low = random.uniform(-3.0, 3.0) * range;
@@ -28,12 +28,12 @@ RC_GTEST_PROP(Ticks, AreRoundNumbersWithinTheRangeAndOfTheWantedNumber, (std::ui
   }
 }
 
-TEST(Ticks, AnEmptyRangeHasOneTickAtMost) {
+TEST(Ticks, AnEmptyRangeHasAtMostOneTick) {
   EXPECT_EQ(ticks_between(0.0, 0.0, 5).values.size(), 1U);
   EXPECT_EQ(ticks_between(7.5e6, 7.5e6 + 1e-4, 5).values.size(), 1U);
 }
 
-TEST(Ticks, ARangeThatIsTurnedRoundOrEndlessIsAMistake) {
+TEST(Ticks, AReversedOrInfiniteRangeIsAMistake) {
   EXPECT_THROW(static_cast<void>(ticks_between(1.0, 0.0, 5)), PreconditionViolation);
   EXPECT_THROW(static_cast<void>(ticks_between(0.0, INFINITY, 5)), PreconditionViolation);
 }

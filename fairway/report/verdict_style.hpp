@@ -1,5 +1,5 @@
-// How verdicts look: every one has a ground colour of its own lightness and a pattern of its own,
-// so that they are told apart in grey print and by the colour-blind, and a sample of the legend.
+// The look of verdicts: each has a ground colour of its own lightness and its own pattern, so that
+// they can be distinguished in grey print and by the colour-blind, and a sample for the legend.
 #pragma once
 
 #include "fairway/report/legend.hpp"
@@ -18,7 +18,7 @@ struct VerdictStyle {
 
 /// Of the shares proved to reach (0), proved to fail (1) and undecided (2), the colour of class
 /// `rank`: none, up to an eighth, a half, seven eighths, not quite all, all (5). White to the deep
-/// colour of the share, lightness falling evenly: it survives grey print.
+/// colour of the share, lightness falling evenly: it works in grey print.
 inline constexpr int share_classes = 6;
 [[nodiscard]] Color share_color(int share, int rank);
 

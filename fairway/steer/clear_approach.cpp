@@ -46,8 +46,8 @@ Part part_of(const State& begin, double length_m, int turn, double turn_radius_m
   const Vec2 left = left_of(fast_unit(begin.heading.rad()));
   part.centre_m = begin.position_m + (turn * turn_radius_m) * left;
   part.sweep_rad = length_m / turn_radius_m;
-  // From the centre the vehicle is to the right of its heading in a left turn. A right turn is the
-  // same arc from its end.
+  // In a left turn the vehicle, seen from the centre, lies to the right of its heading. A right
+  // turn is the same arc driven from its end.
   const double at = turn > 0 ? begin.heading.rad() - pi / 2 : end.heading.rad() + pi / 2;
   part.from_rad = std::remainder(at, two_pi);
   return part;
@@ -82,7 +82,7 @@ bool line_touches(const Part& part, const Box& box) {
          cut(part.begin_m.y, way.y, box.low.y, box.high.y);
 }
 
-/// An arc touches a square when an end is in it or it meets a side: a curve surrounds nothing.
+/// An arc touches a square when an end is in it or it meets a side: an arc encloses nothing.
 bool arc_touches(const Part& part, const Box& box) {
   if (box.contains(part.begin_m) || box.contains(part.end_m)) return true;
   const double r = part.radius_m;

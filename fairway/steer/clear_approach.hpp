@@ -1,12 +1,13 @@
-// A last leg to a pose that touches no obstacle: the path itself against the closed squares, not
+// A last leg to a pose that touches no obstacle: tests the path itself against closed squares, not
 // samples of it.
 //
 // Properties that always hold:
-//   1. What is called clear touches no blocked cell: every cell the parts' boxes meet is tested, an
-//      arc against the square's sides and corners in closed form. Squares are grown by a 2^-30th
+//   1. A path called clear touches no blocked cell: every cell that the parts' boxes meet is
+//   tested,
+//      arcs against the square's sides and corners in closed form. Squares are grown by a 2^-30th
 //      of a cell and of the radius and a 2^-48th of the coordinates, more than all rounding; so a
-//      path that passes an obstacle by less than that is called touching.
-//   2. The approach given is the shortest of the candidates that are clear.
+//      path that passes an obstacle by less than that counts as touching.
+//   2. The approach returned is the shortest of the clear candidates.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +29,7 @@ struct BlockedCells {
 /// Whether no part of the path touches a blocked cell.
 [[nodiscard]] bool is_clear(const DubinsPath& path, const BlockedCells& cells);
 
-/// One turn or straight part first, which may be nothing, then a path of one word.
+/// First one turn or straight part, which may be empty, then a path of one word.
 struct Approach {
   DubinsPath lead;
   DubinsPath path;

@@ -30,7 +30,7 @@ constexpr Vec2 goal_left{-1.0, 0.0};
 constexpr Vec2 goal_right{1.0, 0.0};
 
 /// Whether the vehicle's circle about `own` and the goal's of the other sense about `other` repel.
-/// Circles that touch, as both pairs do at the goal, do not overlap by rounding.
+/// Touching circles, as both pairs are at the goal, must not overlap because of rounding.
 bool repels(Vec2 own, Vec2 other, Repulsion repulsion) {
   constexpr double touch = 1e-9;
   if (repulsion == Repulsion::none) return false;
@@ -50,7 +50,7 @@ double attracted(const Relative& s, int side, double step) {
   if (std::abs(off) > pi / 2) return side;
   const double turn = std::abs(off);
   if (turn >= step) return off > 0.0 ? 1.0 : -1.0;
-  // The turn ends within the step; the straight part may, too: then along the goal's circle.
+  // The turn ends within the step; so may the straight part: then along the goal's circle.
   const double beyond = std::max(0.0, step - turn - distance);
   return std::clamp((off + side * beyond) / step, -1.0, 1.0);
 }
@@ -87,7 +87,7 @@ double ClfLaw::curvature_per_m(const State& state, const State& goal, double tur
   if (!repulsion_over_) {
     const Repelling now = repelling(s, options_.repulsion);
     if (now.left || now.right) {
-      // The nearer of those that repel (Eqs. 18 and 20), turned the other way.
+      // The nearer of those that repel (Eqs. 18 and 20), with the turn reversed.
       const int side = now.left && (left_nearer || !now.right) ? 1 : -1;
       return (attracted(s, side, step) > 0.0 ? -1.0 : 1.0) / turn_radius_m;
     }

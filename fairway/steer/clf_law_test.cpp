@@ -15,7 +15,7 @@ const State goal{{0.0, 0.0}, Heading::from_rad(pi / 2)};
 
 State pose(double x, double y, double h) { return {{x, y}, Heading::from_rad(h)}; }
 
-TEST(AccommodationCircles, AreARadiusToTheLeftAndRightAndKnowThePose) {
+TEST(AccommodationCircles, AreARadiusToTheLeftAndRightAndDetermineThePose) {
   Random random(1);
   for (int i = 0; i < 1'000; ++i) {
     const State s = oracle::random_pose(random, 9.0);
@@ -61,7 +61,7 @@ TEST(ClfLaw, DistancesAreThoseOfTheirEquations) {
   EXPECT_NEAR(ClfLaw().value(goal, goal, 1.0).v, 0.0, 1e-15);
 }
 
-TEST(ClfLaw, SeesTheSameFromAnyPlaceInAnyDirectionAtAnyRadius) {
+TEST(ClfLaw, IsTheSameAtAnyPlaceDirectionAndRadius) {
   Random random(3);
   for (int i = 0; i < 1'000; ++i) {
     const State s = pose(random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(-pi, pi));
@@ -124,7 +124,7 @@ TEST(ClfLaw, ReachesTheGoalFromEverywhereTried) {
     ASSERT_GE(flight.length_m, least - 0.1 * r);
     shortest += flight.length_m <= least + 0.05 * r ? 1 : 0;
   }
-  // "All paths are the shortest" it is not, but most are.
+  // Not "all paths are the shortest", but most are.
   EXPECT_GT(shortest, starts * 3 / 4);
   EXPECT_LT(shortest, starts * 19 / 20);
 }

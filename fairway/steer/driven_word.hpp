@@ -1,4 +1,4 @@
-// L, S and R as a vehicle drove them. Private to the flights of the steering laws.
+// The parts L, S and R as a vehicle drove them. Private to the flights of the steering laws.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace fairway {
 
-/// Letters of what was driven, with the length of each.
+/// The letters driven, with the length of each.
 class DrivenWord {
  public:
   /// `curvature`: times the turning radius, -1 .. 1.

@@ -1,7 +1,8 @@
 // Many shortest lengths at once. A block of pairs goes through the four words with a straight part
 // without a branch, several pairs to an instruction; those for which RLR or LRL could be shorter
-// are gathered and go through these two in the same way. Compiled for AVX-512, AVX2 and the plain
-// machine, chosen when the program starts; no operation is fused, so the bits are the same.
+// are gathered and go through these two in the same way. Compiled for AVX-512, AVX2 and the
+// baseline machine, chosen when the program starts; no operation is fused, so the bits are the
+// same.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -93,8 +94,8 @@ double in_more_digits(const Block& b, std::size_t i, double turn_radius_m) {
                least(lrl_length(mirrored(poses), mirrored(pair)), lrl_length(poses, pair)));
 }
 
-/// Collects the pairs for which three turns may be shorter, works on them when the block is full,
-/// and puts their lengths where they belong.
+/// Collects the pairs for which three turns may be shorter, processes them when the block is full,
+/// and stores their lengths in place.
 class ThreeTurns {
  public:
   ThreeTurns(double turn_radius_m, std::span<double> length_m)

@@ -1,7 +1,7 @@
 // The six words one by one, in units of the turning radius. Private to the Dubins sources.
 //
 // Everything is in the frame of the world, moved to the start: no rotation is needed. The words
-// that begin with a right turn are those that begin with a left one, seen in a mirror.
+// that begin with a right turn are mirror images of those that begin with a left one.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace fairway::dubins {
 
-/// Two places of a register: a pair of poses and its mirror image, or two pairs.
+/// Two lanes of a register: a pair of poses and its mirror image, or two pairs.
 using Two [[gnu::vector_size(16)]] = double;
 
 [[gnu::always_inline]] inline double root(double x) { return std::sqrt(x); }
@@ -29,7 +29,7 @@ struct Pair {
   T right;
   T near;  ///< property 3
 
-  // Between centres: left to left, left to right. The others are these in the mirror.
+  // Between centres: left to left, left to right. The others are their mirror images.
   [[gnu::always_inline]] Plane<T> ll() const { return d + (left_of(u1) - left_of(u0)); }
   [[gnu::always_inline]] Plane<T> lr() const { return d - (left_of(u1) + left_of(u0)); }
 };
@@ -52,7 +52,7 @@ template <typename T>
           Two{p.left, p.right}, Two{p.right, p.left}, Two{p.near, p.near}};
 }
 
-/// What a pair is made of.
+/// The numbers of a pair.
 struct Poses {
   double x0_m, y0_m, h0_rad;  ///< headings in (-pi, pi]
   double x1_m, y1_m, h1_rad;
@@ -111,13 +111,13 @@ template <typename T>
   return ((square < 0.0) & (square >= -4.0 * p.near)) ? square - square : square;
 }
 
-/// The first turn of LSR: up to the direction of the straight part, which with (p, 2) as legs lies
-/// to the left of `lr`.
+/// The first turn of LSR: up to the direction of the straight part, which lies to the left of `lr`
+/// by the angle of a right triangle with legs (p, 2).
 template <typename T>
 [[gnu::always_inline]] inline T lsr_turn(const Pair<T>& p, const Plane<T>& lr, const T& straight) {
   return left_turn(p.u0, straight * lr + Plane<T>{-2.0 * lr.y, 2.0 * lr.x});
 }
-/// The last turn, to the right: what the first turned more than the headings differ.
+/// The last turn, to the right: the first turn minus the difference of the headings.
 template <typename T>
 [[gnu::always_inline]] inline T lsr_last(const Pair<T>& p, const T& turn) {
   const T last = turn - p.left;
@@ -132,7 +132,7 @@ struct Parts {
   double length() const { return first + middle + last; }
 };
 
-/// What LRL is made of: the vector between its outer centres, and how far it is from straight.
+/// The numbers of LRL: the vector between its outer centres, and how far it is from straight.
 template <typename T>
 struct ThreeCircles {
   Plane<T> ll;
@@ -141,7 +141,7 @@ struct ThreeCircles {
   T cosine;
 };
 
-/// Whether LRL must be worked out with more digits.
+/// Whether LRL must be computed with more digits.
 [[gnu::always_inline]] inline bool is_nearly_straight(double ll_length) {
   return std::abs(ll_length - 4.0) < 1e-3;
 }

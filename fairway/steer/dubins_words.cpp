@@ -16,14 +16,14 @@ namespace dubins {
 Parts lsl_parts(const Pair<double>& p) {
   const Plane<double> ll = p.ll();
   const double straight = std::sqrt(norm2(ll));
-  if (straight <= p.near) return {p.left, 0.0, 0.0};  // one circle: any direction would do
+  if (straight <= p.near) return {p.left, 0.0, 0.0};  // one circle: any direction fits
   const double turn = left_turn(p.u0, ll);
   if (!is_passed(p, ll)) {
     const double last = p.left - turn + two_pi;
     return {turn, straight, last < 0.0 ? last + two_pi : last};
   }
   if (turn <= p.left) return {turn, straight, p.left - turn};
-  // Passed by rounding alone: whichever turn has vanished.
+  // Passed only because of rounding: whichever turn has vanished.
   return turn - p.left < two_pi - turn ? Parts{p.left, straight, 0.0}
                                        : Parts{0.0, straight, p.left};
 }
@@ -40,7 +40,7 @@ Parts lsr_parts(const Pair<double>& p) {
 namespace {
 
 /// Near |ll| = 4 the three centres are nearly in line and the length of LRL grows as the root of
-/// what is missing: the rounding of `ll` would cost half the digits. So it is worked out again from
+/// the difference: the rounding of `ll` would cost half the digits. So it is computed again from
 /// the poses, in long double.
 ThreeCircles<double> in_more_digits(const Poses& p) {
   using Real = long double;
@@ -127,8 +127,8 @@ void improve(Best& best, double length, DubinsWord word) {
   if (length < best.length) best = {length, word};
 }
 
-/// Takes LSR or RSL when it is shorter. Their turns differ by the headings' difference, so they
-/// come to that at least.
+/// Takes LSR or RSL when it is shorter. Their turns differ by the headings' difference, so their
+/// sum is at least that.
 void try_crossing(Best& best, const Pair<double>& pair, const Pair<Two>& both) {
   constexpr double none = std::numeric_limits<double>::infinity();
   const Plane<Two> lr = both.lr();
@@ -191,7 +191,7 @@ const char* name_of(DubinsWord word) {
 }
 
 bool is_within_radii(const State& from, const State& to, double turn_radius_m, double most_radii) {
-  // Not a number and infinity fail every comparison they should.
+  // NaN and infinity fail every comparison, as they should.
   const double farthest_m = most_radii * turn_radius_m;
   return turn_radius_m > 0.0 && std::isfinite(turn_radius_m) && turn_radius_m >= least_radius_m &&
          std::isfinite(from.heading.rad()) && std::isfinite(to.heading.rad()) &&

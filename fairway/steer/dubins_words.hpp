@@ -7,17 +7,17 @@
 //   2. The path ends at the goal: within 1e-12 (r + distance) in place, 1e-12 rad in heading
 //      (observed: 7e-13 of each at most, nearly all of it where property 3 applies).
 //   3. The length of a shortest path jumps by a loop where a turn shrinks to nothing and would
-//      have to become negative: across the circles of least radius that touch the start. On such
-//      a place no rounding may decide. A word counts as feasible when it ends within `nearness` of
+//      have to become negative: across the circles of least radius that touch the start. There
+//      rounding must not decide. A word counts as feasible when it ends within `nearness` of
 //      the goal: 1e-13 (r + distance). So its length is that of a shortest path to a pose that
-//      near to the goal, which may be a loop shorter than the one to the goal's own doubles.
+//      near to the goal, which may be shorter by a loop than the one to the goal's own doubles.
 //      Only LSL, RSR (a turn that vanishes) and LSR, RSL (circles that touch) need the allowance:
 //      where a turn of another word vanishes, the path left over is one of these.
-//   4. Of words equally long the first in the order of the enumeration is taken.
+//   4. Of equally long words the first in the enumeration's order is taken.
 //   5. Mirroring both poses swaps L and R; driving backwards reverses the word.
 // Formulas: ours, from the centres of the circles (paper 3, Eq. 2). With D between the centres of a
-// first and a last circle of one sense, LSL and RSR are |D| + (the turn between the headings): no
-// angle is needed but the headings' difference. LSR and RSL need one arc tangent each, and only
+// first and a last circle of one sense, LSL and RSR are |D| + (the turn between the headings): the
+// only angle needed is the headings' difference. LSR and RSL need one arc tangent each, and only
 // when |h1 - h0| + sqrt(D^2 - 4) does not rule them out already.
 #pragma once
 
@@ -89,7 +89,7 @@ inline constexpr double least_radius_m = 1e-300;
 [[nodiscard]] double shortest_length_m(const State& from, const State& to, double turn_radius_m);
 [[nodiscard]] DubinsPath shortest_path(const State& from, const State& to, double turn_radius_m);
 
-/// The path of one word, or none when its circles lie so that there is none.
+/// The path of one word, or none when it does not exist for these circles.
 [[nodiscard]] std::optional<DubinsPath> path_of_word(DubinsWord word, const State& from,
                                                      const State& to, double turn_radius_m);
 
@@ -111,8 +111,8 @@ struct PoseArrays {
 };
 
 /// shortest_length_m() for every pair, on all threads; `length_m` is as long as the others. The
-/// same for any number of threads and any vector width; from a pair at a time it may differ by
-/// rounding, 4e-15 (r + distance). A pair that cannot be steered gives a NaN.
+/// same for any number of threads and any vector width; may differ from one pair at a time by
+/// rounding, 4e-15 (r + distance). A pair that cannot be steered gives NaN.
 void shortest_lengths_m(const PoseArrays& from, const PoseArrays& to, double turn_radius_m,
                         std::span<double> length_m);
 void shortest_paths(std::span<const State> from, std::span<const State> to, double turn_radius_m,

@@ -117,7 +117,7 @@ std::vector<State> degenerate_goals(const State& a, double r, Random& random) {
     }
   }
   const std::size_t exact = goals.size();
-  for (std::size_t i = 0; i < exact; ++i) {  // and beside them
+  for (std::size_t i = 0; i < exact; ++i) {  // and next to them
     const double off = std::pow(10.0, random.uniform(-16.0, -6.0)) * r;
     State s = goals[i];
     s.position_m = s.position_m + Vec2{off * random.uniform(-1, 1), off * random.uniform(-1, 1)};
@@ -135,7 +135,7 @@ TEST(ShortestPath, HasTheLeastLengthAtAndBesideDegeneratePlaces) {
     for (const State& b : degenerate_goals(a, r, random)) {
       check(a, b, r);
       // Never longer than the exact least of these very doubles. Where it is shorter by a loop, its
-      // end, checked above, is the goal all the same: property 3.
+      // end, checked above, is still the goal: property 3.
       const auto strict = static_cast<double>(oracle::least(oracle::lengths(a, b, r, 0.0L)) * r);
       const double ours = shortest_length_m(a, b, r);
       const double unit = r + norm(b.position_m - a.position_m);
@@ -163,7 +163,7 @@ TEST(ShortestPath, IsNeverALoopTooLongWhereAPathIsKnown) {
   }
 }
 
-TEST(ShortestPath, KnowsTheseByHand) {
+TEST(ShortestPath, HasTheseLengthsComputedByHand) {
   const State a = pose(0, 0, 0);
   EXPECT_EQ(shortest_length_m(a, a, 1.0), 0.0);
   EXPECT_EQ(shortest_length_m(a, pose(7, 0, 0), 2.0), 7.0);
@@ -244,7 +244,7 @@ TEST(PoseAt, TheRestOfAShortestPathIsAShortestPath) {
   }
 }
 
-TEST(Batch, GivesWhatOneAtATimeGives) {
+TEST(Batch, AgreesWithOneAtATime) {
   Random random(19);
   const double r = 3.0;
   std::vector<State> from;
@@ -277,7 +277,7 @@ TEST(Batch, GivesWhatOneAtATimeGives) {
   }
 }
 
-TEST(Batch, GivesNoNumberForWhatCannotBeSteered) {
+TEST(Batch, GivesNanForPairsThatCannotBeSteered) {
   const double nan = std::nan("");
   const double inf = std::numeric_limits<double>::infinity();
   const std::vector<double> x{nan, inf, 1e300, 0.0, 0.0, 1.0};
@@ -289,7 +289,7 @@ TEST(Batch, GivesNoNumberForWhatCannotBeSteered) {
   EXPECT_NEAR(lengths[5], 1.0 + two_pi, 1e-14);
 }
 
-TEST(ShortestPath, RefusesWhatIsNotAPoseOrARadius) {
+TEST(ShortestPath, RefusesInvalidPosesAndRadii) {
   const State a = pose(0, 0, 0);
   const double inf = std::numeric_limits<double>::infinity();
   for (const double r : {0.0, -1.0, inf, std::nan(""), 1e-320}) {

@@ -1,5 +1,5 @@
-// Unit vectors of angles and angles of vectors in plain arithmetic: no branch, no table, so that a
-// compiler may do several at once, and the same bits on every machine and for every vector width.
+// Unit vectors of angles and angles of vectors in plain arithmetic: no branches, no tables, so that
+// a compiler can vectorise, with the same bits on every machine and for every vector width.
 //
 // Error (observed over random draws against long double, see the test): 2e-16 for a unit vector's
 // components, 7e-16 for an angle. Cost: about 4 ns and 5 ns, a third of the C library's.
@@ -12,8 +12,8 @@
 
 namespace fairway {
 
-/// A vector of numbers, each the same to the formulas below: double, or several of them side by
-/// side (GCC's and Clang's vector types, for which every operator works place by place).
+/// A number for the formulas below: a double, or several side by side (GCC's and Clang's vector
+/// types, whose operators work element by element).
 template <typename T>
 struct Plane {
   T x;
@@ -45,13 +45,13 @@ constexpr Plane<T> left_of(const Plane<T>& a) {
 
 namespace fast_angle {
 
-/// (cos, sin) of an angle, |rad| < 7. The quarter turns are taken off exactly: their count is
-/// small, and pi/2 is kept in two parts.
+/// (cos, sin) of an angle, |rad| < 7. Quarter turns are subtracted exactly: their count is small,
+/// and pi/2 is kept in two parts.
 template <typename T>
 [[gnu::always_inline]] inline Plane<T> unit(T rad) {
   constexpr double half_pi_high = 0x1.921fb54442d18p+0;
   constexpr double half_pi_low = 0x1.1a62633145c07p-54;
-  constexpr double to_integer = 0x1.8p+52;  // added and taken off: rounds to nearest
+  constexpr double to_integer = 0x1.8p+52;  // added and subtracted: rounds to nearest
   const T quarters = (rad * (2.0 / pi) + to_integer) - to_integer;
   const T x = (rad - quarters * half_pi_high) - quarters * half_pi_low;
   const T w = x * x;  // x is at most pi / 4: Taylor's next terms are below 1e-19
@@ -64,7 +64,7 @@ template <typename T>
   const T c_low = (1.0 / 24 + w * (-1.0 / 720)) + w2 * (1.0 / 40320 + w * (-1.0 / 3628800));
   const T c_high = (1.0 / 479001600 + w * (-1.0 / 87178291200.0)) + w2 * (1.0 / 20922789888000.0);
   const T cosine = (1.0 - 0.5 * w) + w2 * (c_low + w4 * c_high);
-  // The signs of (cos, sin) after 0, 1, 2, 3, 4 quarters; backwards the odd ones change theirs.
+  // The signs of (cos, sin) after 0, 1, 2, 3, 4 quarters; backwards the odd ones change sign.
   const auto back = (quarters == 1.0) | (quarters == -3.0);
   const auto over = (quarters == -1.0) | (quarters == 3.0);
   const auto turned = (quarters == 2.0) | (quarters == -2.0);

@@ -19,7 +19,7 @@ TEST(FastAngle, UnitVectorsAreThoseOfLongDouble) {
                       std::abs(u.y - std::sin(static_cast<long double>(h)))});
   };
   for (int i = 0; i < 500'000; ++i) look(random.uniform(-7.0, 7.0));
-  for (int k = -8; k <= 8; ++k) {  // the axes, the seams between quarters, and beside them
+  for (int k = -8; k <= 8; ++k) {  // the axes, the seams between quarters, and next to them
     for (const double off : {0.0, 1e-16, -1e-16, 1e-12, -1e-12, 1e-8, -1e-8}) {
       look(k * (pi / 4) + off);
     }

@@ -59,7 +59,7 @@ PosePairs read_waypoints(const std::string& file, const std::optional<State>& st
                   last = state_of(v);
                 });
   if (pairs.from.empty()) {
-    throw InputError(csv_name(file), "one waypoint: expected two or more, or a start to come from");
+    throw InputError(csv_name(file), "has one waypoint; expected two or more, or a start");
   }
   return pairs;
 }

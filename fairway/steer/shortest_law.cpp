@@ -10,7 +10,7 @@
 namespace fairway {
 namespace {
 
-/// What is left of a path after `length_m`, from a state that is about there.
+/// The rest of a path after `length_m`, from a state near that point.
 DubinsPath rest_of(const DubinsPath& path, double length_m, const State& from) {
   DubinsPath rest = path;
   rest.start = from;
@@ -33,8 +33,8 @@ double turn_over(const DubinsPath& path, double length_m) {
   return turn_m / path.turn_radius_m;
 }
 
-/// How much longer a path to the goal may be than one that ends at `end` to be taken for the same
-/// path, corrected. The factor is a choice: on straight parts 1 would do.
+/// How much longer a path to the goal may be than one that ends at `end` and still count as the
+/// same path, corrected. The factor is a choice: on straight parts 1 would suffice.
 double growth_for(const State& end, const State& goal, double turn_radius_m) {
   constexpr double factor = 4.0;
   return factor * (norm(end.position_m - goal.position_m) +
@@ -48,11 +48,11 @@ Vec2 in_frame_of(const State& goal, Vec2 position_m) {
   return {dot(ahead, d), cross(ahead, d)};
 }
 
-/// A turn to the goal's heading, then straight on to where the goal is abeam: when it is passed
-/// there within the tolerance.
+/// A turn to the goal's heading, then straight on until the goal is abeam, if that passes it within
+/// the tolerance.
 std::optional<DubinsPath> abreast(const State& state, const State& goal,
                                   const PoseTolerance& tolerance, double turn_radius_m) {
-  constexpr double share = 0.9;  // of the tolerance beside the goal: the rest is for disturbances
+  constexpr double share = 0.9;  // of the tolerance: the rest is for disturbances
   const double turn_rad = state.heading.turn_to(goal.heading);
   DubinsPath path{state, turn_radius_m, turn_rad >= 0.0 ? DubinsWord::LSL : DubinsWord::RSR, {}};
   path.part_m[0] = std::abs(turn_rad) * turn_radius_m;
@@ -62,8 +62,8 @@ std::optional<DubinsPath> abreast(const State& state, const State& goal,
   return path;
 }
 
-/// The shortest path to a pose straight ahead of the goal, the nearest to which there is one that
-/// is a radius or more shorter than `loop_m`; while the goal is ahead.
+/// While the goal is ahead: the shortest path to a pose straight ahead of the goal, the nearest
+/// with a path shorter than `loop_m` by a radius or more.
 std::optional<DubinsPath> beyond(const State& state, const State& goal,
                                  const PoseTolerance& tolerance, double turn_radius_m,
                                  double loop_m) {
@@ -84,7 +84,7 @@ bool PoseTolerance::holds(const State& state, const State& goal) const {
 }
 
 bool PoseTolerance::covers(double step_m, double turn_radius_m) const {
-  // Half a step beside the goal along its way; and what two joins within a step add.
+  // Half a step along the way past the goal, plus the error of two joins within a step.
   const double half = 0.5 * step_m / turn_radius_m;
   return place_m > step_m * (0.5 + half) && heading_rad > half;
 }
@@ -102,8 +102,8 @@ void ShortestLaw::choose(const State& state, const State& goal, double turn_radi
       chosen = *same_word;
     }
   }
-  // Longer than what is left of the old path: by what that one ends beside the goal, times a
-  // factor, or by a jump. Behind a jump the old path will do while it ends within the tolerance.
+  // Longer than the rest of the old path: by the distance at which that misses the goal, times a
+  // factor, or by a jump. After a jump the old path is kept while it ends within the tolerance.
   const DubinsPath rest = rest_of(*path_, driven_m_, state);
   const double growth_m = chosen.length_m() - rest.length_m();
   path_ = chosen;
@@ -114,8 +114,8 @@ void ShortestLaw::choose(const State& state, const State& goal, double turn_radi
     path_ = rest;
     return;
   }
-  // A disturbance, or the goal's motion, has spoilt that one: pass the goal as near as can be. It
-  // may come within the tolerance on the way, and the jump may go as it came.
+  // A disturbance or the goal's motion has moved its end: pass the goal as near as possible. It may
+  // come within the tolerance on the way, and the jump may disappear again.
   std::optional<DubinsPath> near = abreast(state, goal, options_.tolerance, turn_radius_m);
   if (!near) near = beyond(state, goal, options_.tolerance, turn_radius_m, chosen.length_m());
   if (near) path_ = near;

@@ -46,7 +46,7 @@ TEST(ShortestLaw, ReachesTheGoalByNoMoreThanTheShortestLength) {
   }
 }
 
-TEST(ShortestLaw, DrivesNoLoopMoreWithShortStepsEither) {
+TEST(ShortestLaw, DrivesNoExtraLoopWithShortSteps) {
   // Among the goals: last turns of half a circle and a little more, where a path of three turns is
   // nearly as short; with a turn in it that is shorter than a step.
   Random random(9);
@@ -84,8 +84,8 @@ TEST(ShortestLaw, FollowsTheFirstControlOfTheShortestPath) {
 }
 
 TEST(ShortestLaw, DoesNotHesitateAtATie) {
-  // Straight behind: turning left is as long as turning right. Noise of the position tells one from
-  // the other at random in every step; the vehicle must make up its mind all the same.
+  // Straight behind: turning left is as long as turning right. Noise of the position favours one or
+  // the other at random in every step; the vehicle must still decide.
   Random random(3);
   for (int i = 0; i < 300; ++i) {
     const double r = 10.0;
@@ -103,14 +103,15 @@ TEST(ShortestLaw, DoesNotHesitateAtATie) {
       }
       return State{s.position_m + 1e-4 * r * Vec2{random.normal(), random.normal()}, s.heading};
     };
-    const SteeringFlight flight = fly(law, from, goal, r, options, Track::none, {.disturbed = watch});
+    const SteeringFlight flight =
+        fly(law, from, goal, r, options, Track::none, {.disturbed = watch});
     ASSERT_TRUE(flight.converged) << i;
     ASSERT_LE(changes, 12) << i << ' ' << flight.word;
     ASSERT_LE(flight.length_m, shortest_length_m(from, goal, r) + 8.0 * r);
   }
 }
 
-TEST(ShortestLaw, ReachesTheGoalInNoise) {
+TEST(ShortestLaw, ReachesTheGoalWithNoise) {
   Random random(4);
   int direct = 0;
   constexpr int starts = 3'000;
@@ -126,7 +127,8 @@ TEST(ShortestLaw, ReachesTheGoalInNoise) {
       return State{s.position_m + 5e-4 * r * Vec2{random.normal(), random.normal()},
                    Heading::from_rad(s.heading.rad() + 5e-4 * random.normal())};
     };
-    const SteeringFlight flight = fly(law, from, goal, r, options, Track::none, {.disturbed = gust});
+    const SteeringFlight flight =
+        fly(law, from, goal, r, options, Track::none, {.disturbed = gust});
     ASSERT_TRUE(flight.converged) << i;
     direct += flight.length_m <= shortest_length_m(from, goal, r) + 0.3 * r ? 1 : 0;
   }
@@ -175,7 +177,7 @@ TEST(ShortestLaw, ConvergesWithAToleranceThatJustCoversTheStep) {
   }
 }
 
-TEST(ShortestLaw, WhatIsLeftFallsByTheStep) {
+TEST(ShortestLaw, TheRestOfThePathFallsByTheStep) {
   Random random(6);
   for (int i = 0; i < 3'000; ++i) {
     const State from = oracle::random_pose(random, 6.0);
@@ -187,7 +189,7 @@ TEST(ShortestLaw, WhatIsLeftFallsByTheStep) {
     while (!options.tolerance.holds(s, goal)) {
       s = driven(s, options.step_m, law.curvature_per_m(s, goal, 1.0, options.step_m));
       const double now = law.path()->length_m();
-      // By all but four times what joins within steps put the end beside the goal.
+      // Less four times the distance by which joins within steps make the end miss the goal.
       ASSERT_LE(now, left + 2.01 * options.step_m * options.step_m) << i;
       left = now - options.step_m;
     }

@@ -19,8 +19,8 @@ struct SteeringOptions {
   double length_limit_m = 0.0;
 };
 
-/// How far apart poses may be, in radii, for a flight in steps to end soon enough: ten million
-/// steps.
+/// How far apart poses may be, in radii, for a flight in steps to end in reasonable time: ten
+/// million steps.
 inline constexpr double farthest_flown_radii = 1e4;
 
 /// Steps of a hundredth of the radius, converged within a fiftieth of it and of a radian, given up
@@ -32,17 +32,17 @@ struct SteeringFlight {
   bool converged = false;
   double length_m = 0.0;
   State end;
-  std::string word;          ///< L, S, R as driven; what is shorter than four steps is left out
+  std::string word;          ///< L, S, R as driven; parts shorter than four steps are left out
   std::vector<State> track;  ///< one state a step, with the first and the last, when asked for
 };
 
 enum class Track { none, all };
 
-/// What the world does while a vehicle steers. Either may be empty.
+/// Disturbances while a vehicle steers. Either may be empty.
 struct SteeringWorld {
-  /// The state that the vehicle is really in after a step.
+  /// The vehicle's actual state after a step.
   std::function<State(const State&)> disturbed = {};
-  /// The goal once the vehicle has driven this far, metres; else the one of the flight.
+  /// The goal once the vehicle has driven this far, metres; else the flight's.
   std::function<State(double driven_m)> goal = {};
 };
 
@@ -55,8 +55,8 @@ struct SteeringUnrest {
 [[nodiscard]] SteeringWorld world_of(const SteeringUnrest& unrest, const State& goal,
                                      double turn_radius_m);
 
-/// Drives under a law until the vehicle is within the tolerance of the goal where that is then, or
-/// has driven the length limit. Throws PreconditionViolation unless can_steer(), the step is
+/// Drives under a law until the vehicle is within the tolerance of the goal's current pose, or has
+/// driven the length limit. Throws PreconditionViolation unless can_steer(), the step is
 /// positive and the limit finite.
 [[nodiscard]] SteeringFlight fly(ClfLaw& law, const State& from, const State& goal,
                                  double turn_radius_m, const SteeringOptions& options,

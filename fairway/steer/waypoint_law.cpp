@@ -12,7 +12,7 @@
 namespace fairway {
 namespace {
 
-/// A leg while it is driven.
+/// A leg being driven.
 struct UnderWay {
   WaypointLeg leg;
   DrivenWord word;

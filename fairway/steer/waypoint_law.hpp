@@ -1,14 +1,12 @@
 // Following waypoints with headings one by one, under either steering law.
 //
-// A waypoint is done with when the vehicle is within the tolerance `reached`, or when it has just
-// crossed the line across the waypoint within `passed`: near enough to go on, rather than to drive
-// a loop for the rest. Then the next one is steered to, by a law that starts afresh.
-// Properties that always hold:
-//   1. Latched: waypoints are done in their order, each once; what is done with stays so, whatever
-//      noise, wind or a waypoint's own motion do afterwards.
-//   2. A step uses no heap and looks at the present state and the present waypoints alone, beside
-//      the latch and the law's own memory: waypoints that are not done with may move, and the
-//      vehicle may be pushed.
+// A waypoint is done when the vehicle is within the tolerance `reached`, or when it has just
+// crossed the line across the waypoint within `passed`: near enough to go on rather than to drive a
+// loop. Then the next one is steered to, by a fresh law. Properties that always hold:
+//   1. Latched: waypoints are done in order, each once, and stay done whatever noise, wind or a
+//      waypoint's own motion do afterwards.
+//   2. A step uses no heap and depends only on the current state and waypoints, the latch and the
+//      law's own memory: waypoints that are not done may move, and the vehicle may be pushed.
 // With `passed`, ShortestLaw has to know it, so as not to begin the loop before the waypoint is
 // passed: shortest_waypoint_law().
 // Undisturbed, under ShortestLaw, each leg is longer than the shortest path from where it begins by
@@ -34,12 +32,12 @@ struct WaypointOptions {
 template <typename Law>
 class WaypointLaw {
  public:
-  /// `fresh` is the law as it starts for every waypoint.
+  /// `fresh` is the law's initial state for every waypoint.
   WaypointLaw(const Law& fresh, const WaypointOptions& options)
       : fresh_(fresh), law_(fresh), options_(options) {}
 
-  /// Passes over what is done with, then the curvature (1/m, left positive) to hold for the next
-  /// `step_m` towards `waypoints[next()]`; 0 when all are done.
+  /// Skips waypoints that are done, then returns the curvature (1/m, left positive) to hold for the
+  /// next `step_m` towards `waypoints[next()]`; 0 when all are done.
   [[nodiscard]] double curvature_per_m(const State& state, std::span<const State> waypoints,
                                        double turn_radius_m, double step_m) {
     while (next_ < waypoints.size() && is_done(state, waypoints[next_])) {
@@ -51,7 +49,7 @@ class WaypointLaw {
     return law_.curvature_per_m(state, waypoints[next_], turn_radius_m, step_m);
   }
 
-  /// The waypoint that is steered to, as of the last call; how many there are when all are done.
+  /// The waypoint steered to, as of the last call; the number of waypoints when all are done.
   std::size_t next() const { return next_; }
   const Law& law() const { return law_; }
   const WaypointOptions& options() const { return options_; }
@@ -72,7 +70,7 @@ class WaypointLaw {
   double behind_m_ = 1.0;  // along the waypoint's heading from it, at the last call
 };
 
-/// ShortestLaw for waypoints. `passed` is nothing or wider than `reached`, which covers the step.
+/// ShortestLaw for waypoints. `passed` is unset or wider than `reached`, which covers the step.
 [[nodiscard]] inline WaypointLaw<ShortestLaw> shortest_waypoint_law(const WaypointOptions& options,
                                                                     double tie_m) {
   const bool wider = options.passed.place_m > options.reached.place_m &&
@@ -84,11 +82,11 @@ struct WaypointLeg {
   State begin;
   State end;
   double length_m = 0.0;
-  double shortest_m = 0.0;   ///< of the shortest path from `begin` to the waypoint
-  bool reached = false;      ///< else passed, or given up
-  bool converged = false;    ///< reached or passed
-  int extra_turns = 0;       ///< whole turns that it is longer than the shortest path, rounded
-  std::string word;          ///< as SteeringFlight::word
+  double shortest_m = 0.0;  ///< of the shortest path from `begin` to the waypoint
+  bool reached = false;     ///< else passed, or given up
+  bool converged = false;   ///< reached or passed
+  int extra_turns = 0;  ///< by how many whole turns it is longer than the shortest path, rounded
+  std::string word;     ///< as SteeringFlight::word
   std::vector<State> track;  ///< one state a step, with the first and the last, when asked for
 };
 
@@ -99,8 +97,8 @@ struct WaypointFlight {
 };
 
 /// Drives from `from` along all waypoints; a leg is given up after the length that
-/// steering_options() allows it. `disturbed`, when there is one, gives the state that the vehicle
-/// is really in after a step. Throws PreconditionViolation unless can_steer() from each to the
+/// steering_options() allows it. `disturbed`, if set, gives the vehicle's actual state after a
+/// step. Throws PreconditionViolation unless can_steer() from each to the
 /// next.
 template <typename Law>
 [[nodiscard]] WaypointFlight follow_waypoints(

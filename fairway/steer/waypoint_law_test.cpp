@@ -33,7 +33,7 @@ std::vector<State> random_course(Random& random, std::size_t count, double apart
   return course;
 }
 
-TEST(WaypointLaw, ReachesEveryWaypointInItsOrderByTheShortestPaths) {
+TEST(WaypointLaw, ReachesEveryWaypointInOrderByTheShortestPaths) {
   Random random(1);
   for (int i = 0; i < 300; ++i) {
     const double box = std::array{2.0, 6.0, 30.0}[i % 3];
@@ -129,14 +129,14 @@ NoisyLegs follow_in_noise(const WaypointOptions& options, double size) {
   return sum;
 }
 
-TEST(WaypointLaw, InNoiseEveryWaypointIsReachedWithFewLoopsMore) {
+TEST(WaypointLaw, WithNoiseEveryWaypointIsReachedWithFewExtraLoops) {
   const NoisyLegs sum = follow_in_noise({{0.05 * r, 0.05}}, 5e-4);
   EXPECT_EQ(sum.legs, 1200);
   EXPECT_EQ(sum.passed, 0);
   EXPECT_LT(sum.extra_turns, 12);
 }
 
-TEST(WaypointLaw, InMoreNoisePassingNearEnoughSparesTheLoops) {
+TEST(WaypointLaw, WithMoreNoisePassingNearEnoughAvoidsTheLoops) {
   const PoseTolerance reached{0.05 * r, 0.05};
   EXPECT_GT(follow_in_noise({reached}, 2e-3).extra_turns, 120);
   const NoisyLegs sum = follow_in_noise({reached, {0.25 * r, 0.25}}, 2e-3);

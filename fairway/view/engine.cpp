@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// What a page can draw in a moment; a longer flight is cut, and says so.
+/// What a page can draw in a moment; a longer flight is cut, and marked so.
 constexpr std::size_t most_pieces = 20'000;
 
 json pieces_json(const std::vector<FlightSegment>& segments) {
@@ -50,13 +50,13 @@ json leg_json(const FinalLeg& leg) {
           {"pieces", pieces_json(leg.segments)}};
 }
 
-/// Whether tracks can begin there: the border is its cells' own.
+/// Whether tracks can begin there: the border belongs to its cells.
 bool is_on(const Grid& grid, Vec2 p) {
   return p.x >= grid.x0_m && p.x < grid.x0_m + grid.width_m() && p.y >= grid.y0_m &&
          p.y < grid.y0_m + grid.height_m() && grid.contains(grid.cell_of(p));
 }
 
-/// What has left before it flies.
+/// A flight from outside the grid: it has already left.
 Flight left_at_once(const State& start) {
   Flight flight;
   flight.start = start;
@@ -99,7 +99,7 @@ VerdictMapOptions quick_sampling(const Grid& grid) {
 
 const Plan& with_mission(const Plan& plan, const std::string& where) {
   if (plan.record.mission) return plan;
-  throw InputError(where, "its record names no mission: expected a plan made by fairway");
+  throw InputError(where, "its record has no mission; expected a plan made by fairway");
 }
 
 }  // namespace
@@ -110,12 +110,11 @@ LiveEngine::LiveEngine(const fs::path& folder, const ReplanLimits& limits)
       moved_(plan_, limits) {
   const fs::path file = folder / product::certificate;
   if (!fs::exists(file)) return;
-  // Once as a whole, which checks digests; the answers then come from the file's own bytes, read
-  // rather than mapped: what becomes of the file while the page is open is then no matter.
+  // Read once as a whole, which checks digests. The answers then come from the file's bytes, read
+  // rather than mapped, so that changes to the file while the page is open do not matter.
   const Certificate whole = read_certificate(file);
   if (proof_identity(whole) != proof_identity(plan_, whole.region_of_interest)) {
-    throw InputError(file.string(),
-                     "is the certificate of another plan or vehicle than plan.safetensors");
+    throw InputError(file.string(), "belongs to a different plan or vehicle than plan.safetensors");
   }
   file_ = std::make_unique<LoadedFile>(file);
   if (certificate_.open(file_->bytes().data(), file_->bytes().size()) != runtime::Status::ok) {

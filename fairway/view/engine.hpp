@@ -1,8 +1,8 @@
-// What the live page asks: the verdict of a state, its flight, and how to steer to a pose; answered
+// Answers the live page's questions (the verdict of a state, its flight, how to steer to a pose)
 // from a plan and a certificate in memory.
 //
 // Properties that always hold: an answer is a pure function of the folder's plan and certificate
-// and of the question, but for proof(), which a time limit may end; several threads may ask at
+// and of the question, except for proof(), which a time limit may end; several threads may ask at
 // once. Cost: a query takes about a microsecond, a flight some 30 ns a cell, steering below a
 // millisecond, a plan 0.2 microseconds a cell, a short proof seconds (live_plan.hpp).
 #pragma once
@@ -26,7 +26,7 @@ namespace fairway {
 class LiveEngine {
  public:
   /// Reads plan.safetensors and, when it is there, certificate.safetensors of a run's folder.
-  /// Throws InputError{file, ...} for what is not whole, or a certificate of another plan.
+  /// Throws InputError{file, ...} for an incomplete file, or a certificate of another plan.
   explicit LiveEngine(const std::filesystem::path& folder, const ReplanLimits& limits = {});
 
   const Grid& grid() const { return plan_.grid; }
@@ -34,12 +34,12 @@ class LiveEngine {
   /// Which plan this is, and whether there are verdicts.
   [[nodiscard]] nlohmann::json info() const;
 
-  /// The verdict of a state with its time bound, and its exact flight; outside the grid it has
-  /// left, as a query of the certificate says. `goal_m`: under the plan to a goal that was moved
-  /// there; its verdict is null until proof() was asked for. Throws BadQuestion and NotNow.
+  /// The verdict of a state with its time bound, and its exact flight; a state outside the grid has
+  /// left, as in a query of the certificate. `goal_m`: under the plan to a goal moved there; the
+  /// verdict is null until proof() has been asked for. Throws BadQuestion and NotNow.
   [[nodiscard]] nlohmann::json state(const State& start, std::optional<Vec2> goal_m = {}) const;
 
-  /// The plan to a moved goal as the page's own arrays (report/page_arrays.hpp), or in words why
+  /// The plan to a moved goal as the page's arrays (report/page_arrays.hpp), or the reason why
   /// there is none. Throws BadQuestion and NotNow.
   [[nodiscard]] nlohmann::json replan(Vec2 goal_m) const;
 

@@ -1,4 +1,4 @@
-// The library's server with clients within limits. Private to page_server.cpp.
+// The library's server with limits on its clients. Private to page_server.cpp.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace fairway {
 using httplib::Request;
 using httplib::Response;
 
-/// A thread for each connection, made when it is needed and kept.
+/// A thread for each connection, created when needed and kept.
 class Connections final : public httplib::TaskQueue {
  public:
   explicit Connections(std::size_t most) : most_(most) {}
@@ -80,8 +80,8 @@ class Connections final : public httplib::TaskQueue {
   bool done_ = false;
 };
 
-/// What the library reads and writes of one client, within the limits: the library's own stream
-/// has a limit for each byte, and none for all of them.
+/// The stream to one client, within the limits: the library's own stream limits the time for each
+/// byte, but not for all of them.
 class Client final : public httplib::Stream {
  public:
   Client(int connection, int stopped, const PageLimits& limits)
@@ -96,10 +96,10 @@ class Client final : public httplib::Stream {
     return true;
   }
 
-  /// Nothing more came, in time or at all.
+  /// Nothing more arrived, in time or at all.
   bool gone() const { return gone_; }
 
-  /// What came and was not read: a client that is closed upon gets its answer first.
+  /// Discards unread input, so that a client gets its answer before the connection is closed.
   void drain() const {
     std::array<char, 4096> part;
     for (int parts = 0; parts < 64; ++parts) {
@@ -171,8 +171,8 @@ class Client final : public httplib::Stream {
   std::size_t end_ = 0;
 };
 
-/// The library's server, with clients within limits and no parts of products: it answers them with
-/// status 200, and several with a body that is none.
+/// The library's server with limits on its clients and without ranges: it answers those with
+/// status 200, and several of them with a malformed body.
 class LimitedServer final : public httplib::Server {
  public:
   explicit LimitedServer(const PageLimits& limits) : limits_(limits) {
@@ -180,10 +180,11 @@ class LimitedServer final : public httplib::Server {
   }
   ~LimitedServer() override { ::close(stopped_); }
 
-  /// Once it is bound: the library has five wait at the door, and a sixth knocks again in a second.
+  /// To be called once bound: the library's backlog is five; a sixth client would retry after a
+  /// second.
   void have_many_wait() const { ::listen(svr_sock_, SOMAXCONN); }
 
-  /// Lets go of every client.
+  /// Disconnects every client.
   void let_go() const {
     const std::uint64_t once = 1;
     [[maybe_unused]] const ssize_t n = ::write(stopped_, &once, sizeof once);
@@ -200,7 +201,7 @@ class LimitedServer final : public httplib::Server {
         request.ranges.clear();
         has_body = request.has_header("Content-Length") || request.has_header("Transfer-Encoding");
         if (!has_body) return;
-        request.headers.erase("Connection");  // a body is not read, and is no next request
+        request.headers.erase("Connection");  // a body is not read, nor taken for the next request
         request.set_header("Connection", "close");
       });
       closed = closed || has_body || client.gone();

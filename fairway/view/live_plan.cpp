@@ -14,7 +14,7 @@
 namespace fairway {
 namespace {
 
-/// The folder's mission with its goal elsewhere; none for a path.
+/// The folder's mission with another goal; none for a path.
 std::optional<GoalMission> moved(const Plan& plan, Vec2 goal_m) {
   const auto* goal =
       plan.record.mission ? std::get_if<GoalMission>(&*plan.record.mission) : nullptr;
@@ -25,9 +25,9 @@ std::optional<GoalMission> moved(const Plan& plan, Vec2 goal_m) {
 }  // namespace
 
 std::string MovedGoals::refusal() const {
-  if (!moved(plan_, {})) return "only goals can be moved, and this plan follows a path";
+  if (!moved(plan_, {})) return "only goals can be moved, but this plan follows a path";
   if (plan_.grid.size() > limits_.most_cells) {
-    return fmt::format("this plan has {} cells; goals are moved on plans of up to {}",
+    return fmt::format("this plan has {} cells; goals can be moved on plans of up to {}",
                        plan_.grid.size(), limits_.most_cells);
   }
   if (!(plan_.grid.cell_m < plan_.vehicle.turn_radius_m)) {
@@ -43,7 +43,7 @@ std::string MovedGoals::refusal() const {
 
 MovedGoals::Turn MovedGoals::turn() const {
   Turn made(making_, limits_.patience);
-  if (!made) throw NotNow("another plan or proof is being made; ask again");
+  if (!made) throw NotNow("another plan or proof is being made; try again");
   return made;
 }
 

@@ -1,9 +1,9 @@
-// Plans of the live page: the folder's own, and those for goals that were moved on the page.
+// Plans of the live page: the folder's own, and those for goals moved on the page.
 //
 // Properties that always hold:
 //   1. A moved goal's plan is replan() of the folder's plan (run/replan.hpp): a pure function of
 //      the folder and the goal. Verdicts are its own or none, never those of the folder's plan.
-//   2. One plan, or one proof, is made at a time; who asks meanwhile waits `patience`, then gets
+//   2. One plan, or one proof, is made at a time; a request meanwhile waits `patience`, then gets
 //      NotNow. No more than `kept` plans stay in memory, and none of more than `most_cells` cells
 //      is made.
 #pragma once
@@ -35,7 +35,7 @@ struct ReplanLimits {
   std::size_t proof_memory_bytes = 1'000'000'000;
 };
 
-/// Another plan or proof is being made: ask again.
+/// Another plan or proof is being made: try again.
 class NotNow : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -54,7 +54,7 @@ struct ShortProof {
   }
 };
 
-/// A plan with its flights. Immutable, but that a proof may join it.
+/// A plan with its flights. Immutable, except that a proof may be added.
 class LivePlan {
  public:
   explicit LivePlan(Plan made) : plan(std::move(made)), flights(plan) {}
@@ -85,7 +85,7 @@ class MovedGoals {
   explicit MovedGoals(const Plan& plan, const ReplanLimits& limits = {})
       : plan_(plan), limits_(limits) {}
 
-  /// Why goals cannot be moved on this plan, in words; empty: they can.
+  /// The reason why goals cannot be moved on this plan; empty: they can.
   [[nodiscard]] std::string refusal() const;
 
   /// The plan to a goal on the grid, made or remembered. Throws BadQuestion where goals cannot be

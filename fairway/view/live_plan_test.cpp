@@ -64,7 +64,7 @@ TEST(MovedGoals, NoMoreAreKeptThanTheLimit) {
   EXPECT_TRUE(first.expired());
 }
 
-TEST(MovedGoals, AGoalThatDoesNotFitIsRefusedInWords) {
+TEST(MovedGoals, AGoalThatDoesNotFitIsRefusedWithTheReason) {
   const Plan plan = walled(GoalMission{home, {}});
   const MovedGoals goals(plan);
   for (const Vec2 goal_m : {Vec2{92.0, 106.0}, Vec2{-10.0, 100.0}}) {
@@ -108,7 +108,7 @@ TEST(MovedGoals, ManyAskersOfOneGoalShareOnePlan) {
   for (const auto& one : found) EXPECT_EQ(one, found[0]);
 }
 
-TEST(MovedGoals, WhileAProofIsMadeOthersAreToldToAskAgain) {
+TEST(MovedGoals, WhileAProofIsMadeOthersMustTryAgain) {
   const Plan plan = walled(GoalMission{home, {}});
   ReplanLimits limits;
   limits.patience = std::chrono::milliseconds(1);

@@ -39,7 +39,7 @@ using nlohmann::json;
 
 constexpr const char* loopback = "127.0.0.1";
 
-/// The bytes of a regular file of the folder; none for anything else, a link among it.
+/// The bytes of a regular file in the folder; none for anything else, including links.
 std::optional<std::string> product_bytes(const fs::path& folder, const std::string& name) {
   const int file = ::open((folder / name).c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) return std::nullopt;
@@ -74,8 +74,8 @@ const char* type_of(const std::string& name) {
   return "application/octet-stream";
 }
 
-/// As it is: what the library would compress by itself, with Brotli at its slowest, arrives later
-/// than its bytes do over a loopback.
+/// Uncompressed: the library would use Brotli at its slowest, which takes longer than sending the
+/// bytes over a loopback.
 void send(Response& response, std::string bytes, const char* type) {
   const auto kept = std::make_shared<const std::string>(std::move(bytes));
   response.set_content_provider(
@@ -99,11 +99,11 @@ const char* reason_of(int status) {
     case 400:
       return "the request is malformed";
     case 404:
-      return "there is nothing of this name";
+      return "no such name";
     case 413:
-      return "a question has no body";
+      return "a request must not have a body";
     case 416:
-      return "products are given whole";
+      return "products are sent whole; ranges are not supported";
     case 414:
       return "the address is too long";
     default:
@@ -123,7 +123,7 @@ struct PageServer::Parts {
   Parts(fs::path place, const LiveEngine& answers, const PageLimits& limits)
       : folder(std::move(place)), engine(answers), http(limits) {}
 
-  /// Handled: an answer, or the refusal of what nobody may ask.
+  /// True: refused, because nobody may ask this.
   bool refuses(const Request& request, Response& response) const {
     response.set_header("X-Content-Type-Options", "nosniff");
     response.set_header("Cross-Origin-Resource-Policy", "same-origin");
@@ -132,18 +132,19 @@ struct PageServer::Parts {
     response.set_header("Accept-Ranges", "none");
     if (request.get_header_value_count("Host") != 1 ||
         !is_local_host(request.get_header_value("Host"), port)) {
-      refuse(response, 403, fmt::format("only {}:{} and localhost are answered", loopback, port));
+      refuse(response, 403,
+             fmt::format("the Host header must be {0}:{1} or localhost:{1}", loopback, port));
       return true;
     }
     const std::string from = request.get_header_value("Sec-Fetch-Site");
     if (request.path.starts_with("/api/") && !from.empty() && from != "same-origin" &&
         from != "none") {
-      refuse(response, 403, "questions of other pages are not answered");
+      refuse(response, 403, "requests from other pages are refused");
       return true;
     }
     if (request.method != "GET" && request.method != "HEAD") {
       response.set_header("Allow", "GET, HEAD");
-      refuse(response, 405, "only GET and HEAD are answered");
+      refuse(response, 405, "only GET and HEAD are supported");
       return true;
     }
     return false;
@@ -178,7 +179,7 @@ struct PageServer::Parts {
     }
   }
 
-  /// Throws BadQuestion, or out_of_range for a question that there is not.
+  /// Throws BadQuestion, or out_of_range for an unknown question.
   json question(const Request& request) const {
     const Parameters& given = request.params;
     if (request.path == "/api/info") {
@@ -204,7 +205,7 @@ struct PageServer::Parts {
       return engine.steer(state_parameters(given, engine.grid(), "x", "y", "h"),
                           state_parameters(given, engine.grid(), "to_x", "to_y", "to_h"));
     }
-    throw std::out_of_range("no such question");
+    throw std::out_of_range("unknown question");
   }
 
   void set_up() {
@@ -224,7 +225,7 @@ struct PageServer::Parts {
         refuse(response, response.status, reason_of(response.status));
     });
     http.set_exception_handler([](const Request&, Response& response, const std::exception_ptr&) {
-      refuse(response, 500, "a fault of fairway itself, not of the question");
+      refuse(response, 500, "internal error (please report it)");
     });
   }
 };
@@ -238,8 +239,8 @@ PageServer::PageServer(fs::path folder, const LiveEngine& engine, int port, Page
     parts_->port = parts_->http.bind_to_port(loopback, port) ? port : -1;
   }
   if (parts_->port <= 0) {
-    throw InputError("--port", fmt::format("{} cannot be had: something else answers there, or "
-                                           "it wants other rights; 0 picks a free one",
+    throw InputError("--port", fmt::format("{} is in use or needs privileges; use 0 to pick a "
+                                           "free port",
                                            port));
   }
   parts_->http.have_many_wait();

@@ -1,16 +1,16 @@
-// A run's folder on this machine's loopback, and the engine behind it (docs/report.md).
+// Serves a run's folder and its live answers on this machine's loopback (docs/report.md).
 //
 // Properties that always hold:
 //   1. Only 127.0.0.1 is bound, and only requests that name it (or localhost) as their host are
-//      answered. A browser's question for another page (Sec-Fetch-Site) is refused: nobody else
-//      can have plans made.
-//   2. Of the folder only products of a run are served, by their own names, regular files alone: a
-//      link is not followed, a path cannot be given.
-//   3. A client that is slow, or silent, is let go after `PageLimits`, and keeps no other waiting:
-//      each has a thread of its own, as long as there are no more than `connections`.
-//   4. Every answer but a product is a JSON object; what is wrong is {"error": ...} with status 400
+//      answered. A browser's request from another page (Sec-Fetch-Site) is refused, so that no
+//      other site can have plans made.
+//   2. Only a run's products are served, by their own names, and only regular files: links are not
+//      followed, paths cannot be given.
+//   3. A slow or silent client is disconnected after `PageLimits`, and keeps no other waiting: each
+//      has its own thread, as long as there are no more than `connections`.
+//   4. Every answer except a product is a JSON object; errors are {"error": ...} with status 400
 //      (malformed), 403 (another host), 404 (unknown), 405 (anything but GET and HEAD), 500, or 503
-//      (another plan or proof is being made). A product is given whole: Range is not heeded.
+//      (another plan or proof is being made). A product is sent whole: Range is ignored.
 #pragma once
 
 #include <chrono>

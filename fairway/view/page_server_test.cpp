@@ -98,7 +98,7 @@ class Served : public ::testing::Test {
   std::string error(const std::string& path, int status) const {
     return answer(path, status).at("error").get<std::string>();
   }
-  /// What comes back for these very bytes.
+  /// The reply to exactly these bytes.
   std::string raw(const std::string& bytes) const {
     const int connection = ::socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in to{};
@@ -173,7 +173,7 @@ TEST_F(Served, MalformedQuestionsGetAReason) {
   EXPECT_NE(error("/api/steer?x=1&y=10&h=0", 400).find("missing"), std::string::npos);
 }
 
-TEST_F(Served, WhatIsNoRequestGetsA400AndTheServerGoesOn) {
+TEST_F(Served, MalformedRequestsGetA400AndTheServerGoesOn) {
   const std::vector<std::string> garbage{"GARBAGE\r\n\r\n",
                                          "GET\r\n\r\n",
                                          "GET / FTP/1\r\n\r\n",
@@ -209,10 +209,10 @@ TEST_F(Served, OtherHostsAreRefused) {
     EXPECT_EQ(get("/api/info", {{"Host", host}})->status, 403) << host;
   }
   EXPECT_NE(raw("GET / HTTP/1.1\r\nConnection: close\r\n\r\n").find("403"),
-            std::string::npos);  // no host at all
+            std::string::npos);  // without a Host header
 }
 
-TEST_F(Served, QuestionsOfOtherPagesInABrowserAreRefused) {
+TEST_F(Served, RequestsFromOtherPagesInABrowserAreRefused) {
   for (const char* site : {"cross-site", "same-site", "anything"}) {
     EXPECT_EQ(get("/api/info", {{"Sec-Fetch-Site", site}})->status, 403) << site;
     EXPECT_EQ(get("/api/proof?goal_x=1&goal_y=10", {{"Sec-Fetch-Site", site}})->status, 403);
@@ -237,7 +237,7 @@ TEST_F(Served, NoOtherAddressOfThisMachineAnswers) {
     ::close(connection);
   }
   ::freeifaddrs(all);
-  // 127.0.0.2 is this machine on every Linux, so that the test never passes by having none to try.
+  // 127.0.0.2 is this machine on every Linux, so there is always one address to try.
   sockaddr_in to{};
   to.sin_family = AF_INET;
   to.sin_port = htons(static_cast<std::uint16_t>(server_->port()));
@@ -256,7 +256,7 @@ TEST_F(Served, APortThatIsTakenIsAnError) {
   }
 }
 
-TEST_F(Served, StatesAreAnsweredAsTheCertificateAndTheSimulatorDo) {
+TEST_F(Served, StatesGetTheAnswersOfTheCertificateAndTheSimulator) {
   runtime::Certificate certificate;
   const MappedFile file(place_ / "certificate.safetensors");
   ASSERT_EQ(certificate.open(file.bytes().data(), file.bytes().size()), runtime::Status::ok);
@@ -357,7 +357,7 @@ TEST(LiveEngine, AMovedGoalHasItsOwnPlanFlightsAndProof) {
   EXPECT_THROW(static_cast<void>(engine.state(start, Vec2{92.0, 84.0})), BadQuestion);
 }
 
-TEST_F(Served, SteeringEndsAtThePoseAndTellsWhenAnObstacleIsInTheWay) {
+TEST_F(Served, SteeringEndsAtThePoseAndReportsObstaclesInTheWay) {
   const json open = answer("/api/steer?x=70&y=20&h=0&to_x=90&to_y=80&to_h=1.5", 200);
   EXPECT_EQ(open["state"], "shortest");
   EXPECT_EQ(open["word"], open["shortest"]["word"]);
@@ -369,7 +369,7 @@ TEST_F(Served, SteeringEndsAtThePoseAndTellsWhenAnObstacleIsInTheWay) {
   EXPECT_NEAR(end.position_m.x, 90.0, 1e-6);
   EXPECT_NEAR(end.position_m.y, 80.0, 1e-6);
   EXPECT_NEAR(end.heading.rad(), 1.5, 1e-9);
-  // The rock is about (34, 54).
+  // The rock is around (34, 54).
   const json blocked = answer("/api/steer?x=10&y=54&h=0&to_x=60&to_y=54&to_h=0", 200);
   EXPECT_NE(blocked["state"], "shortest");
   EXPECT_NEAR(blocked["shortest"]["length_m"].get<double>(), 50.0, 1e-6);
@@ -382,7 +382,7 @@ TEST_F(Served, InfoSaysWhichPlanThisIs) {
   EXPECT_EQ(info["plan_sha256"], json::parse(json_text(plan_digests(plan_))));
 }
 
-TEST_F(Served, ProductsAreGivenWholeWhateverPartIsAskedFor) {
+TEST_F(Served, ProductsAreSentWholeWhateverRangeIsAskedFor) {
   const std::string whole = "<!doctype html>page";
   for (const char* part : {"bytes=0-5", "bytes=3-", "bytes=-4", "bytes=0-1,4-5", "bytes=900-"}) {
     const auto page = get("/report.html", {{"Range", part}});
@@ -407,7 +407,7 @@ std::size_t answers_in(const std::string& bytes) {
   return count;
 }
 
-TEST_F(Served, RequestsInOneGoAreAnsweredOneByOneAndABodyIsNone) {
+TEST_F(Served, PipelinedRequestsAreAnsweredOneByOneAndABodyIsNotReadAsOne) {
   const std::string host = fmt::format(" HTTP/1.1\r\nHost: localhost:{}\r\n", server_->port());
   const std::string ask = "GET /api/info" + host + "\r\n";
   EXPECT_EQ(answers_in(raw(ask + ask + ask)), 3U);
@@ -417,7 +417,7 @@ TEST_F(Served, RequestsInOneGoAreAnsweredOneByOneAndABodyIsNone) {
   EXPECT_NE(with_body.find("Connection: close"), std::string::npos);
 }
 
-/// A server of its own over the same folder.
+/// A separate server on the same folder.
 class Limited {
  public:
   Limited(const fs::path& place, const LiveEngine& engine, const PageLimits& limits)
@@ -441,7 +441,7 @@ class Limited {
     return made;
   }
   int port() const { return server_.port(); }
-  /// The status of the page, 0 when none comes within half a minute.
+  /// The status of the page, 0 when none arrives within half a minute.
   int status() const {
     httplib::Client client("127.0.0.1", server_.port());
     client.set_read_timeout(30);
@@ -454,7 +454,7 @@ class Limited {
   std::thread thread_;
 };
 
-/// Clients that send a byte of a request now and then, for half a minute at most.
+/// Clients that send a byte of a request now and then, for at most half a minute.
 class Dripping {
  public:
   Dripping(const Limited& server, int count) {
@@ -475,7 +475,7 @@ class Dripping {
   Dripping(const Dripping&) = delete;
   Dripping& operator=(const Dripping&) = delete;
 
-  /// How many were let go while they went on.
+  /// How many were disconnected while still sending.
   int let_go() const {
     int count = 0;
     for (const int c : connections_) {
@@ -501,7 +501,7 @@ TEST_F(Served, FortySlowClientsKeepNobodyWaiting) {
   for (int i = 0; i < 20; ++i) EXPECT_EQ(server.status(), 200);
 }
 
-TEST_F(Served, SlowClientsAreLetGoAndMakeRoomWhereThereIsLittle) {
+TEST_F(Served, SlowClientsAreDisconnectedToMakeRoom) {
   PageLimits strict;
   strict.request = std::chrono::milliseconds(200);
   strict.connections = 8;
@@ -511,7 +511,7 @@ TEST_F(Served, SlowClientsAreLetGoAndMakeRoomWhereThereIsLittle) {
   EXPECT_EQ(slow.let_go(), 40);
 }
 
-TEST_F(Served, WhoReadsSlowlyGetsALargeProductWholeAndWhoReadsNothingIsLetGo) {
+TEST_F(Served, ASlowReaderGetsALargeProductWholeAndASilentOneIsDisconnected) {
   const std::string large(20'000'000, 'x');
   std::ofstream(place_ / "plan.svg") << large;
   for (const bool reads : {true, false}) {
@@ -534,7 +534,7 @@ TEST_F(Served, WhoReadsSlowlyGetsALargeProductWholeAndWhoReadsNothingIsLetGo) {
   }
 }
 
-TEST_F(Served, SilentClientsAreLetGo) {
+TEST_F(Served, SilentClientsAreDisconnected) {
   PageLimits strict;
   strict.idle = std::chrono::milliseconds(100);
   const Limited server(place_, *engine_, strict);
@@ -555,7 +555,7 @@ TEST_F(Served, StoppingWaitsForNoClient) {
   ::close(silent);
 }
 
-TEST_F(Served, ACertificateThatIsCutShortMeanwhileIsStillAnsweredFrom) {
+TEST_F(Served, AnswersStayTheSameWhenTheCertificateIsTruncatedMeanwhile) {
   const std::string question = "/api/state?x=70&y=20&h=0.5";
   const json before = answer(question, 200);
   fs::resize_file(place_ / "certificate.safetensors", 100);

@@ -11,7 +11,7 @@
 namespace fairway {
 namespace {
 
-/// Text of a request in an answer: cut, and without what is not printable ASCII.
+/// Text of a request for an answer: cut, and without non-printable or non-ASCII characters.
 std::string shown(std::string_view text) {
   constexpr std::size_t most = 40;
   std::string safe;

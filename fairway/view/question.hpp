@@ -1,4 +1,4 @@
-// What a request asks, read strictly.
+// Reads a request's parameters, strictly.
 #pragma once
 
 #include <initializer_list>
@@ -18,28 +18,28 @@ class BadQuestion : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Decoded parameters as they came, repeated ones repeated.
+/// Decoded parameters as received, repeated ones repeated.
 using Parameters = std::multimap<std::string, std::string>;
 
 /// Throws BadQuestion unless the parameters are exactly `names`, each once.
 void require_parameters(const Parameters& parameters, std::initializer_list<const char*> names);
 
-/// A finite decimal number, the whole of the text. Throws BadQuestion.
+/// The whole text as a finite decimal number. Throws BadQuestion.
 [[nodiscard]] double number_parameter(const Parameters& parameters, const char* name);
 
-/// A place of which x and y are parameters, anywhere. Throws BadQuestion.
+/// A place given by the parameters x and y, anywhere. Throws BadQuestion.
 [[nodiscard]] Vec2 place_parameters(const Parameters& parameters, const char* x, const char* y);
 
-/// A state of which x, y, h are parameters: metres, radians; anywhere. Throws BadQuestion.
+/// A state given by the parameters x, y, h: metres, radians; anywhere. Throws BadQuestion.
 [[nodiscard]] State state_parameters(const Parameters& parameters, const char* x, const char* y,
                                      const char* h);
 
-/// The same of a state on the grid.
+/// The same for a state on the grid.
 [[nodiscard]] State state_parameters(const Parameters& parameters, const Grid& grid, const char* x,
                                      const char* y, const char* h);
 
-/// Whether a Host header names this machine's loopback, with this port: no page from elsewhere can
-/// then speak to the server under a name of its own that it points here.
+/// Whether a Host header names this machine's loopback with this port: so no page from elsewhere
+/// can reach the server under a name of its own that resolves here.
 [[nodiscard]] bool is_local_host(std::string_view host, int port);
 
 }  // namespace fairway

@@ -20,7 +20,7 @@ std::string refusal(const std::function<void()>& asks) {
   return "accepted";
 }
 
-TEST(Question, WantsItsParametersAndNoOthersEachOnce) {
+TEST(Question, NeedsExactlyItsParametersEachOnce) {
   const auto of = [](const Parameters& given) {
     return refusal([&] { require_parameters(given, {"x", "y"}); });
   };
@@ -65,7 +65,7 @@ TEST(Question, AStateLiesOnTheGrid) {
   EXPECT_EQ(of(120.0, -10.0, 1e7), "h = 10000000 is not a heading, expected radians");
 }
 
-RC_GTEST_PROP(Question, NoTextIsTakenForAStateThatIsNotOne, ()) {
+RC_GTEST_PROP(Question, OnlyStatesAreReadAsStates, ()) {
   const auto text = *rc::gen::string<std::string>();
   try {
     const State s = state_parameters({{"x", text}, {"y", "-10"}, {"h", "0"}}, grid, "x", "y", "h");

@@ -1,5 +1,5 @@
 // The page's arrays: base64, then a small header, then a zlib stream for each array or layer
-// (fairway/report/page_payload.hpp). Nothing is inflated before it is asked for.
+// (fairway/report/page_payload.hpp). Arrays are inflated only on request.
 
 interface Entry { dtype: "U8" | "U16" | "U32" | "F32"; shape: number[]; filter: "none" | "planes" | "delta"; at: number[] }
 export type Numbers = Uint8Array | Uint16Array | Uint32Array | Float32Array;
@@ -42,7 +42,7 @@ export class Arrays {
 
   constructor(base64: string) {
     if (typeof DecompressionStream === "undefined") {
-      throw new Error("this browser cannot inflate the page's data (DecompressionStream is missing): please use one of 2023 or later");
+      throw new Error("this browser cannot decompress the page's data (it lacks DecompressionStream); use one from 2023 or later");
     }
     this.bytes = bytesOfBase64(base64);
     const length = Number(new DataView(this.bytes.buffer).getBigUint64(0, true));

@@ -1,4 +1,4 @@
-// Cells as pixels: each pixel of the screen looks its cell up and takes the code's tile there, so
+// Cells as pixels: each screen pixel looks up its cell and takes a pixel from its code's tile, so
 // that patterns keep their size at every zoom. Cost: a few nanoseconds a pixel.
 import { fitted, pixelRatio } from "./dom";
 import type { CodeLayer, Tiles } from "./layers";

@@ -1,4 +1,4 @@
-// Heading and distance over time of the flights looked at.
+// Heading and distance over time of the flights chosen.
 import uPlot from "uplot";
 import { byId, cssVariable, el, isDark, short } from "./dom";
 import type { Pose, ShownFlight } from "./flights";
@@ -47,7 +47,7 @@ export class Charts {
 
   private get width(): number { return byId("charts").clientWidth || 600; }
 
-  /** In the colours and the width that hold now. */
+  /** With the current colours and width. */
   redraw(): void { this.show(this.flights); }
 
   show(flights: ShownFlight[]): void {
@@ -74,7 +74,7 @@ export class Charts {
       if (t.length > 0 && time <= t[t.length - 1]) continue;
       const turned = wrappedDegrees(pose.h);
       const apart = distanceToMission(this.record.mission, pose);
-      // Across the seam the line is cut: between the two places there is nothing.
+      // The line is broken where the heading wraps.
       if (t.length > 0 && Math.abs(turned - last) > 180) {
         t.push((t[t.length - 1] + time) / 2);
         heading.push(null);
@@ -99,7 +99,7 @@ export class Charts {
     const dark = isDark();
     const turns = title.startsWith("Heading") ? { splits: () => [-180, -90, 0, 90, 180] } : {};
     box.setAttribute("role", "img");
-    box.setAttribute("aria-label", `${title} over time, of ${this.curves.length} flight${this.curves.length === 1 ? "" : "s"}`);
+    box.setAttribute("aria-label", `${title} over time, ${this.curves.length} flight${this.curves.length === 1 ? "" : "s"}`);
     return new uPlot({
       width: this.width,
       height: 205,
@@ -124,7 +124,7 @@ export class Charts {
   }
 }
 
-/** Line colours are made for paper; on a dark sheet they are mixed with white. */
+/** Line colours are made for paper; on a dark background they are mixed with white. */
 function lighter(color: string): string {
   const n = parseInt(color.slice(1), 16);
   const mix = (c: number) => Math.round(c + (255 - c) * 0.45);

@@ -16,7 +16,7 @@ export function checkBox(box: HTMLElement, value: string, words: (Node | string)
   return input;
 }
 
-/** Buttons of which one is pressed, the first at the start. */
+/** A row of buttons, one of them pressed; initially the first. */
 export function oneOf(names: readonly string[], label: string, choose: (k: number) => void): HTMLElement {
   const row = el("div", { role: "group", "aria-label": label });
   const buttons = names.map((name, k) => {

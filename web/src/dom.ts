@@ -1,4 +1,4 @@
-// Elements from words: texts always stand as texts, never as markup.
+// Builds elements: text is always inserted as text, never as markup.
 
 type Attributes = Record<string, string | number | boolean | undefined>;
 

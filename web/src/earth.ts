@@ -16,7 +16,7 @@ export function bearingWords(record: PageRecord, rad: number): string {
 
 export function northUp(record: PageRecord): boolean { return record.frame.yaw_rad === 0; }
 
-/** Between the record's lattice points; null without a place on Earth, or outside the grid. */
+/** Interpolated on the record's lattice; null when not georeferenced, or outside the grid. */
 export function latitudeLongitude(record: PageRecord, [x, y]: Place): [number, number] | null {
   const { earth } = record.frame;
   if (!earth) return null;
@@ -34,7 +34,7 @@ export function latitudeLongitude(record: PageRecord, [x, y]: Place): [number, n
   return [at(earth.lat_deg), longitude - 360 * Math.round(longitude / 360)];
 }
 
-/** "47.402500, 8.556500", as a scenario has it. */
+/** "47.402500, 8.556500", as in a scenario. */
 export function earthWords(record: PageRecord, place: Place): string | null {
   return latitudeLongitude(record, place)?.map((degrees) => degrees.toFixed(6).replace("-", "−")).join(", ") ?? null;
 }

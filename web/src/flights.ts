@@ -22,7 +22,7 @@ export class Track {
 
   get duration_s(): number { return this.time_s[this.count]; }
 
-  /** The pose `along` metres after the start of piece i: by the chord, exact also when straight. */
+  /** The pose `along` metres after the start of piece i: by the chord, exact for straight pieces too. */
   pose(i: number, along: number): Pose {
     const half = along * this.curvature_per_m[i] / 2;
     const chord = half === 0 ? along : along * Math.sin(half) / half;
@@ -45,7 +45,7 @@ export class Track {
     if (this.count === 0) return;
     const [px, py] = view.toScreen(this.x0 + this.x[0], this.y0 + this.y[0]);
     context.moveTo(px, py);
-    let shown = 0;  // pixels since the last vertex: what is shorter than one is not drawn by itself
+    let shown = 0;  // pixels since the last vertex: shorter pieces are drawn together
     for (let i = 0; i < this.count && this.time_s[i] < until_s; ++i) {
       const length = Math.min(this.length_m[i], (until_s - this.time_s[i]) * this.speed_mps);
       const last = i === this.count - 1 || this.time_s[i + 1] >= until_s;
@@ -83,13 +83,19 @@ export interface ShownFlight { record: FlightRecord; line: Line; track: Track; l
 
 export function lineOf(record: PageRecord, outcome: string): Line { return record.styles.outcome[outcome] ?? record.styles.outcome.reach; }
 
+/** The outcome by which a flight is drawn: a followed one that ends badly looks like its end. */
+function drawnOutcome({ outcome, after }: FlightRecord): string { return after && after !== "follow" ? after : outcome; }
+
+/** "reach", or "reach, then collide" for a followed flight that ends badly. */
+export function outcomeWords({ outcome, after }: FlightRecord): string { return after && after !== "follow" ? `${outcome}, then ${after}` : outcome; }
+
 export function flightsOf(record: PageRecord, pieces: Record<"x_m" | "y_m" | "heading_rad" | "length_m" | "curvature_per_m", Numbers>): ShownFlight[] {
   const { x0_m, y0_m } = record.grid;
   const track = ([begin, end]: [number, number]) => new Track(
     pieces.x_m.subarray(begin, end), pieces.y_m.subarray(begin, end), pieces.heading_rad.subarray(begin, end),
     pieces.length_m.subarray(begin, end), pieces.curvature_per_m.subarray(begin, end), x0_m, y0_m, record.vehicle.speed_mps);
   return record.flights.map((flight) => ({
-    record: flight, line: lineOf(record, flight.outcome), track: track(flight.pieces),
+    record: flight, line: lineOf(record, drawnOutcome(flight)), track: track(flight.pieces),
     leg: flight.leg ? track(flight.leg.pieces) : null, leg_line: lineOf(record, "reach") }));
 }
 

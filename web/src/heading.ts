@@ -14,7 +14,7 @@ export class HeadingSlider {
     const range = byId<HTMLInputElement>("heading-range");
     this.count();
     range.addEventListener("input", () => { this.stop(); this.turnTo(Number(range.value)); });
-    // The arrow keys go round: after the last heading comes the first.
+    // The arrow keys wrap round: after the last heading comes the first.
     range.addEventListener("keydown", (event) => {
       const step = event.key === "ArrowRight" || event.key === "ArrowUp" ? 1
         : event.key === "ArrowLeft" || event.key === "ArrowDown" ? -1 : 0;
@@ -31,7 +31,7 @@ export class HeadingSlider {
     byId<HTMLInputElement>("heading-range").max = String((this.record.verdicts?.heading_rad.length ?? 72) - 1);
   }
 
-  /** Other verdicts, or none: the heading stays as near as it can. */
+  /** For other verdicts, or none: keeps the heading as near as possible. */
   reset(rad: number): void {
     this.count();
     this.shares = null;
@@ -99,7 +99,7 @@ export class HeadingSlider {
     const big = document.createElement("b");
     big.textContent = headingWords(this.rad);
     const small = document.createElement("span");
-    // Of the degrees shown: what is sampled lies beside them by half a thousandth of a radian.
+    // Of the degrees shown: the sampled heading is off them by half a thousandth of a radian.
     const shown_rad = turnOf(parseFloat(headingWords(this.rad)));
     small.textContent = (northUp(this.record) ? `course ${courseWords(this.rad)}, ` : "") + `${wind(this.rad)} · ${shown_rad.toFixed(3)} rad`;
     const proved = document.createElement("span");
@@ -109,7 +109,7 @@ export class HeadingSlider {
     this.strip();
   }
 
-  /** Shares of verdicts by heading, stacked, with the heading that is shown marked. */
+  /** Shares of verdicts by heading, stacked, with the current heading marked. */
   strip(): void {
     const canvas = byId<HTMLCanvasElement>("heading-strip");
     const info = this.record.verdicts;
@@ -125,7 +125,7 @@ export class HeadingSlider {
     context.fillRect(x - 1, 0, 2.5, height);
   }
 
-  /** The thumb of a slider stays within it: its middle goes from half a thumb to the end less that. */
+  /** A slider's thumb stays within it: its centre stops half a thumb short of either end. */
   private inset(canvas: HTMLCanvasElement): number { return 8 * canvas.width / Math.max(1, canvas.clientWidth); }
 
   private paintShares(canvas: HTMLCanvasElement): ImageData {

@@ -65,7 +65,7 @@ export function lookOf(style: VerdictStyle): Look {
     rising: style.rising, falling: style.falling };
 }
 
-/** Lighter on a dark page, whose own colour that of the pictures nearly is. */
+/** Lighter on a dark page: the pictures' obstacle colour is nearly that of the page. */
 const obstacle_in_the_dark = "#6d7782";
 export function obstacleColor(record: PageRecord): string { return isDark() ? obstacle_in_the_dark : record.styles.obstacle; }
 export function obstacleLook(record: PageRecord): Look { return { ground: obstacleColor(record) }; }
@@ -82,7 +82,7 @@ export function unreachableLook(record: PageRecord): Look {
   return { ground: unreachable, pen: unreachable_pattern, pen_px: 0.9, rising: true };
 }
 
-/** By the codes of the verdict layers; there are none between the verdicts' and the others. */
+/** By the codes of the verdict layers; codes between the verdicts' and the others are unused. */
 export function verdictLooks(record: PageRecord): Look[] {
   const looks = record.styles.verdict.map(lookOf);
   looks[record.codes.obstacle] = obstacleLook(record);
@@ -111,7 +111,7 @@ export function costLayer(record: PageRecord, region: Numbers, cost: Numbers): C
   return { codes, nx: record.values.nx, ny: record.values.ny, cells: record.values.cells_per_value };
 }
 
-// Regions: those of the plan, and what is free but cut off from the goal.
+// Regions: those of the plan, and free cells cut off from the goal.
 export function regionLooks(record: PageRecord): Look[] {
   return [bufferLook(record), { ground: record.styles.free }, obstacleLook(record), goalLook(record),
     unreachableLook(record)];
@@ -138,7 +138,7 @@ export function verdictsOfKind({ codes }: PageRecord, kind: number): number[] {
   return [[codes.reach], codes.failing, [codes.undecided]][kind];
 }
 
-/** How many of the headings are of a kind, for each sample. */
+/** For each sample, how many of the headings are of a kind. */
 export function headingsOfKind(record: PageRecord, count: Uint8Array, kind: number): Uint16Array {
   const { nx, ny } = record.verdicts!;
   const samples = nx * ny;
@@ -163,7 +163,7 @@ export function shareLayer(record: PageRecord, first: Uint8Array, count: Uint8Ar
   return { codes, nx: info.nx, ny: info.ny, cells: info.cells_per_sample };
 }
 
-/** The verdict layers, inflated when they are shown, and the rest while nothing else is to be done. */
+/** The verdict layers, inflated when shown, the rest when idle. */
 export class VerdictLayers {
   private readonly kept: (Uint8Array | undefined)[];
   private readonly asked: (Promise<Uint8Array> | undefined)[];
@@ -175,7 +175,7 @@ export class VerdictLayers {
     this.asked = new Array(this.length);
   }
 
-  /** The layer if it is at hand. */
+  /** The layer if it has been inflated. */
   at(heading: number): Uint8Array | undefined { return this.kept[heading]; }
 
   ask(heading: number): Promise<Uint8Array> {

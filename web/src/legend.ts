@@ -25,8 +25,8 @@ export function showVerdictLegend(record: PageRecord, tiles: Tiles, heading: num
   const per = info.cells_per_sample;
   const each = per === 1 ? "each cell" : `one cell in each block of ${per} × ${per}`;
   byId("legend").replaceChildren(list, el("p", {},
-    `One state of ${each}, sampled beside the cell's middle, at the slider's heading: ${grouped(all)} states, each asked of the certificate by itself. ` +
-    "Other states of the same cell may differ: the volumes below are of states sampled everywhere."));
+    `One state of ${each}, sampled near the cell's centre, at the slider's heading: ${grouped(all)} states, each looked up in the certificate. ` +
+    "Other states of the same cell may differ; the volumes below come from states sampled everywhere."));
   paint();
 }
 
@@ -43,7 +43,7 @@ export function showShareLegend(record: PageRecord, tiles: Tiles, kind: number):
     ...share_classes.map((name, code) => ({ code, name })).reverse(),
     { code: 6, name: "obstacle" }, { code: 7, name: "goal" }], tiles);
   byId("legend").replaceChildren(list, el("p", {},
-    `Of ${record.verdicts!.heading_rad.length} headings at the sampled place of each cell, the share that is ${share_kinds[kind]}.`));
+    `Share of the ${record.verdicts!.heading_rad.length} headings at each cell's sample point that is ${share_kinds[kind]}.`));
   paint();
 }
 
@@ -64,7 +64,7 @@ export function showCostLegend(record: PageRecord, tiles: Tiles): void {
 
 export function showRegionLegend(tiles: Tiles): void {
   const { list, paint } = entries([
-    { code: 1, name: "safe start: farther than the buffer from obstacles" }, { code: 0, name: "buffer about obstacles" },
+    { code: 1, name: "safe start: farther than the buffer from obstacles" }, { code: 0, name: "buffer around obstacles" },
     { code: 2, name: "obstacle" }, { code: 3, name: "goal" }, { code: 4, name: "cut off: no way to the goal, no command" }], tiles);
   byId("legend").replaceChildren(list);
   paint();

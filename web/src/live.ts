@@ -1,5 +1,5 @@
-// The engine behind the page, when `fairway view` serves it: a place and a heading are flown and
-// judged at once, a pose is steered to, and the goal is moved.
+// The live part of the page, when `fairway view` serves it: checks and flies any state at once,
+// steers to a pose, and moves the goal.
 import { byId, degrees, el, short, turnOf } from "./dom";
 import { bearingWords, earthWords } from "./earth";
 import { drawVehicle, lineOf, strokeTrack, Track, type Pose } from "./flights";
@@ -17,7 +17,7 @@ type Held = "start" | "target" | "goal";
 
 export interface Live {
   draw(context: CanvasRenderingContext2D, view: Viewport): void;
-  /** A press at a place: true when it is meant for a state, and the map must not pan. */
+  /** A press at a place: true when it sets a state, so that the map must not pan. */
   takes(place: [number, number], view: Viewport): boolean;
   drags(place: [number, number], view: Viewport): boolean;
   releases(): void;
@@ -39,7 +39,7 @@ async function asked<T>(question: string, parameters: Record<string, number> = {
   return answer as T;
 }
 
-/** Asks one question at a time: of those that come meanwhile only the last. */
+/** Asks one question at a time; of those that arrive meanwhile, only the last. */
 class Latest {
   private running = false;
   private next: (() => Promise<void>) | null = null;
@@ -73,11 +73,11 @@ class LiveTool implements Live {
   private readonly fields = new Map<string, HTMLInputElement>();
   private readonly buttons = new Map<Mode, HTMLButtonElement>();
   private readonly moved: MovedGoal;
-  private place: [number, number] | null = null;  // of the goal, as it is held
+  private place: [number, number] | null = null;  // of the goal while it is dragged
 
   constructor(private readonly record: PageRecord, private readonly page: Page, info: Info) {
     this.moved = new MovedGoal(record, asked, page, () => { this.link(); this.ask(); });
-    const modes = el("div", { class: "modes", role: "group", "aria-label": "What a press on the map does" });
+    const modes = el("div", { class: "modes", role: "group", "aria-label": "What a click on the map does" });
     for (const [mode, words] of [["fly", "Fly from here"], ["steer", "Steer to a pose"], ["goal", "Move the goal"], ["look", "Pan"]] as [Mode, string][]) {
       const kept = mode === "goal" && !info.replan;
       const button = el("button", { type: "button", disabled: kept, title: kept ? info.replan_refused ?? undefined : undefined }, words);
@@ -85,13 +85,13 @@ class LiveTool implements Live {
       this.buttons.set(mode, button);
       modes.append(button);
     }
-    const form = el("form", { "aria-label": "State by numbers" });
+    const form = el("form", { "aria-label": "Enter a state" });
     for (const [name, words] of [["x", "x, m"], ["y", "y, m"], ["h", "heading, °"], ["to_x", "to x, m"], ["to_y", "to y, m"], ["to_h", "to heading, °"], ["goal_x", "goal x, m"], ["goal_y", "goal y, m"]]) {
       const input = el("input", { inputmode: "decimal", autocomplete: "off", name });
       this.fields.set(name, input);
       form.append(el("label", {}, words, input));
     }
-    form.append(el("button", { type: "submit" }, "Answer"));
+    form.append(el("button", { type: "submit" }, "Go"));
     form.addEventListener("submit", (event) => { event.preventDefault(); this.takeForm(); });
     byId("live").replaceChildren(el("h3", {}, "Live"), modes, form, this.answer);
     byId("live").hidden = false;
@@ -105,9 +105,9 @@ class LiveTool implements Live {
       const of = name.startsWith("to_") ? ["steer"] : name.startsWith("goal_") ? ["goal"] : ["fly", "steer", "look"];
       input.parentElement!.hidden = !of.includes(mode);
     });
-    const words = { fly: "Press on the map and drag to where the vehicle looks.",
-      steer: this.start ? "Press where it should go, and drag to its heading there." : "First fly from somewhere: that is where steering starts.",
-      goal: "Press where the goal should be, and drag it about: it is planned anew at once.",
+    const words = { fly: "Click the map and drag to set the heading.",
+      steer: this.start ? "Click the pose to reach and drag to set its heading." : "Fly from somewhere first: steering starts there.",
+      goal: "Click where the goal should be, or drag it: the plan is remade at once.",
       look: "Drag to pan." };
     this.answer.replaceChildren(words[mode]);
     this.track = this.leg = null;
@@ -178,7 +178,7 @@ class LiveTool implements Live {
     const pose = linkable(this.record.grid, given);
     if (which === "start") {
       this.start = pose;
-      // The map then shows the heading that is asked for, and the colour under the arrow is the answer's.
+      // The map then shows the heading asked for, so the colour under the arrow matches the answer.
       this.page.turnTo(pose.h);
       this.page.crossTo([pose.x, pose.y]);
     } else {
@@ -274,7 +274,7 @@ class LiveTool implements Live {
     if (answer.time_bound_s !== null) parts.push(` within ${answer.time_bound_s.toFixed(1)} s`);
     parts.push(el("br"), `flown: ${flight.outcome}` +
       (flight.time_s === null ? "" : ` after ${flight.time_s.toFixed(1)} s, ${Math.round(flight.length_m!)} m`) + (flight.cut ? " (line cut short)" : ""));
-    if (flight.leg) parts.push(el("br"), flight.leg.pieces.length > 0 ? `then ${flight.leg.word}, ${Math.round(flight.leg.length_m)} m, to its heading` : "then no clear way to its heading");
+    if (flight.leg) parts.push(el("br"), flight.leg.pieces.length > 0 ? `then ${flight.leg.word}, ${Math.round(flight.leg.length_m)} m, to the goal heading` : "then no clear way to the goal heading");
     parts.push(this.took(begin));
     this.answer.replaceChildren(...parts);
   }
@@ -288,7 +288,7 @@ class LiveTool implements Live {
     const parts: (Node | string)[] = !none
       ? [el("b", {}, `${answer.word}, ${short(answer.length_m)} m`), ` in ${answer.time_s.toFixed(1)} s`, el("br"),
         answer.state === "shortest" ? "the shortest path; it touches no obstacle" : `clear of obstacles; the shortest, ${shortest.word} of ${short(shortest.length_m)} m, is not`]
-      : [el("b", {}, "no clear way found"), el("br"), `the shortest, ${shortest.word} of ${short(shortest.length_m)} m, touches an obstacle, and so did every other tried`];
+      : [el("b", {}, "no clear way found"), el("br"), `the shortest, ${shortest.word} of ${short(shortest.length_m)} m, touches an obstacle, and so does every other path tried`];
     parts.push(this.took(begin));
     this.answer.replaceChildren(...parts);
   }
@@ -329,7 +329,7 @@ function drawGoalHeld(context: CanvasRenderingContext2D, view: Viewport, place: 
   }
 }
 
-/** The live tool when this page is served by `fairway view`, else nothing. */
+/** The live tool when `fairway view` serves this page, else null. */
 export async function connect(record: PageRecord, page: Page): Promise<Live | null> {
   if (!/^http:$/.test(location.protocol) || !["127.0.0.1", "localhost"].includes(location.hostname)) return null;
   let info: Info;
@@ -342,7 +342,7 @@ export async function connect(record: PageRecord, page: Page): Promise<Live | nu
   const shown = record.summary.verify?.plan_sha256;
   if (shown && JSON.stringify(shown) !== JSON.stringify(info.plan_sha256)) {
     const trouble = byId("trouble");
-    trouble.textContent = "The plan in this folder is another one than this page shows: live answers would not fit it.";
+    trouble.textContent = "This folder's plan differs from the one on this page; live answers would not match.";
     trouble.hidden = false;
     return null;
   }

@@ -1,5 +1,5 @@
-// The page: the record and the arrays it carries, shown as a map with layers, and below it flights,
-// the body of states that reach, and what all of it rests on.
+// The page: shows its record and arrays as a map with layers, and below it flights, the body of
+// states that reach, and what all of it rests on.
 import { Arrays } from "./arrays";
 import { byId } from "./dom";
 import { fieldOf } from "./field_arrays";
@@ -37,7 +37,7 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
   preparePrinting(() => map.relayout());
   document.documentElement.dataset.ready = String(Math.round(performance.now()));
 
-  // The rest, while nobody waits for it.
+  // The rest, in the background.
   if (map.verdicts) {
     await map.needCounts();
     void map.verdicts.askAll();

@@ -1,5 +1,5 @@
-// Hands on the map: one pointer drags, two pinch; the wheel zooms with Ctrl, or once the map has the
-// focus; and all of it from the keyboard.
+// Input on the map: one pointer drags, two pinch; the wheel zooms with Ctrl or when the map has the
+// focus; everything also works from the keyboard.
 import { byId } from "./dom";
 import type { Live } from "./live";
 import type { GridShape } from "./record";
@@ -12,11 +12,11 @@ export interface MapHands {
   heading_rad(): number;
   turnBy(steps: number): void;
   cross: [number, number] | null;
-  /** The cross, or what is held, is elsewhere. */
+  /** The cross, or what is held, has moved. */
   pointed(): void;
   /** The map shows another part of the world. */
   moved(): void;
-  /** A press that ended where it began, with no live tool to take it. */
+  /** A click, with no live tool to take it. */
   picked(): void;
 }
 

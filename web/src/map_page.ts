@@ -1,4 +1,4 @@
-// The map: cells as one of four views, lines and marks on top, and what is under the cross.
+// The map: cells as one of four views, lines and marks on top, and the readout under the cross.
 import type { Arrays } from "./arrays";
 import { BaseMap } from "./base_map";
 import { checkBox, oneOf, radios } from "./choices";
@@ -26,9 +26,9 @@ type Part = "base" | "lines" | "marks" | "readout";
 const view_names: [View, string][] = [
   ["verdict", "Verdicts at a heading"], ["share", "Share of headings proved"], ["cost", "Cost to go"], ["region", "Regions"]];
 const layer_names: [keyof LayerChoice, string][] = [
-  ["streamlines", "Field as streamlines"], ["arrows", "Field as arrows"], ["contours", "Cost contours"], ["flights", "Flights"], ["mission", "Mission"]];
+  ["streamlines", "Field (streamlines)"], ["arrows", "Field (arrows)"], ["contours", "Cost contours"], ["flights", "Flights"], ["mission", "Mission"]];
 
-/** What is put aside while another plan is shown. */
+/** What is set aside while another plan is shown. */
 interface Own { moved: MovedPlan; info: VerdictInfo | null; verdicts: VerdictLayers | null; arrays: Arrays; shown: View; flights: boolean }
 
 export class MapPage implements MapHands, PlanView {
@@ -95,7 +95,7 @@ export class MapPage implements MapHands, PlanView {
     };
   }
 
-  /** Anew in another medium or other colours, at once. */
+  /** Redraws at once for another medium or other colours. */
   relayout(): void {
     placeTable();
     this.paintTiles();
@@ -139,7 +139,7 @@ export class MapPage implements MapHands, PlanView {
     this.redraw("marks", "readout");
   }
 
-  /** A state that was asked for by a link. */
+  /** A state that a link asks for. */
   goTo(state: LinkedState): void {
     this.cross = [state.x, state.y];
     this.slider.turnToRad(state.h);
@@ -186,7 +186,7 @@ export class MapPage implements MapHands, PlanView {
     void this.needCounts().then(() => this.choose(own.shown));
   }
 
-  /** The record and the arrays are shared by all that draws: they become those of the plan. */
+  /** Everything that draws shares the record and the arrays: they become those of the plan. */
   private take(plan: MovedPlan, info: VerdictInfo | null, verdicts: VerdictLayers | null): void {
     const rad = this.slider.rad;
     const { record } = this;
@@ -216,7 +216,7 @@ export class MapPage implements MapHands, PlanView {
     input.dispatchEvent(new Event("change"));
   }
 
-  /** What the shares of headings are made of; the readout tells them too. */
+  /** What the shares of headings are made of; the readout shows them too. */
   async needCounts(): Promise<void> {
     if (this.reaching || !this.verdicts) return;
     const [first, all] = await Promise.all([this.verdicts.ask(0), this.arrays.array("verdict_count")]);
@@ -224,7 +224,7 @@ export class MapPage implements MapHands, PlanView {
     this.share_layers = share_kinds.map((_, kind) => shareLayer(this.record, first, all as Uint8Array, kind));
   }
 
-  /** What changed is drawn in the next frame, once. */
+  /** Draws what changed in the next frame, once. */
   private redraw(...parts: Part[]): void {
     const asked = this.stale.size > 0;
     parts.forEach((part) => this.stale.add(part));
@@ -257,7 +257,7 @@ export class MapPage implements MapHands, PlanView {
     }
   }
 
-  /** A layer of its own; on paper, where layers hide each other, the cells' picture. */
+  /** A canvas of its own; on paper, where layers hide each other, the cells' picture. */
   private cleared(id: string): CanvasRenderingContext2D {
     if (isPrinting()) {
       const context = byId<HTMLCanvasElement>("map-base").getContext("2d")!;
@@ -338,18 +338,18 @@ export class MapPage implements MapHands, PlanView {
     this.redraw("lines");
   }
 
-  /** What the picture is, for paper. */
+  /** What the picture shows, for paper. */
   private nameShown(): void {
     const view = view_names.find(([name]) => name === this.shown)![1];
     const what = this.shown === "verdict" ? `Verdicts at heading ${bearingWords(this.record, this.slider.rad)}, ${wind(this.slider.rad)}`
       : this.shown === "share" ? `${view}: ${share_kinds[this.share_kind]}` : view;
     const layers = layer_names.filter(([name]) => this.choice[name]).map(([, words]) => words.toLowerCase());
-    byId("shown-words").textContent = what + (layers.length > 0 ? `; on top: ${layers.join(", ")}` : "") + ".";
+    byId("shown-words").textContent = what + (layers.length > 0 ? `; overlays: ${layers.join(", ")}` : "") + ".";
   }
 
   private fit(): void {
-    // The replay below the map wraps where the map is narrow: begun from the style's own width, and
-    // measured again, so that the size before does not count.
+    // The replay below the map wraps where the map is narrow: start from the style's own width and
+    // measure twice, so that the previous size does not matter.
     byId("stage").style.removeProperty("--map-width");
     for (let pass = 0; pass < 2; ++pass) {
       const { width, height } = mapSize(this.grid.nx / this.grid.ny);

@@ -1,14 +1,14 @@
-// Where there is room: how large the map is, and on which side of it the flights' table stands.
+// The map's size, and where the flights table goes.
 import { byId, isPrinting } from "./dom";
 
-export const wide_window = "(min-width: 62.01rem)";  // as the style has it
-const panel_px = 304;  // the least of the panel beside the map, with the gap
+export const wide_window = "(min-width: 62.01rem)";  // as in style.css
+const panel_px = 304;  // least width of the panel next to the map, with the gap
 const least_map_px = 500;
-const paper_px = 500;  // the height of a printed map: what is above and below it fits on the same sheet
+const paper_px = 500;  // the height of a printed map: the rest of the sheet fits above and below it
 
 function isWide(): boolean { return window.matchMedia(wide_window).matches && !isPrinting(); }
 
-/** As high as the window allows, with heading and replay in sight, and as wide as the map is then. */
+/** As high as the window allows with heading and replay in view, and as wide as the map then is. */
 export function mapSize(aspect: number): { width: number; height: number } {
   const stage = byId("stage").getBoundingClientRect();
   const map = byId("map").getBoundingClientRect();
@@ -24,7 +24,7 @@ export function mapSize(aspect: number): { width: number; height: number } {
   return { width: Math.round(width), height: Math.round(height) };
 }
 
-/** The flights' table: beside the map, where it is chosen from while the map is looked at, or below. */
+/** Puts the flights table next to the map, where there is room, so that both are in view; else below. */
 export function placeTable(): void {
   byId(isWide() ? "table-beside" : "table-below").append(byId("flight-table"));
 }

@@ -1,4 +1,4 @@
-// A goal that was moved on the live page: its plan is there at once, and nothing of it is proved.
+// A goal moved on the live page: its plan is shown at once, and nothing about it is proved.
 import { Arrays } from "./arrays";
 import { byId, el, percent, short } from "./dom";
 import { fieldOf } from "./field_arrays";
@@ -21,7 +21,7 @@ export interface PlanView {
 
 const reasons: Record<string, string> = {
   undecided_max: "just now", time_limit: "for five seconds", memory_limit: "up to its memory limit",
-  last_level: "to the finest level", stalled: "until more work decided no more" };
+  last_level: "to the finest level", stalled: "until no further progress was made" };
 
 /** Other places that a refusal names, "[x, y]". */
 export function placesIn(message: string, but: [number, number]): [number, number][] {
@@ -31,7 +31,7 @@ export function placesIn(message: string, but: [number, number]): [number, numbe
 }
 
 export class MovedGoal {
-  /** Where it is; null: where the run has it. */
+  /** Where it is; null: the run's own goal. */
   goal: [number, number] | null = null;
   private asked = 0;
 
@@ -40,7 +40,7 @@ export class MovedGoal {
 
   get parameters(): Record<string, number> { return this.goal ? { goal_x: this.goal[0], goal_y: this.goal[1] } : {}; }
 
-  /** Replans; gives words when the goal does not fit, and leaves the plan that is shown. */
+  /** Replans; when the goal does not fit, explains why and keeps the plan shown. */
   async moveTo(goal: [number, number], box: HTMLElement): Promise<void> {
     const asked = ++this.asked;
     const answer = await this.ask<PlanAnswer>("replan", { goal_x: goal[0], goal_y: goal[1] });
@@ -55,7 +55,7 @@ export class MovedGoal {
     this.view.showMoved({ mission: answer.mission, cost_step_m: answer.cost_step_m, field });
     if (answer.verified) return this.verify();  // what the server remembers
     this.tell("Not proved: this plan has not been verified.", this.verifyButton());
-    box.replaceChildren(el("b", {}, `goal at ${short(goal[0])}, ${short(goal[1])}`), el("br"), "planned anew; not proved: this plan has not been verified");
+    box.replaceChildren(el("b", {}, `goal at ${short(goal[0])}, ${short(goal[1])}`), el("br"), "replanned; not proved: this plan has not been verified");
     this.changed();
   }
 
@@ -70,7 +70,7 @@ export class MovedGoal {
 
   private tellRefusal(message: string, goal: [number, number], box: HTMLElement): void {
     const places = placesIn(message, goal).map((place) => {
-      const button = el("button", { type: "button" }, `Put it at ${short(place[0])}, ${short(place[1])}`);
+      const button = el("button", { type: "button" }, `Move it to ${short(place[0])}, ${short(place[1])}`);
       button.addEventListener("click", () => void this.moveTo(place, box));
       return button;
     });
@@ -88,7 +88,7 @@ export class MovedGoal {
     back.addEventListener("click", () => this.back());
     byId("withdrawn").replaceChildren(
       el("p", {}, el("b", {}, `The goal was moved to ${short(this.goal![0])}, ${short(this.goal![1])}. ${words}`),
-        " The figures and words elsewhere on this page are those of the run's own goal."),
+        " Figures and text elsewhere on this page are still for the run's own goal."),
       el("div", {}, ...more, back));
     byId("withdrawn").hidden = false;
     document.documentElement.dataset.moved = "";
@@ -96,7 +96,7 @@ export class MovedGoal {
 
   private async verify(): Promise<void> {
     const asked = ++this.asked;
-    this.tell("Not proved yet: it is being verified.");
+    this.tell("Not proved yet: verifying.");
     try {
       const proof = await this.ask<ProofAnswer>("proof", this.parameters);
       if (asked !== this.asked) return;

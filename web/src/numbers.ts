@@ -17,20 +17,20 @@ export function showTitle(record: PageRecord): void {
     `turning radius ${short(vehicle.turn_radius_m)} m · ${missionWords(record)}`;
 }
 
-/** What the user must not miss, before anything else. */
+/** What the user must not miss, first of all. */
 export function showWarnings(record: PageRecord): void {
   const warnings: string[] = record.summary.warnings ?? [];
   byId("warnings").replaceChildren(...warnings.map((warning) => el("li", {}, warning)));
   byId("warnings").hidden = warnings.length === 0;
 }
 
-/** The findings that closed the run, in their order: first of all states, then what stands in the way. */
+/** The run's closing findings, in their order: all states first, then what stands in the way. */
 export function showFacts(record: PageRecord): void {
   const findings: Finding[] = record.summary.findings ?? [];
   const facts = findings.map(({ share, of, what }) =>
     share ? term(`of ${of} ${what}`, share) : term("what ended the proof", el("small", {}, what)));
   const bound_s = record.summary.verify?.worst_time_s ?? 0;
-  if (bound_s > 0) facts.push(term("longest bound of the time to reach, sampled", bound_s.toFixed(1), el("small", {}, " s")));
+  if (bound_s > 0) facts.push(term("longest bound on the time to reach, sampled", bound_s.toFixed(1), el("small", {}, " s")));
   facts.push(term("cells", grouped(record.grid.nx * record.grid.ny)));
   byId("facts").replaceChildren(...facts);
 }
@@ -45,7 +45,7 @@ export function showVolumes(record: PageRecord, tiles: Tiles): void {
   const rows: [string, Record<string, number>][] = [];
   if (verify.volume_fraction) {
     rows.push(["All states", verify.volume_fraction], ["Safe starts", verify.volume_fraction_free],
-      ["Safe starts with a command", verify.volume_fraction_free_commanded], ["Buffer about obstacles", verify.volume_fraction_buffer]);
+      ["Safe starts with a command", verify.volume_fraction_free_commanded], ["Buffer around obstacles", verify.volume_fraction_buffer]);
   }
   const { order, undecided } = record.codes;
   const paints: (() => void)[] = [];
@@ -75,10 +75,10 @@ export function showVolumes(record: PageRecord, tiles: Tiles): void {
 }
 
 const shown = [
-  "A verdict on the map is that of one sampled state of a cell at one heading: proved for that very state by the certificate, the same answer that a query of it gives.",
-  "Shares of volume are measured on sampled states, each asked of the certificate; the certificate itself speaks of every state.",
-  "A flight is computed exactly for the model, but in rounded arithmetic: it is evidence, not a proof.",
-  "Headings count counter-clockwise from east; x is east, y is north, in metres.",
+  "A verdict on the map is that of one sampled state of a cell at one heading. The certificate proves it for exactly that state; a query returns the same answer.",
+  "Shares of volume are measured on sampled states, each looked up in the certificate; the certificate itself covers every state.",
+  "A flight is computed exactly for the model, but in floating-point arithmetic: it is evidence, not a proof.",
+  "Headings are counter-clockwise from east; x is east, y is north, in metres.",
 ];
 
 export function showTrust(record: PageRecord): void {
@@ -98,7 +98,7 @@ function digestTable(head: string, rows: [string, string][]): HTMLElement {
     el("tbody", {}, ...rows.map(([name, digest]) => el("tr", {}, el("td", {}, name), el("td", { class: "digest" }, digest)))));
 }
 
-/** Options keep the keys that a scenario sets them by. */
+/** Options keep their keys in the scenario. */
 function optionRows(options: Record<string, Record<string, unknown>>): [string, string][] {
   return Object.entries(options).flatMap(([table, keys]) => Object.entries(keys).map(([key, value]): [string, string] =>
     [`${table}.${key}`, value === null ? "not set" : typeof value === "string" ? value : JSON.stringify(value)]));
@@ -132,5 +132,5 @@ export function showNumbers(record: PageRecord): void {
   if (summary.verify?.plan_sha256) digests.push(digestTable("Array of the plan", Object.entries(summary.verify.plan_sha256)));
   parts.push(fold("Digests", ...digests));
   byId("numbers").replaceChildren(...parts);
-  byId("footer").textContent = `Made by ${summary.program ?? "fairway"}. All data are in this file; nothing was fetched to show it.`;
+  byId("footer").textContent = `Made by ${summary.program ?? "fairway"}. All data are in this file; nothing was fetched.`;
 }

@@ -141,7 +141,7 @@ export class Overlay {
     context.beginPath();
     const [left, top] = view.toWorld(0, 0);
     const [right, bottom] = view.toWorld(view.width, view.height);
-    // Cells of one lattice, whatever part of the map is shown.
+    // Cells of one fixed lattice, whichever part of the map is shown.
     const first = (world: number, origin: number) => {
       const k = Math.max(0, Math.floor((world - origin) / cell_m / stride) - 1);
       return k * stride + (stride >> 1);

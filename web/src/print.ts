@@ -1,4 +1,4 @@
-// The page on paper: laid out as narrow as a sheet before the browser prints, and then as it was.
+// The page on paper: laid out for a sheet before the browser prints, and restored afterwards.
 import { setPrinting } from "./dom";
 
 export function preparePrinting(relayout: () => void): void {

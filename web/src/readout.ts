@@ -1,4 +1,4 @@
-// What plan and certificate say of the place under the cross.
+// What the plan and the certificate say about the place under the cross.
 import { byId, headingWords, short, term } from "./dom";
 import { bearingWords, earthWords } from "./earth";
 import { headingOfCode, type FieldArrays } from "./overlay";
@@ -6,7 +6,7 @@ import { no_value, RegionCode, valueIndex, type PageRecord } from "./record";
 
 const region_names = ["buffer", "safe start", "obstacle", "goal"];
 
-/** The layer that is shown, its heading, and of how many headings a sample reaches once that is known. */
+/** The layer shown, its heading, and for how many headings each sample reaches, once known. */
 export interface ShownVerdicts { codes: Uint8Array; heading_rad: number; reaching: Uint16Array | null }
 
 type Cell = [number, number];
@@ -36,7 +36,7 @@ function wide(element: HTMLElement): HTMLElement {
 export function showReadout(record: PageRecord, field: FieldArrays, place: [number, number] | null, verdicts: ShownVerdicts | null): void {
   const cell = place && cellAt(record, place);
   if (!place || !cell) {
-    byId("readout").replaceChildren(term("place", "point at the map to read it"));
+    byId("readout").replaceChildren(term("place", "point at the map to read values"));
     return;
   }
   const { region, heading, cost } = field;

@@ -1,4 +1,4 @@
-// What the page knows of a run, as fairway/report/page.cpp writes it.
+// What the page knows about a run, as fairway/report/page.cpp writes it.
 
 export interface GridShape { nx: number; ny: number; x0_m: number; y0_m: number; cell_m: number }
 
@@ -18,12 +18,13 @@ export interface Codes {
   target: number;
 }
 
-/** A line of what was found: "97.0 %" of "free cells" "are cut off"; without a share, a sentence. */
+/** A line of the findings: "97.0 %" of "free cells" "are cut off"; without a share, a sentence. */
 export interface Finding { share: string; of: string; what: string }
 
 export interface FlightRecord {
   group: string;
-  ground?: "safe_start" | "buffer" | "cut_off";  // of failing ones: what their start is
+  ground?: "safe_start" | "buffer" | "cut_off";  // of failing ones: where they start
+  after?: "follow" | "collide" | "leave";  // on a path: what a followed flight does after it reaches
   outcome: string;
   time_s: number | null;
   length_m: number | null;
@@ -51,7 +52,7 @@ export interface PageRecord {
   grid: GridShape;
   /** The grid's turn against its map's world, and degrees at across * across places over the grid, [row][column]. */
   frame: { yaw_rad: number; earth: { across: number; lat_deg: number[]; lon_deg: number[] } | null };
-  values: { nx: number; ny: number; cells_per_value: number };  // of which cells the plan's arrays are
+  values: { nx: number; ny: number; cells_per_value: number };  // the cells that the plan's arrays sample
   vehicle: { speed_mps: number; turn_radius_m: number };
   mission: Mission;
   cost_step_m: number;
@@ -76,7 +77,7 @@ export interface PageRecord {
 /** Codes of the array `region`: those of a plan file plus 1. */
 export const enum RegionCode { buffer = 0, free = 1, obstacle = 2, goal = 3 }
 
-/** Where the values of a cell stand in the plan's arrays. */
+/** Index of a cell's values in the plan's arrays. */
 export function valueIndex(record: PageRecord, ix: number, iy: number): number {
   const { nx, cells_per_value } = record.values;
   return Math.floor(iy / cells_per_value) * nx + Math.floor(ix / cells_per_value);
@@ -86,6 +87,6 @@ export const no_value = 65535;
 
 export function recordOfPage(): PageRecord {
   const record = JSON.parse(document.getElementById("record")!.textContent!) as PageRecord;
-  if (record.format_version !== 2) throw new Error(`this page holds data of format ${record.format_version}, not 2`);
+  if (record.format_version !== 2) throw new Error(`this page's data has format ${record.format_version}, not 2`);
   return record;
 }

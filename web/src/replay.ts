@@ -1,7 +1,7 @@
-// The flights of the run: a table to choose from, and their replay in time.
+// The run's flights: a table to choose from, and their replay.
 import { Charts } from "./charts";
 import { byId, degrees, el, short } from "./dom";
-import { drawVehicle, strokeTrack, type ShownFlight } from "./flights";
+import { drawVehicle, outcomeWords, strokeTrack, type ShownFlight } from "./flights";
 import type { PageRecord } from "./record";
 import type { Viewport } from "./viewport";
 
@@ -17,7 +17,7 @@ export class Replay {
   private frame = 0;
   private last = 0;
   private readonly charts: Charts;
-  private readonly scrub = el("input", { type: "range", min: 0, max: 1000, value: 0, "aria-label": "Time of the replay" });
+  private readonly scrub = el("input", { type: "range", min: 0, max: 1000, value: 0, "aria-label": "Replay time" });
   private readonly play = el("button", { type: "button", class: "round", "aria-pressed": "false", "aria-label": "Replay" });
   private readonly clock = el("output", {});
   private readonly which = el("span", { class: "which" });
@@ -30,7 +30,7 @@ export class Replay {
       byId("flights-section").hidden = true;
       return;
     }
-    const speeds = el("select", { "aria-label": "Speed of the replay" },
+    const speeds = el("select", { "aria-label": "Replay speed" },
       ...[1, 5, 10, 30, 100].map((s) => el("option", { value: s, selected: s === this.speed }, `${s} ×`)));
     speeds.addEventListener("change", () => { this.speed = Number(speeds.value); });
     this.scrub.addEventListener("input", () => { this.stop(); this.moveTo(Number(this.scrub.value) / 1000 * this.duration_s); });
@@ -62,7 +62,7 @@ export class Replay {
       const mark = el("span", { class: "mark" });
       mark.style.background = line.color;
       const [x, y, h] = flight.start;
-      this.rows.push(row(k, el("span", {}, mark, flight.outcome, " ", el("small", {}, (flight.ground && grounds[flight.ground]) ?? groups[flight.group] ?? flight.group)),
+      this.rows.push(row(k, el("span", {}, mark, outcomeWords(flight), " ", el("small", {}, (flight.ground && grounds[flight.ground]) ?? groups[flight.group] ?? flight.group)),
         `${place(x)}, ${place(y)}, ${Math.round(degrees(h)) % 360}°`,
         flight.time_s === null ? "–" : `${flight.time_s.toFixed(1)} s`, flight.length_m === null ? "–" : `${Math.round(flight.length_m)} m`));
     }
@@ -78,7 +78,7 @@ export class Replay {
     byId("flight-table").replaceChildren(el("table", { "aria-label": "Flights" },
       el("thead", {}, el("tr", {}, el("th", {}, "outcome"), el("th", {}, "start"), el("th", { class: "num" }, "time"), el("th", { class: "num" }, "length"))),
       body));
-    if (left_out > 0) byId("flight-table").append(el("p", { class: "hint" }, `${left_out} more flights of the run are not in this page.`));
+    if (left_out > 0) byId("flight-table").append(el("p", { class: "hint" }, `${left_out} more flights of the run are not on this page.`));
   }
 
   choose(k: number): void {
@@ -125,7 +125,7 @@ export class Replay {
     this.frame = requestAnimationFrame(step);
   }
 
-  /** The charts, in other colours or for another width. */
+  /** Redraws the charts, in other colours or at another width. */
   redraw(): void { this.charts.redraw(); }
 
   stop(): void {
@@ -134,7 +134,7 @@ export class Replay {
     this.play.setAttribute("aria-pressed", "false");
   }
 
-  /** Vehicles where they are now, with the way they have come. */
+  /** Vehicles at their current position, with the track so far. */
   draw(context: CanvasRenderingContext2D, view: Viewport): void {
     if (this.time_s <= 0) return;
     for (const { track, line, leg, leg_line } of this.shown) {

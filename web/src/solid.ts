@@ -11,9 +11,9 @@ import { boundary } from "./solid_mesh";
 const most_across = 128;
 const height = 0.62;  // of the longer side of the map
 
-const lowest_view = 0.49 * Math.PI;  // from the top: never from below the floor
+const lowest_view = 0.49 * Math.PI;  // from the vertical: never from below the floor
 
-const body_names = ["reach", "fail", "undecided"] as const;  // as share_kinds has them
+const body_names = ["reach", "fail", "undecided"] as const;  // in the order of share_kinds
 
 class Solid {
   private readonly renderer: WebGLRenderer;
@@ -30,7 +30,7 @@ class Solid {
   private readonly depth: number;
   private readonly colors: string[];
   private asked = false;
-  private turned = false;  // by hand: then it stays as it is
+  private turned = false;  // by hand: then the view is left alone
 
   constructor(private readonly box: HTMLElement, private readonly record: PageRecord, private readonly layers: VerdictLayers, private heading: number) {
     const { nx, ny } = record.verdicts!;
@@ -110,7 +110,7 @@ class Solid {
     this.scene.add(sprite);
   }
 
-  /** The box's edges, and what its axes count. */
+  /** The box's edges and axis labels. */
   private frame(): void {
     for (const mark of this.marks.splice(0)) this.scene.remove(mark);
     const [x, y] = [this.width / 2, this.depth / 2];
@@ -140,7 +140,7 @@ class Solid {
     this.redraw();
   }
 
-  /** So near that the box with its labels just fits in the window. */
+  /** Moves the camera so near that the box with its labels just fits. */
   private fill(): void {
     const direction = this.camera.position.clone().sub(this.controls.target).normalize();
     const [x, y] = [this.width / 2, this.depth / 2];
@@ -231,7 +231,7 @@ class Solid {
     const { obstacle, target } = this.record.codes;
     const verdicts = verdictsOfKind(this.record, this.kind);
     const in_map = (code: number) => code === obstacle || code === target;
-    // Of a thin body the cut shows the body alone, so that its inside can be seen.
+    // For a thin body the cut shows only the body, so that its inside can be seen.
     this.paintCells(this.slice, codes, (code) => this.kind === 0 || in_map(code) && heading + 1 === this.layers.length || verdicts.includes(code));
     this.paintCells(this.floor, codes, in_map);
     this.redraw();
@@ -252,22 +252,22 @@ class Solid {
   set zooms(on: boolean) { this.controls.enableZoom = on; }
 }
 
-/** Builds the view when it comes into sight; gives what to call when the heading changes. */
+/** Builds the view when it scrolls into sight; returns what to call when the heading changes. */
 export function showSolid(record: PageRecord, layers: VerdictLayers): (heading: number) => void {
   const box = byId("solid");
   const first_cut = Math.round(0.68 * layers.length);
   let follow: (heading: number) => void = () => {};
   box.tabIndex = 0;
   box.setAttribute("role", "application");
-  box.setAttribute("aria-label", "Body of states over place and heading; arrow keys turn it, plus and minus zoom");
+  box.setAttribute("aria-label", "Body of states over position and heading; arrow keys turn it, plus and minus zoom");
   let solid: Solid | null = null;
   const begin = () => {
     try {
-      // Asked beforehand: the library would complain in the console.
+      // Checked beforehand: the library would complain in the console.
       if (!document.createElement("canvas").getContext("webgl2")) throw new Error("no WebGL");
       solid = new Solid(box, record, layers, first_cut);
     } catch {
-      box.replaceChildren(el("p", { class: "hint" }, "This browser does not support WebGL: the map above shows the same states, heading by heading."));
+      box.replaceChildren(el("p", { class: "hint" }, "This browser does not support WebGL; the map above shows the same states, heading by heading."));
       return;
     }
     const tools = oneOf(body_names, "Which states", (kind) => void solid!.show(kind));
@@ -282,7 +282,7 @@ export function showSolid(record: PageRecord, layers: VerdictLayers): (heading: 
     cut.addEventListener("input", moved);
     follow = (index) => { cut.value = String(index); moved(); };
     tools.append(el("label", { class: "cut" }, cut, words));
-    box.append(tools, el("p", { class: "solid-note" }, "Drag to turn, arrow keys and + − too."));
+    box.append(tools, el("p", { class: "solid-note" }, "Drag or use arrow keys to turn, + − to zoom."));
     moved();
     void solid.show(0);
   };

@@ -4,7 +4,7 @@ export interface Voxels { nx: number; ny: number; nz: number; inside: Uint8Array
 
 export interface Quads { position: Float32Array; shade: Float32Array; count: number }
 
-/** Brightness of a face by where it looks: left, right, back, front, down, up. */
+/** Brightness of a face by the direction it faces: left, right, back, front, down, up. */
 const shades = [0.74, 0.86, 0.8, 0.68, 0.6, 1];
 
 /** Corners in voxel steps; four vertices to a quadrilateral, counter-clockwise from outside. */
@@ -18,7 +18,7 @@ export function boundary(voxels: Voxels): Quads {
     corners.push(...a, ...b, ...c, ...d);
     shade.push(shades[side]);
   };
-  // Runs along x of faces that look along y or z; runs along y of those that look along x.
+  // Runs along x of faces that face along y or z; runs along y of those that face along x.
   const runs = (length: number, open: (k: number) => boolean, emit: (from: number, to: number) => void) => {
     for (let k = 0; k < length; ++k) {
       if (!open(k)) continue;

@@ -5,12 +5,12 @@ import type { GridShape } from "./record";
 
 export interface LinkedState { x: number; y: number; h: number; goal: [number, number] | null }
 
-/** So many decimals that a cell has a thousand places. */
+/** As many decimals as it takes to resolve a thousandth of a cell. */
 export function decimalsOf(grid: GridShape): number {
   return Math.min(Math.max(3 - Math.floor(Math.log10(grid.cell_m)), 2), 8);
 }
 
-/** A state as its link will have it: what is shown, asked and linked to is then the same. */
+/** A state rounded as its link will be, so that what is shown, asked and linked to is the same. */
 export function linkable<Pose extends { x: number; y: number; h: number }>(grid: GridShape, pose: Pose): Pose {
   const round = (value: number) => Number(value.toFixed(decimalsOf(grid)));
   return { ...pose, x: round(pose.x), y: round(pose.y), h: turnOf(Math.round(degrees(pose.h) * 100) / 100) };
@@ -40,6 +40,6 @@ export function writeLink(state: LinkedState): void {
   try {
     history.replaceState(null, "", hashOf(state));
   } catch {
-    // A browser that keeps addresses of files to itself: there is no link then.
+    // A browser that does not allow this for files: there is no link then.
   }
 }

@@ -59,7 +59,7 @@ export class Viewport {
     this.cy = Math.min(Math.max(this.cy + dy / this.scale, y0_m), y0_m + ny * cell_m);
   }
 
-  /** Moves as little as needed to have the place in sight. */
+  /** Moves as little as needed to bring the place into view. */
   show(x: number, y: number): void {
     const margin = 30;
     const [px, py] = this.toScreen(x, y);

@@ -1,4 +1,4 @@
-// A page in a real browser, and what tests ask of it.
+// A page in a real browser, with helpers for tests.
 import { join } from "node:path";
 import { after, before } from "node:test";
 import { chromium } from "playwright-core";
@@ -9,7 +9,7 @@ before(async () => {
 });
 after(async () => browser?.close());
 
-/** A page that is ready, and everything it complained about or asked the network for. */
+/** A page that is ready, and everything it logged or requested from the network. */
 export async function opened(t, address, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, reducedMotion: "reduce", ...options });
   t.after(() => context.close());

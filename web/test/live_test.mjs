@@ -24,7 +24,7 @@ const type = async (page, values) => {
   for (const [name, value] of Object.entries(values)) await page.locator(`#live input[name=${name}]`).fill(String(value));
   await page.keyboard.press("Enter");
 };
-/** Where a place of the world is on the screen. */
+/** Where a place in the world is on the screen. */
 const onScreen = async (page, [x, y]) => {
   const { grid } = recordOf(live);
   const box = await page.locator("#map").boundingBox();
@@ -32,11 +32,11 @@ const onScreen = async (page, [x, y]) => {
   return [box.x + box.width / 2 + (x - grid.x0_m - grid.nx * grid.cell_m / 2) * scale, box.y + box.height / 2 - (y - grid.y0_m - grid.ny * grid.cell_m / 2) * scale];
 };
 
-test("the slider turns to the heading that is asked, and the readout agrees with the answer", async (t) => {
+test("the slider turns to the heading asked for, and the readout agrees with the answer", async (t) => {
   const { page, answer, trouble } = await served(t, live);
   const { verdicts, grid } = recordOf(live);
   for (const [ix, iy, k] of [[10, 10, 28], [30, 50, 3], [44, 8, 60], [20, 44, 66]]) {
-    // The very states that the map shows.
+    // Exactly the states that the map shows.
     const x = grid.x0_m + (ix + 0.5) * grid.cell_m + verdicts.offset_m[0], y = grid.y0_m + (iy + 0.5) * grid.cell_m + verdicts.offset_m[1];
     await type(page, { x: x.toFixed(3), y: y.toFixed(3), h: 5 * k });
     await says(page, "#live .answer", `heading ${5 * k}°`);
@@ -63,7 +63,7 @@ test("the state is in the address, and opening it asks again", async (t) => {
   assert.equal((await second.locator("#live .answer").innerText()).replace(/answered.*/s, ""), words);
 });
 
-test("the goal is moved and planned anew; what was proved is withdrawn until it is verified", async (t) => {
+test("moving the goal makes a new plan; what was proved is withdrawn until it is verified", async (t) => {
   const { page, answer, trouble } = await served(t, live);
   const before = await picture(page);
   await type(page, { x: 100, y: 60, h: 200 });
@@ -84,7 +84,7 @@ test("the goal is moved and planned anew; what was proved is withdrawn until it 
   assert.ok(await page.locator("#flights-section").isHidden() && await page.locator("#solid-section").isHidden());
   assert.match(await page.evaluate(() => getComputedStyle(document.querySelector(".facts dd")).textDecorationLine), /line-through/);
   assert.doesNotMatch(await readout(page), /verdict/);
-  // Where it does not fit, the refusal names a place that does, a press away.
+  // Where it does not fit, the refusal offers a place that does, a click away.
   await type(page, { goal_x: 38, goal_y: 50 });
   await says(page, "#live .answer", "does not fit there[^]*lies in an obstacle");
   assert.match(await page.locator("#withdrawn").innerText(), /moved to 4[45]/);
@@ -92,7 +92,7 @@ test("the goal is moved and planned anew; what was proved is withdrawn until it 
   await says(page, "#live .answer", "flown: reach");
   await type(page, { goal_x: 45, goal_y: 92 });
   await says(page, "#withdrawn", "moved to 45, 92");
-  // A short proof is of this plan.
+  // A short proof of this plan.
   await page.locator("#verify-moved").click();
   await says(page, "#withdrawn", "Verified [^]*proved to fail[^]*undecided[^]*proved to reach[^]*No other program has checked");
   assert.ok(await page.getByLabel("Verdicts at a heading").isChecked());
@@ -102,11 +102,11 @@ test("the goal is moved and planned anew; what was proved is withdrawn until it 
   await says(page, "#live .answer", "heading 200°");
   assert.match(await answer.innerText(), /^proved: reach within/);
   assert.notEqual(await picture(page), before);
-  // Who opens the link is told what the server remembers, in the banner and in the answer alike.
+  // Opening the link shows what the server remembers, in the banner and in the answer.
   const { page: second } = await opened(t, page.url());
   await says(second, "#withdrawn", "Verified ");
   await says(second, "#live .answer", "^proved: reach");
-  // Back to the run's own.
+  // Back to the run's own goal.
   await page.locator("#goal-back").click();
   await says(page, "#live .answer", "^proved");
   assert.ok(await page.locator("#withdrawn").isHidden());

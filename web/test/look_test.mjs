@@ -1,4 +1,4 @@
-// How the page looks: what is in sight, on paper, in the dark, on a phone; and states in its address.
+// How the page looks: what is in view, on paper, in dark mode, on a phone; and states in its address.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -17,7 +17,7 @@ const { grid } = recordOf(look);
 const box = (page, selector) => page.locator(selector).boundingBox();
 
 for (const [width, height] of [[1366, 768], [1400, 900]]) {
-  test(`map, readout and replay are in sight at ${width} x ${height}`, async (t) => {
+  test(`map, readout and replay are in view at ${width} x ${height}`, async (t) => {
     const { page } = await openedFile(t, look, { viewport: { width, height } });
     await page.mouse.move(...Object.values(await page.evaluate(() => {
       const { left, top, width, height } = document.getElementById("map").getBoundingClientRect();
@@ -32,16 +32,16 @@ for (const [width, height] of [[1366, 768], [1400, 900]]) {
     const map = await box(page, "#map");
     assert.ok(map.height > 0.45 * height, `the map is ${map.height} high`);
     const table = await box(page, "#flight-table");
-    assert.ok(table.x >= map.x + map.width && table.y < map.y + map.height, "the flights' table is beside the map");
+    assert.ok(table.x >= map.x + map.width && table.y < map.y + map.height, "the flights table is next to the map");
   });
 }
 
-test("a flight that is chosen below the map brings the map back into sight", async (t) => {
+test("choosing a flight below the map scrolls the map back into view", async (t) => {
   const height = 700;
   const { page } = await openedFile(t, look, { viewport: { width: 800, height } });
   const row = page.locator("#flight-table tbody tr").nth(1);
   await row.scrollIntoViewIfNeeded();
-  assert.ok((await box(page, "#map")).y < 0, "it is out of sight before");
+  assert.ok((await box(page, "#map")).y < 0, "it is out of view before");
   await row.click();
   await frames(page, 3);
   const map = await box(page, "#map");
@@ -74,7 +74,7 @@ for (const colorScheme of ["light", "dark"]) {
     const idle = await page.evaluate(() => [...document.querySelectorAll("button, input, select, .zoom, .keys, #readout, #solid-section")]
       .filter((e) => e.getClientRects().length > 0).map((e) => e.id || e.outerHTML.slice(0, 60)));
     assert.deepEqual(idle, []);
-    assert.match(await page.locator("#shown-words").innerText(), /^Verdicts at heading 100° \(course 350°\), north; on top: .*mission\.$/);
+    assert.match(await page.locator("#shown-words").innerText(), /^Verdicts at heading 100° \(course 350°\), north; overlays: .*mission\.$/);
     const light = await page.evaluate(() => getComputedStyle(document.body).backgroundColor + getComputedStyle(document.querySelector("h1")).color);
     assert.equal(light, "rgb(255, 255, 255)rgb(34, 38, 43)");
     await page.emulateMedia({ media: "screen", colorScheme });
@@ -94,13 +94,13 @@ test("the printed file has a picture of the map on its first page, and no empty 
   const images = [...pdf.matchAll(/\/Width (\d+)\s*\/Height (\d+)/g)].map(([, w, h]) => [Number(w), Number(h)]);
   const map = images.find(([w, h]) => w > 700 && Math.abs(w / h - grid.nx / grid.ny) < 0.02);
   assert.ok(map, `no picture of the map's shape among ${JSON.stringify(images)}`);
-  // Every page but the last is filled: what one holds ends near its foot.
+  // Every page except the last is full: its content ends near the bottom.
   await print(page, true);
   const tall = await page.evaluate(() => document.body.scrollHeight);
   assert.ok(tall > (pages - 1.6) * 1032, `${pages} pages for ${tall} pixels`);
 });
 
-/** Words whose contrast with what is behind them is less than 4.5 (WCAG 2, 1.4.3). */
+/** Text whose contrast with its background is less than 4.5 (WCAG 2, 1.4.3). */
 const faintWords = (page) => page.evaluate(() => {
   const parse = (color) => {
     const [r, g, b, a = 1] = color.startsWith("color(srgb") ? color.match(/[\d.]+/g).map((v, k) => k < 3 ? 255 * v : Number(v)) : color.match(/[\d.]+/g).map(Number);
@@ -130,7 +130,7 @@ const faintWords = (page) => page.evaluate(() => {
 });
 
 for (const colorScheme of ["light", "dark"]) {
-  test(`all words can be read in the ${colorScheme}`, async (t) => {
+  test(`all text is readable in the ${colorScheme} scheme`, async (t) => {
     const { page } = await openedFile(t, look, { colorScheme });
     await page.locator("#solid").scrollIntoViewIfNeeded();
     await page.waitForFunction(() => document.querySelector("#solid button"), null, { timeout: 30_000 });
@@ -146,7 +146,7 @@ for (const colorScheme of ["light", "dark"]) {
   });
 }
 
-test("in the dark obstacles stand out from the page", async (t) => {
+test("in dark mode obstacles stand out from the page", async (t) => {
   const { page } = await openedFile(t, look, { colorScheme: "dark" });
   const [obstacle, ground] = await page.evaluate(() => {
     const item = [...document.querySelectorAll("#legend li")].find((li) => li.innerText.includes("obstacle"));
@@ -158,7 +158,7 @@ test("in the dark obstacles stand out from the page", async (t) => {
   assert.ok((obstacle + 0.05) / (ground + 0.05) > 3, `${obstacle} on ${ground}`);
 });
 
-test("on a phone boxes are as large as a finger needs, and nothing scrolls sideways", async (t) => {
+test("on a phone controls are large enough for a finger, and nothing scrolls sideways", async (t) => {
   const { page } = await openedFile(t, look, { viewport: { width: 390, height: 844 }, hasTouch: true });
   const small = await page.evaluate(() => [...document.querySelectorAll("input[type=checkbox], input[type=radio], button, select")]
     .filter((e) => e.getClientRects().length > 0 && !e.closest(".skip"))
@@ -211,7 +211,7 @@ test("the body fills its box, and is never seen from below its floor", async (t)
   assert.ok(polar > 1.3 && polar < Math.PI / 2, `${polar}`);
 });
 
-test("without WebGL a sentence says so, and the console is silent", async (t) => {
+test("without WebGL a message says so, and the console is silent", async (t) => {
   const plain = await chromium.launch({ executablePath: process.env.CHROMIUM, args: ["--no-sandbox", "--disable-3d-apis"] });
   t.after(() => plain.close());
   const page = await plain.newPage();
@@ -251,7 +251,7 @@ test("a state in the address is shown, and a click puts one there", async (t) =>
   assert.deepEqual(trouble, []);
 });
 
-test("on a map in degrees the page says latitude and longitude as the run's GeoJSON does", async (t) => {
+test("on a map in degrees the page shows the same latitude and longitude as the run's GeoJSON", async (t) => {
   const fence = { fileType: "Plan", version: 1, groundStation: "QGroundControl",
     geoFence: { version: 2, polygons: [{ version: 1, inclusion: true, polygon: [[47.396, 8.540], [47.396, 8.556], [47.405, 8.556], [47.405, 8.540]] }], circles: [] },
     mission: { version: 2, items: [], plannedHomePosition: [47.400, 8.5495, 400] }, rallyPoints: { version: 2, points: [] } };

@@ -1,4 +1,4 @@
-// The packages that tests want (a superset of the bundle's), beside a copy of the sources.
+// The packages that tests need (a superset of the bundle's), next to a copy of the sources.
 // Usage: node packages.mjs WEB_SOURCE FOLDER NPM. Exit code 77, and why, when npm cannot fetch them.
 import { spawnSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, readFileSync } from "node:fs";

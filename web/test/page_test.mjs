@@ -21,7 +21,7 @@ if (!hasPage(small)) {
   process.exit(0);
 }
 
-test("opens from a disk, fetches nothing, and has nothing to complain about", async (t) => {
+test("opens from disk, fetches nothing, and logs nothing", async (t) => {
   const { page, trouble } = await openedFile(t, small);
   assert.equal(await page.locator("h1").innerText(), "small");
   assert.match(await page.locator("#facts").innerText(), /proved to reach/);
@@ -29,17 +29,17 @@ test("opens from a disk, fetches nothing, and has nothing to complain about", as
   await page.waitForFunction(() => Number(document.getElementById("solid").dataset.quads) > 0, null, { timeout: 30_000 });
   assert.deepEqual(trouble, []);
   assert.ok(await page.locator("#trouble").isHidden());
-  assert.ok(await page.locator("#live").isHidden(), "from a disk there is nobody to ask");
+  assert.ok(await page.locator("#live").isHidden(), "from disk there is no server to ask");
 });
 
-test("what must not be missed stands first: cut-off cells, then the share of all states", async (t) => {
+test("what must not be missed comes first: cut-off cells, then the share of all states", async (t) => {
   const image = rocks(120, []);
   for (let y = 0; y < 120; ++y) image.fill(0, image.length - 14400 + y * 120 + 70, image.length - 14400 + y * 120 + 73);  // a wall
   const walled = run("walled", scenario({ map: "walled.pgm", scale_m: 1, cell_m: 2, goal: [30, 60], undecided: 0.1 }), { "walled.pgm": image });
   const { page, trouble } = await openedFile(t, walled);
   assert.match(await page.locator("#warnings li").first().innerText(), /of the free cells .* are cut off from the goal/);
   const [warnings, facts] = await Promise.all(["#warnings", "#facts"].map((id) => page.locator(id).boundingBox()));
-  assert.ok(warnings.y < facts.y, "the warnings stand above the figures");
+  assert.ok(warnings.y < facts.y, "the warnings are above the figures");
   assert.match(await page.locator("#facts > div").first().innerText(), /^(of all states are proved to reach the goal\s+[\d.]+ %|[\d.]+ %\s+of all states are proved to reach the goal)$/);
   assert.match(await page.locator("#facts").innerText(), /of free cells are cut off from the goal/);
   const box = await page.locator("#map").boundingBox();
@@ -50,10 +50,10 @@ test("what must not be missed stands first: cut-off cells, then the share of all
   assert.match(await page.locator("#flight-table").innerText(), /from a cut-off cell/);
   assert.deepEqual(trouble, []);
   const quiet = await openedFile(t, small);
-  assert.ok(await quiet.page.locator("#warnings").isHidden(), "nothing to warn of");
+  assert.ok(await quiet.page.locator("#warnings").isHidden(), "nothing to warn about");
 });
 
-test("numbers are told in words", async (t) => {
+test("numbers are labelled in words", async (t) => {
   const { page } = await openedFile(t, small);
   const told = await page.locator("#numbers").evaluate((box) => box.textContent);
   for (const words of ["free cells cut off from the goal", "share that reach, 95 % interval", "of safe starts with a command: reach"]) {
@@ -62,7 +62,7 @@ test("numbers are told in words", async (t) => {
   assert.doesNotMatch(told, /reach_share_interval|volume_fraction|unreachable_free_cells/);
 });
 
-test("every verdict that is read off the map is the certificate's", async (t) => {
+test("every verdict read off the map is the certificate's", async (t) => {
   const { page } = await openedFile(t, small);
   const { grid, verdicts } = recordOf(small);
   const box = await page.locator("#map").boundingBox();
@@ -86,7 +86,7 @@ test("every verdict that is read off the map is the certificate's", async (t) =>
   assert.deepEqual(shown, query(small, states));
 });
 
-test("the slider changes the picture, and goes round", async (t) => {
+test("the slider changes the picture, and wraps round", async (t) => {
   const { page, trouble } = await openedFile(t, small);
   const first = await picture(page);
   await turnTo(page, 36);
@@ -109,7 +109,7 @@ test("the slider changes the picture, and goes round", async (t) => {
   assert.deepEqual(trouble, []);
 });
 
-test("each view and each layer looks its own way", async (t) => {
+test("every view and every layer looks different", async (t) => {
   const { page, trouble } = await openedFile(t, small);
   const seen = new Set([await picture(page)]);
   for (const name of ["Share of headings proved", "Cost to go", "Regions"]) {
@@ -144,7 +144,7 @@ test("verdicts differ in lightness and in pattern, not in colour alone", async (
     return { mean: light.reduce((a, b) => a + b) / light.length, grey: light.join() };
   }));
   assert.equal(samples.length, 5);
-  assert.equal(new Set(samples.map((s) => s.grey)).size, 5, "in grey print all five differ");
+  assert.equal(new Set(samples.map((s) => s.grey)).size, 5, "all five differ in grey print");
   const means = samples.map((s) => s.mean).sort((a, b) => a - b);
   for (let k = 1; k < 5; ++k) assert.ok(means[k] - means[k - 1] > 4, `lightness ${means.map(Math.round)}`);
 });
@@ -235,7 +235,7 @@ test("flights are chosen and replayed", async (t) => {
   assert.deepEqual(trouble, []);
 });
 
-test("a narrow window holds everything", async (t) => {
+test("everything fits in a narrow window", async (t) => {
   const { page, trouble } = await openedFile(t, small, { viewport: { width: 400, height: 800 }, hasTouch: true });
   await frames(page, 4);
   const wide = await page.evaluate(() => [...document.querySelectorAll("body *")].filter((e) => e.getBoundingClientRect().right > 401 &&
@@ -248,7 +248,7 @@ test("a narrow window holds everything", async (t) => {
   assert.deepEqual(trouble, []);
 });
 
-test("a dark scheme is dark, and its words can be read", async (t) => {
+test("a dark scheme is dark, and its text is readable", async (t) => {
   const { page } = await openedFile(t, small, { colorScheme: "dark" });
   const [ground, ink] = await page.evaluate(() => {
     const light = (color) => { const [r, g, b] = color.match(/\d+/g).map(Number); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
@@ -258,7 +258,7 @@ test("a dark scheme is dark, and its words can be read", async (t) => {
   assert.ok(ground < 40 && ink > 200, `${ground}, ${ink}`);
 });
 
-test("names of files stay text", async (t) => {
+test("file names stay text", async (t) => {
   const name = "<img src=x onerror=alert(1)>&amp;";
   const folder = run(name, scenario({ map: "small.pgm", scale_m: 1, cell_m: 2, goal: [92, 40], undecided: 0.9 }));
   const { page, trouble } = await opened(t, `file://${encodeURI(join(folder, "report.html")).replace("?", "%3F")}`);
@@ -268,7 +268,7 @@ test("names of files stay text", async (t) => {
   assert.deepEqual(trouble, []);
 });
 
-test("a run by samples of borders has a page without verdicts that says so", async (t) => {
+test("the page of a run by border samples has no verdicts and says so", async (t) => {
   const folder = run("bitmap", scenario({ map: "small.pgm", scale_m: 1, cell_m: 2, goal: [92, 40], undecided: 0.9 })
     .replace("[verify]", '[verify]\nmethod = "bitmap"'));
   const { page, trouble } = await openedFile(t, folder);
@@ -278,7 +278,7 @@ test("a run by samples of borders has a page without verdicts that says so", asy
   assert.deepEqual(trouble, []);
 });
 
-/** Frames a second while the slider is turned once, a heading a frame. */
+/** Frames a second while the slider is turned once round, one heading a frame. */
 const turning = (page) => page.evaluate(async () => {
   const range = document.getElementById("heading-range");
   const count = Number(range.max) + 1;
@@ -293,7 +293,7 @@ const turning = (page) => page.evaluate(async () => {
     };
     requestAnimationFrame(step);
   });
-  await turn();  // what is not inflated yet
+  await turn();  // inflates the rest
   return turn();
 });
 
@@ -304,7 +304,7 @@ async function measured(t, name, folder) {
   const fps = await turning(page);
   t.diagnostic(`${name}: ${(size / 1e6).toFixed(2)} MB, ready after ${Math.round(ready_ms)} ms, slider at ${fps.toFixed(0)} frames a second`);
   assert.ok(size < 5e6, `${size} bytes`);
-  assert.ok(ready_ms < 20_000 && fps > 3, "far from usable");
+  assert.ok(ready_ms < 20_000 && fps > 3, "too slow to use");
   assert.deepEqual(trouble, []);
   return page;
 }
@@ -327,7 +327,7 @@ test("the page of a city", { skip: !existsSync(berlin) && `${berlin} is not ther
   await measured(t, "berlin", folder);
 });
 
-test("live: a place and a heading are judged and flown, a pose is steered to", async (t) => {
+test("live: a state is checked and flown, and a pose is steered to", async (t) => {
   const server = await view(small);
   t.after(() => server.end());
   const { page, trouble } = await opened(t, server.address);
@@ -346,7 +346,7 @@ test("live: a place and a heading are judged and flown, a pose is steered to", a
   assert.match(await answer.innerText(), /^(proved: \w+|undecided)/);
   assert.match(await answer.innerText(), /flown: \w+/);
   assert.notEqual(await picture(page, "map-marks"), marks);
-  // The same by numbers: what is shown is what the certificate says.
+  // The same by numbers: the page shows what the certificate says.
   const states = [[20, 20, 45], [60, 20, 180], [100, 60, 270]];
   for (const [x, y, h] of states) {
     for (const [name, value] of [["x", x], ["y", y], ["h", h]]) await page.locator(`#live input[name=${name}]`).fill(String(value));
@@ -370,12 +370,12 @@ test("live: a place and a heading are judged and flown, a pose is steered to", a
     words.push((await answer.innerText()).split("\n")[0]);
   }
   assert.notEqual(words[0], words[1]);
-  // What is wrong is said in words.
+  // Errors are explained.
   await page.locator("#live input[name=to_x]").fill("-5000");
   await page.keyboard.press("Enter");
   await page.waitForFunction(() => /outside the plan/.test(document.querySelector("#live .answer").innerText));
   await page.getByRole("button", { name: "Fly from here" }).click();
-  // Outside the plan a state has left, as a query of the certificate says.
+  // Outside the plan a state has left, as in a query of the certificate.
   await page.locator("#live input[name=x]").fill("-5000");
   await page.keyboard.press("Enter");
   await page.waitForFunction(() => /proved: leave/.test(document.querySelector("#live .answer").innerText));

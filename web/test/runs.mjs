@@ -26,7 +26,7 @@ export function scenario({ map, scale_m, cell_m, goal, heading, undecided, rando
     `[verify]\nundecided_max = ${undecided}\n[simulate]\nrandom = ${random}\nsample = 200\n`;
 }
 
-/** The folder of a run, made anew. */
+/** The folder of a fresh run. */
 export function run(name, text, files = {}) {
   mkdirSync(WORK, { recursive: true });
   for (const [file, bytes] of Object.entries(files)) writeFileSync(join(WORK, file), bytes);
@@ -43,7 +43,7 @@ export function runScenario(file, name) {
 
 export function hasPage(folder) { return existsSync(join(folder, "report.html")); }
 
-/** What a page carries beside its arrays. */
+/** The record of a page. */
 export function recordOf(folder) {
   return JSON.parse(/id="record">(.*?)<\/script>/s.exec(readFileSync(join(folder, "report.html"), "utf8"))[1]);
 }
@@ -55,7 +55,7 @@ export function query(folder, states) {
   return text.trim().split("\n").slice(1).map((line) => line.split(",")[3]);
 }
 
-/** `fairway view` on a folder: its address, and how to end it. */
+/** `fairway view` on a folder: its address, and how to stop it. */
 export async function view(folder) {
   const server = spawn(FAIRWAY, ["--json", "view", folder], { stdio: ["ignore", "pipe", "inherit"] });
   let said = "";

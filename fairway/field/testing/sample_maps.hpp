@@ -15,7 +15,7 @@
 
 namespace fairway::samples {
 
-/// A grid of yes and no, [iy][ix].
+/// A grid of booleans, [iy][ix].
 struct Mask {
   int nx = 0;
   int ny = 0;
@@ -38,7 +38,7 @@ struct Mask {
   }
 };
 
-/// '#' is 1; the first line is the top row, as one reads it.
+/// '#' is 1; the first line is the top row.
 inline Mask drawn(const std::vector<std::string>& lines) {
   Mask out(static_cast<int>(lines.front().size()), static_cast<int>(lines.size()));
   for (int row = 0; row < out.ny; ++row) {
@@ -57,7 +57,7 @@ inline Mask speckled(Random& random, int nx, int ny, double density) {
   return out;
 }
 
-/// Discs of 1 of random places and radii, here and there cut by a thin wall.
+/// Discs of 1 at random places with random radii, some cut by a thin wall.
 inline Mask blobs(Random& random, int nx, int ny, int count, double largest_radius_cells) {
   Mask out(nx, ny);
   for (int k = 0; k < count; ++k) {
