@@ -247,13 +247,13 @@ class Help(Files):
     def test_a_word_that_is_no_command_is_told_what_it_may_have_meant(self):
         for words, told in ((("rn", "demo.toml"), "unknown command rn; did you mean run?"),
                             (("verfy",), "unknown command verfy; did you mean verify?"),
-                            (("demo.toml",), "demo.toml is no command; did you mean fairway run demo.toml?"),
+                            (("demo.toml",), "demo.toml is not a command; did you mean fairway run demo.toml?"),
                             ((".",), "did you mean fairway view .?"),
                             (("frobnicate",), "expected one of run, plan, simulate")):
             done = self.expect(64, *words)
             self.assertIn(told, done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1)
-        self.assertIn("fairway plan: not expected: b c", self.expect(64, "plan", "a", "-o", "x", "b", "c").stderr)
+        self.assertIn("fairway plan: unexpected argument: b c", self.expect(64, "plan", "a", "-o", "x", "b", "c").stderr)
 
     def test_run_says_what_it_leaves(self):
         told = self.expect(0, "run", "--help").stdout
