@@ -458,7 +458,7 @@ class Verify(Command):
         told = self.expect(0, "verify", "p.safetensors", "-o", "b", "--method", "bitmap",
                            "--border-samples", 20, "--pictures", "pictures").stdout
         self.assertIn("not a proof", told)
-        self.assertIn("The bitmap is b", told)
+        self.assertIn("Bitmap: b. Summary: ", told)
         self.assertEqual(sorted(os.listdir(self.folder / "pictures")),
                          ["sampled.png", "sampled.svg", "slices.png", "slices.svg"])
         summary = json.loads((self.folder / "b.summary.json").read_text())

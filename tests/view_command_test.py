@@ -119,8 +119,8 @@ class View(unittest.TestCase):
         self.assertIn("xdg-open could not be run", server.stderr.read())
 
     def test_what_is_not_the_folder_of_a_run_is_refused(self):
-        self.assertIn("is no folder", self.refused(65, "nowhere"))
-        self.assertIn("is no folder", self.refused(65, "s.toml"))
+        self.assertIn("is not a folder", self.refused(65, "nowhere"))
+        self.assertIn("is not a folder", self.refused(65, "s.toml"))
         self.assertIn("report.html", self.refused(65, "."))
         broken = self.folder / "broken"
         shutil.copytree(self.folder / "run", broken)
