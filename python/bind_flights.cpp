@@ -321,7 +321,7 @@ void bind_all_flights(py::module_& m) {
           later += one.onward.after == After::collide ? 1 : 0;
         }
         return fmt::format(
-            "<fairway.Flights: {}, {} reach{}, {} collide, {} leave, {} are trapped>",
+            "<fairway.Flights: {}, {} reach{}, {} collide, {} leave the map, {} get trapped>",
             f.starts.size(), all.of(Outcome::reach),
             later > 0 ? fmt::format(" ({} of them collide later)", later) : "",
             all.of(Outcome::collide), all.of(Outcome::leave), all.of(Outcome::trapped));

@@ -115,7 +115,7 @@ class Run(Command):
         self.assertIn("s-out/verdicts.svg", done.stdout)
         self.assertIn("s-out/summary.json", done.stdout)
         if absent:
-            self.assertIn("report.html was left out: ", done.stderr)
+            self.assertIn("report.html was not written: ", done.stderr)
         else:
             # Without a terminal no progress, but for a line now and then where it takes long.
             self.assertEqual(re.sub("(?m)^fairway: .* so far.*\n", "", done.stderr), "")

@@ -23,7 +23,7 @@ double share_of(const std::array<double, verdict_count>& volume, Verdict verdict
   return volume[static_cast<std::size_t>(verdict)];
 }
 
-/// What is said of states of this verdict.
+/// What the states of this verdict do.
 std::string done_by_states(Verdict verdict, const std::string& goal) {
   switch (verdict) {
     case Verdict::reach:
@@ -98,8 +98,8 @@ std::vector<Finding> findings(const Plan& plan, const Verification& v) {
 }
 
 std::vector<Finding> findings(const Plan& plan, const BitmapVerification& v) {
-  std::vector<Finding> found{{estimated_reach_text(v), all_states,
-                              "reach, estimated from border samples: nothing is proved"}};
+  std::vector<Finding> found{
+      {estimated_reach_text(v), all_states, "reach, estimated from border samples (not a proof)"}};
   for (Finding& finding : plan_findings(plan)) found.push_back(std::move(finding));
   return found;
 }

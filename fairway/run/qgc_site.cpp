@@ -79,8 +79,8 @@ std::string no_fence_warning(const PlanRecord& record, const std::string& option
   const std::optional<InputFile> input = map_plan_of(record);
   const std::string source =
       input ? " (that of the map, " + input->path + ", was not found)" : std::string();
-  return "the exported plan has no fence and no rally points, and its home altitude is 0: "
-         "uploading it replaces the vehicle's by none; " +
+  return "the exported plan has no fence or rally points, and its home altitude is 0: "
+         "uploading it deletes the vehicle's; " +
          option + " keeps those of a QGroundControl plan" + source;
 }
 

@@ -31,7 +31,7 @@ FieldOptions field_options_of(const PlanRecord& record, const std::string& where
   const json all = json::parse(record.options_json, nullptr, false);
   const auto plan = all.is_object() ? all.find("plan") : all.end();
   if (!all.is_object() || plan == all.end() || !plan->is_object()) {
-    throw InputError(where, "its record names no options: expected a plan made by fairway");
+    throw InputError(where, "its record names no options; expected a plan made by fairway");
   }
   Scenario scenario;
   const auto& keys = scenario_keys();

@@ -113,8 +113,9 @@ void write_run_pictures(const Plan& plan, const Mission& mission, const Scenario
       distances.push_back(path_distance_over_time(flight, speed_mps, *path, step_m, name));
     }
   }
-  ChartOptions chart{
-      .title = title, .x_label = "time, s", .y_label = "heading, degrees from east to the left"};
+  ChartOptions chart{.title = title,
+                     .x_label = "time, s",
+                     .y_label = "heading, degrees counter-clockwise from east"};
   write(draw_chart(headings, chart), folder, "headings");
   if (path == nullptr) return;
   distances.push_back(delta_line(distances, path->delta_position_m));

@@ -19,7 +19,7 @@ toml::table parsed(const ScenarioOverride& one) {
   const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
   if (std::any_of(one.value.begin(), one.value.end(), is_control)) {
     throw InputError(one.option,
-                     fmt::format("{}: holds a control character, expected a value", one.key));
+                     fmt::format("{}: contains a control character, expected a value", one.key));
   }
   try {
     return toml::parse("value = " + one.value);
