@@ -89,7 +89,7 @@ template <typename T>
 bool write_rows(GDALRasterBand& band, GDALDataType type, const Grid& grid,
                 std::span<const T> values) {
   for (int row = 0; row < grid.ny; ++row) {
-    // GDAL takes what it writes by a pointer that is not const.
+    // GDAL takes the data it writes through a non-const pointer.
     auto* cells = const_cast<T*>(values.data() + grid.index({0, grid.ny - 1 - row}));
     if (band.RasterIO(GF_Write, 0, row, grid.nx, 1, cells, grid.nx, 1, type, 0, 0, nullptr) !=
         CE_None) {

@@ -43,7 +43,7 @@ struct FollowingSummary {
     const ManyFlights& flown, std::span<const FlightResult> results,
     std::span<const FlightMeasures> measures);
 
-/// Members mean, p95, worst; null when there is nothing to tell.
+/// Members mean, p95, worst; null when there are no values.
 [[nodiscard]] nlohmann::json spread_json(const Spread& spread);
 [[nodiscard]] nlohmann::json turning_json(const TurningSummary& turning);
 /// null for none.

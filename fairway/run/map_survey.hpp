@@ -1,5 +1,5 @@
-// A map before any mission: how large it is, what of it is free and connected, and how much room
-// there is.
+// Describes a map before there is a mission: its size, its free and connected parts, and how much
+// room there is.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ struct MapSurvey {
 /// large cells. Throws InputError as read_map does.
 [[nodiscard]] double sensible_cell_m(MapRequest request, int across);
 
-/// With a radius, free is what its buffer leaves at the default alpha.
+/// With a radius, free cells are those outside its buffer at the default alpha.
 [[nodiscard]] MapSurvey survey_map(const MapRequest& request, std::optional<double> turn_radius_m);
 
 [[nodiscard]] std::string survey_words(const MapSurvey& survey, const std::string& name);

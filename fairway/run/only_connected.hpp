@@ -1,4 +1,4 @@
-// The part of a map that a mission is about: free ground that nothing joins to it is left out.
+// The part of a map that a mission is about: free ground that is not connected to it is left out.
 #pragma once
 
 #include <string>

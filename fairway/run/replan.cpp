@@ -18,8 +18,8 @@ namespace {
 
 using nlohmann::json;
 
-/// By the scenario's own reader, so that every key is known here that is known there. Numbers,
-/// texts and flags are spelt alike in JSON and TOML.
+/// Uses the scenario's own reader, so that both know the same keys. Numbers, strings and flags are
+/// written alike in JSON and TOML.
 void take(const ScenarioKey& key, const json& value, const std::string& where, Scenario& scenario) {
   const toml::table table = toml::parse("value = " + value.dump());
   key.take(TomlValue(*table.get("value"), {where}, "options." + key.name, key.range), scenario);

@@ -96,7 +96,7 @@ void write_run_pictures(const Plan& plan, const Mission& mission, const Scenario
         folder, "flights");
   write_final_legs(plan, mission, flown.recorded, title, folder);
 
-  // Charts of more than a few lines say nothing: those of the given states, else the first ones.
+  // Charts of many lines are unreadable: use those of the given states, else the first ones.
   constexpr std::size_t most_lines = 6;
   const std::size_t wanted = flown.given > 0 ? flown.given : 3;
   const std::size_t lines = std::min({wanted, most_lines, flown.recorded.size()});

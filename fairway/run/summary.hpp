@@ -1,4 +1,4 @@
-// What a run found, as JSON and in words.
+// The result of a run, as JSON and in words.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ struct RegionCells {
 /// "66 collide, 1 gets trapped": those that do not reach; empty when all do.
 [[nodiscard]] std::string failure_words(const OutcomeCounts& counts);
 
-/// What is to be reached: "goal", or "path".
+/// The word for what is to be reached: "goal" or "path".
 [[nodiscard]] const char* goal_word(const Plan& plan);
 
 /// Cells, regions, inputs, options, warnings: what plan and run have in common.

@@ -42,7 +42,7 @@ void ExactFlights::prefetch_ahead(const Position& position) const {
   }
 }
 
-/// Moves `position` from the exit into the next cell and answers what that is.
+/// Moves `position` from the exit into the next cell and returns its kind.
 ExactFlights::Kind ExactFlights::enter_next(Position& position, const CellExit& exit) const {
   const double d = grid_.cell_m;
   position.state = exit.state;
