@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Nothing of anybody is lost: outputs that are inputs, runs at the same time, runs that were ended.
+"""No file is lost: outputs that are inputs, simultaneous runs, interrupted runs.
 
 Usage: files_command_test.py FAIRWAY [unittest arguments]
 """
@@ -67,7 +67,7 @@ class Files(unittest.TestCase):
         return {p.name: p.read_bytes() for p in self.folder.iterdir() if p.is_file()}
 
     def whole(self, folder):
-        """A run's folder is one set: every product is the one that summary.json speaks of."""
+        """A run's folder is one set: every product is the one listed in summary.json."""
         summary = json.loads((folder / "summary.json").read_text())
         for name, digest in summary["products"].items():
             self.assertEqual(hashlib.sha256((folder / name).read_bytes()).hexdigest(), digest, name)
@@ -116,7 +116,7 @@ class Inputs(Files):
                 with self.subTest(words=words, force=force):
                     self.assertIn("is an input", self.expect(65, *words, *force).stderr)
                     self.assertEqual(self.content(), before)
-        # What only the map's file names is known once that is read.
+        # Files that only the map file names are known once it is read.
         self.assertIn("is an input", self.expect(65, "plan", "ros.toml", "-o", "map.pgm", "--force").stderr)
         self.assertEqual(self.content(), before)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`fairway view` as a user meets it: it says where it is, ends with Ctrl-C, and what it refuses.
+"""`fairway view` as a user sees it: it prints its address, ends with Ctrl-C, and rejects bad folders.
 
 Usage: view_command_test.py FAIRWAY [unittest arguments]
 """

@@ -26,9 +26,7 @@ void declare_map(CLI::App& options, MapArguments& a) {
       .add_option("--turn-radius", a.turn_radius_m, "the vehicle's minimum turning radius, metres")
       ->type_name("R")
       ->check(finite_above(0.0));
-  options
-      .add_option("--resolution", a.resolution_m,
-                  "metres per pixel, for maps without a scale of their own")
+  options.add_option("--resolution", a.resolution_m, "metres per pixel, for maps without a scale")
       ->type_name("M")
       ->check(finite_above(0.0));
   options.add_option("--altitude", a.altitude_m, "flight altitude on elevation maps, metres")

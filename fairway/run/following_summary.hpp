@@ -1,4 +1,5 @@
-// What flights measure beside their outcomes: turning, and how those along a path keep to it.
+// Measures of flights in addition to their outcomes: turning, and how closely those along a path
+// keep to it.
 #pragma once
 
 #include <optional>

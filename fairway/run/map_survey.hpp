@@ -18,7 +18,7 @@ namespace fairway {
 
 struct MapSurvey {
   ObstacleMap map;
-  Grid inside;  ///< its grid without the ring of obstacles that stands for the world outside
+  Grid inside;  ///< its grid without the ring of obstacles that represents the world outside
   std::size_t free_cells = 0;           ///< no obstacle; with a radius, no buffer either
   std::vector<std::size_t> part_cells;  ///< of their connected parts, the largest first
   double clearance_m = 0.0;             ///< the largest; +inf without obstacles

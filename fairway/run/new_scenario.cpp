@@ -28,7 +28,7 @@ struct Candidate {
   double turn_radius_m = 0.0;
   GoalPlace goal;
   Frame frame;
-  double share = 0.0;  ///< of the cells that are no obstacle: free, and in the goal's part
+  double share = 0.0;  ///< of the cells that are not obstacles: free, and in the goal's part
 };
 
 double two_digits(double value) { return std::stod(fmt::format("{:.2g}", value)); }

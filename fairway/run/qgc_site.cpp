@@ -49,7 +49,7 @@ QgcSite qgc_site_of(const fs::path& file) {
     throw InputError(file.string(), "is not a QGroundControl plan, expected JSON");
   }
   const json plan = parse_json(source);
-  (void)read_qgc_plan(source, plan);  // refuses what is no fence
+  (void)read_qgc_plan(source, plan);  // rejects what is not a fence
   QgcSite site;
   if (plan.contains("geoFence") && plan["geoFence"].is_object()) {
     site.fence_json = text_of(plan["geoFence"]);

@@ -24,7 +24,7 @@ namespace {
 
 constexpr double step_radii = 0.01;  // of a track along a shortest path
 constexpr double tie_radii = 0.02;
-constexpr double most_points = 10'000.0;  // of a leg along a shortest path, beside its joins
+constexpr double most_points = 10'000.0;  // of a leg along a shortest path, besides its joins
 
 void add_shortest_track(SteeredLeg& leg, const DubinsPath& path) {
   const double length_m = path.length_m();

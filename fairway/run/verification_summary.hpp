@@ -1,4 +1,4 @@
-// What a verification found, as JSON and in words.
+// The result of a verification, as JSON and in words.
 #pragma once
 
 #include <array>

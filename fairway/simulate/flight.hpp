@@ -129,7 +129,7 @@ inline State state_at(const FlightSegment& piece, double along_m) {
   return {p + chord_m * middle, Heading::from_rad(piece.start.heading.rad() + turned)};
 }
 
-/// How a flight that reached goes on, where the goal has a heading.
+/// How a flight that reached continues, if the goal has a heading.
 enum class FinalLegState : std::uint8_t {
   not_asked,  ///< the goal has no heading, or the flight does not reach
   shortest,   ///< by the shortest path, which touches no obstacle

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr double least_turn = 1e-6;  // of the tightest: a control law's rounding is no turn
+constexpr double least_turn = 1e-6;  // of the tightest: a control law's rounding is not a turn
 
 bool not_negative(double value) { return value >= 0.0 && std::isfinite(value); }
 

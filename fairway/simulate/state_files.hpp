@@ -26,7 +26,7 @@ using StateFromEarth = std::function<State(const EarthState& state, const std::s
 [[nodiscard]] std::vector<State> read_states(const std::filesystem::path& path,
                                              const StateFromEarth& from_earth = {});
 
-/// The same for a text in memory; `where` stands for the file's name in errors.
+/// The same for a text in memory; `where` is used as the file's name in errors.
 [[nodiscard]] std::vector<State> states_of_csv(std::string_view text, const std::string& where,
                                                const StateFromEarth& from_earth = {});
 
