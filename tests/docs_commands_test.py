@@ -3,16 +3,16 @@
 
 Usage: docs_commands_test.py SOURCE PROGRAM [unittest arguments]
 
-- A fenced block ```console is run, line by line, those that begin with "$ "; "> " continues one. What
-  follows is its output: `...` stands for anything in a line, a line of `...` for any lines. Without
-  output in the page, anything may be printed. A command must end with 0, unless the next asks with
-  `echo $?`. A page is typed from top to bottom into one shell, in a folder of its own that has
-  `demo/`; README into a fresh copy of the sources, built already and with nothing on the PATH.
-- A block with title="NAME" is a file NAME in that folder; one whose NAME begins with tests/ is that
-  file of the sources, to the letter.
-- A block with title="Not run by the tests: REASON" is not run; nor is any other block, but its
+- In a fenced block ```console, lines that begin with "$ " are run; "> " continues a command. Its
+  output follows: `...` matches anything in a line, a line of `...` any lines. If the page shows no
+  output, anything may be printed. A command must exit with 0, unless the next one is `echo $?`. A
+  page is run from top to bottom in one shell, in its own folder with `demo/`; README in a fresh copy
+  of the sources, already built and with nothing on the PATH.
+- A block with title="NAME" is a file NAME in that folder; if NAME begins with tests/, it must equal
+  that file of the sources exactly.
+- A block with title="Not run by the tests: REASON" is not run, nor is any other block; but its
   commands, and those in `code` within sentences, must exist, with every option they are given.
-- Every link of README, CHANGELOG and the like and of docs/ to a file leads to one, and to a heading that is there.
+- Every link to a file, from README, CHANGELOG and the like and from docs/, leads to an existing file and heading.
 """
 import os
 import pathlib
