@@ -1,4 +1,4 @@
-// bitmap: paper 2's samples of borders, a picture that can be asked.
+// bitmap: paper 2's samples of borders, a picture that can be queried.
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -133,23 +133,23 @@ void bind_bitmap(py::module_& m) {
   codes.emplace_back("reach", static_cast<int>(Sampled::reach));
   codes.emplace_back("other", static_cast<int>(Sampled::other));
   add_enum(m, "Sampled",
-           "What a bitmap's samples say of a state: that they reach, that they do not, or that "
-           "they disagree. Not a verdict.",
+           "What a bitmap's samples show for a state: they reach, they do not, or they disagree. "
+           "Not a verdict.",
            codes);
 
   py::class_<HeldBitmap, std::shared_ptr<HeldBitmap>>(
       m, "Bitmap",
       "Paper 2's backward reachable set of a plan, on samples of every border: a picture that can "
-      "be asked, not a proof. See docs/verification.md.")
+      "be queried, not a proof. See docs/verification.md.")
       .def("query", &query, "states"_a,
-           R"(What the samples say of states, in about a tenth of a microsecond each.
+           R"(Looks up states in the samples, in about a tenth of a microsecond each.
 
 states  float64 [n, 3]: x_m, y_m, heading_rad
 
-Returns int8 [n], codes of Sampled, from the samples about the state in which the flight
+Returns int8 [n], codes of Sampled, from the samples around the state in which the flight
 first meets a border.)")
       .def("reach_map", &reach_map, "heading_rad"_a,
-           R"(What the samples say of the vehicle near every cell's middle for one heading.
+           R"(What the samples show for a vehicle near every cell's middle, for one heading.
 
 Returns int8 [ny, nx], the lowest row first, codes of Sampled; REACH in the region, OTHER in
 an obstacle. The states are those of Certificate.verdict_map.)")
@@ -165,13 +165,13 @@ from east) and place (the middles of equal pieces, upwards or to the right): 1 r
                              "(docs/formats.md); a read-only view.")
       .def_property_readonly(
           "samples", [](const HeldBitmap& held) { return held.bitmap.set.samples; },
-          "Places, and headings, sampled on each border.")
+          "Number of places and of headings sampled on each border.")
       .def_property_readonly(
           "summary",
           [](const HeldBitmap& held) {
             return python_of(nlohmann::json::parse(record_text(held.bitmap)));
           },
-          "All that is recorded of it, a dict (docs/formats.md): the estimated share that reaches, "
+          "Its full record, a dict (docs/formats.md): the estimated share that reaches, "
           "options, digests of the plan.")
       .def_property_readonly(
           "shape",
@@ -193,7 +193,7 @@ from east) and place (the middles of equal pieces, upwards or to the right): 1 r
           "(x low, x high, y low, y high), metres: matplotlib's `extent`, with origin=\"lower\".")
       .def("picture", &picture, py::kw_only(), "headings"_a = ReachabilityMapOptions{}.headings,
            "title"_a = "",
-           "A Picture with a panel for each of so many headings: paper 2's reachability map, "
+           "A Picture with one panel for each of `headings` headings: paper 2's reachability map, "
            "Fig. 23a, in slices.")
       .def("shares_picture", &shares_picture, py::kw_only(), "title"_a = "",
            "A Picture of the shares of headings that reach, that do not, and about which samples "
@@ -205,12 +205,12 @@ from east) and place (the middles of equal pieces, upwards or to the right): 1 r
             write_bitmap(held.bitmap, path, force ? Existing::replace : Existing::keep);
           },
           "path"_a, py::kw_only(), "force"_a = false,
-          "Writes a bitmap file (safetensors), whole or not at all. One that is there is kept "
-          "unless `force`: then ValueError.")
+          "Writes a bitmap file (safetensors), whole or not at all. Raises ValueError if the file "
+          "exists, unless `force`.")
       .def("save_geotiff", &save_geotiff, "path"_a, "headings_rad"_a = py::none(), py::kw_only(),
            "force"_a = false,
            "reach_map() of each heading (default: eight, evenly spaced) as the bands of a GeoTIFF, "
-           "laid on Earth where the map was (docs/exchange.md).")
+           "georeferenced if the map was (docs/exchange.md).")
       .def("__repr__", [](const HeldBitmap& held) {
         return fmt::format("<fairway.Bitmap: {}, {} samples a border>",
                            words_of(held.bitmap.grid()), held.bitmap.set.samples);
@@ -220,9 +220,9 @@ from east) and place (the middles of equal pieces, upwards or to the right): 1 r
         "samples"_a = usual_border_samples, "seed"_a = 1,
         R"(Paper 2's method: which samples of the borders of `plan` reach a region.
 
-region   what is to be reached, as for verify()
-samples  places, and headings, on each border: a multiple of four
-seed     of the states that measure the share that reaches
+region   region to be reached, as for verify()
+samples  number of places and of headings on each border, a multiple of four
+seed     random seed for the states that measure the share that reaches
 
 Returns a Bitmap. Raises ValueError when the plan's cells are not smaller than its turning
 radius.)");

@@ -38,7 +38,7 @@ struct CellOfPlan {
 };
 
 CellOfPlan cell_of(const Plan& plan, int ix, int iy, double along_m) {
-  if (!plan.grid.contains({ix, iy})) throw py::index_error("ix, iy: no cell of the plan");
+  if (!plan.grid.contains({ix, iy})) throw py::index_error("ix, iy: not a cell of the plan");
   if (!(along_m >= 0.0 && along_m <= plan.grid.cell_m)) {
     throw py::value_error("along_m: expected 0 to cell_m");
   }
@@ -81,7 +81,7 @@ entry, exit  "right", "top", "left" or "bottom"
 along_m      the place, 0 to cell_m, upwards or to the right
 
 Returns float64 [n, 2], ranges of headings from, to, radians, counter-clockwise from the first
-to the second: those with which a vehicle that came in anywhere on `entry` can leave there. Up
+to the second: those with which a vehicle that entered anywhere on `entry` can leave there. Up
 to three; a range may be a single heading, the command.)");
 }
 

@@ -1,4 +1,4 @@
-// certificate: what was proved, and asking it.
+// certificate: what was proved, and queries.
 #include "bind_certificate.hpp"
 
 #include <cmath>
@@ -65,7 +65,7 @@ nlohmann::json record_of(const HeldCertificate& held) {
   return nlohmann::json::parse(record_text(held.certificate));
 }
 
-/// One member of the record as a dict; None when a file of other origin lacks it.
+/// One member of the record as a dict; None if a file written by another program lacks it.
 py::object member_of(const HeldCertificate& held, const char* name) {
   const nlohmann::json record = record_of(held);
   return record.contains(name) ? python_of(record[name]) : py::none();
@@ -144,19 +144,19 @@ py::object check(const std::filesystem::path& path, const py::object& plan) {
 void bind_certificate(py::module_& m) {
   std::vector<std::pair<const char*, int>> codes;
   for (int v = 0; v < verdict_count; ++v) codes.emplace_back(name_of(static_cast<Verdict>(v)), v);
-  add_enum(m, "Verdict", "What is proved of a state, as Certificate.query has it.", codes);
+  add_enum(m, "Verdict", "What is proved about a state, as returned by Certificate.query.", codes);
 
   py::class_<HeldCertificate, std::shared_ptr<HeldCertificate>>(
       m, "Certificate",
-      "What was proved of a plan: a verdict for every place and heading. docs/trust.md says what "
-      "that rests on; fairway.check has a separate program prove it again.")
+      "What was proved about a plan: a verdict for every place and heading. docs/trust.md explains "
+      "why it can be trusted; fairway.check proves it again with a separate program.")
       .def("query", &query, "states"_a,
-           R"(What is proved of states, in about a microsecond each.
+           R"(Looks up the proved verdicts of states, in about a microsecond each.
 
 states  float64 [n, 3]: x_m, y_m, heading_rad
 
-Returns (verdict int8 [n], time_bound_s float64 [n]): codes of Verdict; seconds within
-which a state that reaches does, else +inf.)")
+Returns (verdict int8 [n], time_bound_s float64 [n]): codes of Verdict; a bound in seconds
+for states that reach, else +inf.)")
       .def(
           "command",
           [](const HeldCertificate& held, double x_m, double y_m, double heading_rad) {
@@ -178,18 +178,18 @@ which a state that reaches does, else +inf.)")
           },
           "states"_a, "As Plan.states_to_deg.")
       .def("verdict_map", &verdict_map, "heading_rad"_a,
-           R"(The verdict of the vehicle near every cell's middle for one heading.
+           R"(The verdict of a vehicle near every cell's middle, for one heading.
 
 Returns int8 [ny, nx], the lowest row first, codes of Verdict; collide in an obstacle, reach in
-the goal. The states are cell_m / 37 and cell_m / 53 beside the middle and 0.0005 rad beside the
-heading: exactly in the middle, flights meet ties that have no volume.)")
+the goal. The states are cell_m / 37 and cell_m / 53 off the middle and 0.0005 rad off the heading,
+because flights from the exact middle meet ties that have no volume.)")
       .def(
           "failing_states", &failing, "of_each"_a = 100, "seed"_a = 1,
           R"(Sampled states that do not reach: from safe starts with a command first, then from buffer
 cells, last from cells that are cut off, each with at most `of_each` of every other verdict.
 
-Returns (states float64 [n, 3], verdict int8 [n]); of each kind of cell failures first, undecided
-states last: for Plan.fly and a look at its tracks.)")
+Returns (states float64 [n, 3], verdict int8 [n]); for each kind of cell failures first, undecided
+states last. Fly them with Plan.fly to see why they fail.)")
       .def_property_readonly(
           "volume_fraction",
           [](const HeldCertificate& held) { return member_of(held, "volume_fraction"); },
@@ -197,14 +197,14 @@ states last: for Plan.fly and a look at its tracks.)")
       .def_property_readonly(
           "volume_fraction_free",
           [](const HeldCertificate& held) { return member_of(held, "volume_fraction_free"); },
-          "The same of the safe-start cells alone.")
+          "The same for safe starts only.")
       .def_property_readonly(
           "summary", [](const HeldCertificate& held) { return python_of(record_of(held)); },
-          "All that is recorded of the proof, a dict (docs/formats.md): shares, options, levels, "
-          "why the work ended, digests of the plan.")
+          "The full record of the proof, a dict (docs/formats.md): shares, options, levels, "
+          "why it stopped, digests of the plan.")
       .def_property_readonly(
           "leaves", [](const HeldCertificate& held) { return held.certificate.sections.leaves(); },
-          "How many pieces the proof has.")
+          "Number of leaves of the proof.")
       .def_property_readonly(
           "shape",
           [](const HeldCertificate& held) {
@@ -225,7 +225,7 @@ states last: for Plan.fly and a look at its tracks.)")
           "(x low, x high, y low, y high), metres: matplotlib's `extent`, with origin=\"lower\".")
       .def("picture", &picture, py::kw_only(), "headings"_a = VerdictMapOptions{}.headings,
            "title"_a = "",
-           "A Picture with a panel for each of so many headings: what is proved where.")
+           "A Picture of the verdicts, with one panel for each of `headings` headings.")
       .def("shares_picture", &shares_picture, py::kw_only(), "title"_a = "",
            "A Picture of the shares of headings proved to reach, to fail, and undecided, per cell.")
       .def(
@@ -235,12 +235,13 @@ states last: for Plan.fly and a look at its tracks.)")
             write_certificate(held.certificate, path, force ? Existing::replace : Existing::keep);
           },
           "path"_a, py::kw_only(), "force"_a = true,
-          "Writes a certificate file (safetensors), whole or not at all. One that is there is "
-          "replaced; with force=False it is kept: InputError.")
+          "Writes a certificate file (safetensors), whole or not at all. Replaces an existing "
+          "file; "
+          "with force=False raises InputError instead.")
       .def("save_geotiff", &save_geotiff, "path"_a, "headings_rad"_a = py::none(), py::kw_only(),
            "force"_a = true,
            "verdict_map() of each heading (default: eight, evenly spaced) as the bands of a "
-           "GeoTIFF, laid on Earth where the map was (docs/exchange.md).")
+           "GeoTIFF, georeferenced if the map was (docs/exchange.md).")
       .def("_repr_png_",
            [](const HeldCertificate& held) {
              return py::bytes(picture(held, VerdictMapOptions{}.headings, "").png);
@@ -257,16 +258,16 @@ states last: for Plan.fly and a look at its tracks.)")
         return std::make_shared<HeldCertificate>(HeldCertificate{read_certificate(path)});
       },
       "path"_a,
-      "Reads a certificate file and checks its digests; it proves nothing, see check(). Raises "
+      "Reads a certificate file and checks its digests, not its proof; see check(). Raises "
       "InputError (a ValueError).");
 
   m.def("check", &check, "path"_a, "plan"_a = py::none(),
-        R"(Has the separate program fairway-check prove a certificate file again.
+        R"(Proves a certificate file again with the separate program fairway-check.
 
-plan  path of the plan file that it must be the certificate of
+plan  path of the plan file that the certificate must belong to
 
-Returns what it reports, a dict: "accepted" is True or False, "reason" says why not. Raises
-ValueError for what is no certificate, RuntimeError when the program is not on the PATH.)");
+Returns its report, a dict: "accepted" is True or False, "reason" says why not. Raises ValueError
+for a file that is not a certificate, RuntimeError if the program cannot be run.)");
 }
 
 }  // namespace fairway::python

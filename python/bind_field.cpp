@@ -19,11 +19,12 @@ ObstacleMap map_of(const py::object& obstacles, std::optional<double> cell_m,
                    const py::object& origin_m) {
   if (py::isinstance<ObstacleMap>(obstacles)) {
     if (cell_m || !origin_m.is_none()) {
-      throw py::value_error("cell_m, origin_m: an ObstacleMap has its own");
+      throw py::value_error(
+          "cell_m, origin_m: cannot be given with an ObstacleMap, which has its own");
     }
     return obstacles.cast<const ObstacleMap&>();
   }
-  if (!cell_m) throw py::type_error("cell_m: is missing, the side of a cell in metres");
+  if (!cell_m) throw py::type_error("cell_m: is missing; expected the side of a cell in metres");
   return obstacles_of(obstacles, *cell_m,
                       origin_m.is_none() ? Vec2{} : point_of(origin_m, "origin_m"));
 }
@@ -92,8 +93,8 @@ void bind_field(py::module_& m) {
         "axis_capture_rad"_a = d.axis_capture_rad,
         R"(Computes the feedback plan for a map in memory.
 
-obstacles         bool or uint8 (0 free, 1 obstacle), [ny, nx], the lowest row first: images have
-                  their rows the other way round, use image[::-1]; or an ObstacleMap
+obstacles         bool or uint8 (0 free, 1 obstacle), [ny, nx], the lowest row first (images have
+                  their rows the other way round: use image[::-1]); or an ObstacleMap
 cell_m            side of a cell, metres
 origin_m          (x, y) of the lower left corner, metres; default (0, 0)
 speed_mps         constant speed, metres per second
@@ -102,7 +103,7 @@ goal_m            (x, y) of the place to reach, metres; or
 path_m            [n, 2], the path to follow, metres; closed=True joins its ends
 goal_heading_rad  heading to arrive with, radians counter-clockwise from east
 
-Beyond the array the vehicle has left the grid; add a rim of obstacles to make that a collision.
+Beyond the array the vehicle has left the map; add a rim of obstacles to make that a collision.
 The other keywords are the keys of a scenario's [plan] and [mission] tables (docs/scenario.md).
 
 Returns a Plan. Raises MissionRefused when the map does not allow the mission, ValueError when a

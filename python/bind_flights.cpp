@@ -1,4 +1,4 @@
-// simulate: what became of flights, their tracks, measures and files.
+// simulate: the results of flights, their tracks, measures and files.
 #include "bind_flights.hpp"
 
 #include <cstddef>
@@ -124,7 +124,8 @@ void save_mission(const Flights& flights, py::ssize_t i, const std::filesystem::
   }
   const bool keeps_site = path.extension() == ".plan";
   if (fence && !keeps_site) {
-    throw py::value_error("fence: goes with a .plan: no other mission has a fence");
+    throw py::value_error(
+        "fence: needs a path that ends in .plan: other mission formats have no fence");
   }
   const std::size_t place = place_in(flights, i);
   std::vector<std::string> warnings;
@@ -133,7 +134,7 @@ void save_mission(const Flights& flights, py::ssize_t i, const std::filesystem::
     const Plan& plan = flights.plan->plan;
     const LonLatOf lon_lat = lon_lat_of(frame_in(plan.record), record_name);
     require(static_cast<bool>(lon_lat),
-            "the plan's map is not georeferenced: there is no latitude and longitude to fly to");
+            "the plan's map is not georeferenced, so waypoints have no latitude and longitude");
     std::optional<QgcSite> site;
     if (keeps_site) site = fence ? qgc_site_of(*fence) : qgc_site_of(plan.record, ".");
     const std::vector<Flight> flown = flights.recorded(place, 1);
@@ -215,7 +216,7 @@ void add_measures(FlightsClass& flights) {
                       "float64 [n]: left and right turns added up, radians, in `flown_m`.");
   add_measure<std::int8_t>(
       flights, "after", &M::onward, &Onward::after,
-      "int8 [n]: codes of After: what came after reaching, of flights that were followed.");
+      "int8 [n]: codes of After: what happened after reaching, for flights that were followed.");
   add_measure<double>(
       flights, "after_s", &M::onward, &Onward::time_s,
       "float64 [n]: seconds to where the flight was followed to, or ended; 0 for After.NONE.");
@@ -238,7 +239,7 @@ void add_measures(FlightsClass& flights) {
 void bind_all_flights(py::module_& m) {
   FlightsClass flights(
       m, "Flights",
-      "What became of many flights; [i] belongs to start [i]. Arrays are read-only "
+      "The results of many flights; [i] belongs to start [i]. Arrays are read-only "
       "views. A simulation is evidence, never a verdict.");
   add_measures(flights);
   flights
@@ -248,7 +249,7 @@ void bind_all_flights(py::module_& m) {
             const auto& f = self.cast<const Flights&>();
             return column<std::int8_t>(self, f.results, &FlightResult::outcome);
           },
-          "int8 [n]: codes of Outcome, the numbers that Verdict has for the same.")
+          "int8 [n]: codes of Outcome, which are the same numbers as in Verdict.")
       .def_property_readonly(
           "time_s",
           [](const py::object& self) {
@@ -272,15 +273,15 @@ void bind_all_flights(py::module_& m) {
           "float64 [n, 3]: x_m, y_m, heading_rad, the heading in (-pi, pi].")
       .def_property_readonly(
           "summary", &summary,
-          "A dict of what is measured: `turning` and, when followed, `following`; as in "
+          "A dict of the measures: `turning` and, if followed, `following`; as in "
           "summary.json (docs/formats.md).")
-      .def_property_readonly("counts", &counts, "How many flights ended how, a dict by name.")
-      .def("trajectory", &trajectory, "i"_a, py::kw_only(), "step_m"_a = py::none(),
-           "The track of flight `i`, with points at most `step_m` metres apart (default: a cell); "
-           "where "
-           "the goal has a heading, the last leg to it is in it.")
+      .def_property_readonly("counts", &counts, "Number of flights by outcome, a dict.")
+      .def(
+          "trajectory", &trajectory, "i"_a, py::kw_only(), "step_m"_a = py::none(),
+          "The track of flight `i`, with points at most `step_m` metres apart (default: one cell), "
+          "including the last leg if the goal has a heading.")
       .def("picture", &picture, py::kw_only(), "title"_a = "", "most"_a = 200,
-           "The first `most` flights over the plan, a Picture.")
+           "A Picture of the first `most` flights over the plan.")
       .def(
           "save_outcomes",
           [](const Flights& f, const std::filesystem::path& path, bool force) {
@@ -300,18 +301,19 @@ void bind_all_flights(py::module_& m) {
           [](const Flights& f, const std::filesystem::path& path, std::optional<double> step_m,
              bool force) { save(f, path, Text::geojson, step_m, force); },
           "path"_a, py::kw_only(), "step_m"_a = py::none(), "force"_a = true,
-          "The tracks as GeoJSON: longitude and latitude when the map had a place on Earth, else "
+          "The tracks as GeoJSON: longitude and latitude if the map is georeferenced, else "
           "metres and a note that says so.")
-      .def("save_mission", &save_mission, "i"_a, "path"_a, py::kw_only(),
-           "altitude_m"_a = QgcMissionOptions{}.altitude_m,
-           "tolerance_m"_a = QgcMissionOptions{}.tolerance_m, "fence"_a = py::none(),
-           "force"_a = true,
-           "Flight `i` as a mission: .plan for QGroundControl, .waypoints or .txt for QGC WPL 110; "
-           "`altitude_m` above its start, its line within `tolerance_m` of the flight, metres. "
-           "`fence`: a .plan whose fence, rally points and home altitude the written .plan keeps "
-           "(default: the one the map was read from). Warns when there is none, for uploading the "
-           ".plan replaces the vehicle's, and of a flight that does not end well. "
-           "ValueError when the plan's map is not georeferenced.")
+      .def(
+          "save_mission", &save_mission, "i"_a, "path"_a, py::kw_only(),
+          "altitude_m"_a = QgcMissionOptions{}.altitude_m,
+          "tolerance_m"_a = QgcMissionOptions{}.tolerance_m, "fence"_a = py::none(),
+          "force"_a = true,
+          "Flight `i` as a mission: .plan for QGroundControl, .waypoints or .txt for QGC WPL 110; "
+          "`altitude_m` above its start, its line within `tolerance_m` of the flight, metres. "
+          "`fence`: a .plan whose fence, rally points and home altitude the written .plan keeps "
+          "(default: the one the map was read from). Warns if there is none, because uploading the "
+          ".plan replaces the vehicle's, and if the flight does not end well. "
+          "Raises ValueError if the plan's map is not georeferenced.")
       .def("_repr_png_", [](const Flights& f) { return py::bytes(picture(f, "", 200).png); })
       .def("__len__", [](const Flights& f) { return f.starts.size(); })
       .def("__repr__", [](const Flights& f) {
@@ -321,7 +323,7 @@ void bind_all_flights(py::module_& m) {
           later += one.onward.after == After::collide ? 1 : 0;
         }
         return fmt::format(
-            "<fairway.Flights: {}, {} reach{}, {} collide, {} leave, {} are trapped>",
+            "<fairway.Flights: {}, {} reach{}, {} collide, {} leave the map, {} get trapped>",
             f.starts.size(), all.of(Outcome::reach),
             later > 0 ? fmt::format(" ({} of them collide later)", later) : "",
             all.of(Outcome::collide), all.of(Outcome::leave), all.of(Outcome::trapped));

@@ -96,7 +96,7 @@ void bind_map(py::module_& m) {
           "WKT of a projected map's reference system, or None.")
       .def_property_readonly(
           "warnings", [](const ObstacleMap& map) { return map.warnings; },
-          "What the user should know, one sentence each.")
+          "Warnings, one sentence each.")
       .def("__repr__", [](const ObstacleMap& map) {
         return fmt::format("<fairway.ObstacleMap: {}, {} of them obstacles>", words_of(map.grid),
                            obstacle_cells(map));

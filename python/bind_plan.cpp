@@ -96,7 +96,7 @@ void bind_plan(py::module_& m) {
             return states_from_degrees(frame_in(p.plan.record), rows);
           },
           "states_deg"_a,
-          R"(States in degrees as the states that fly and query take.
+          R"(Converts states in degrees to the states that fly and query take.
 
 states_deg  [n, 3]: latitude, longitude, and the course over ground, clockwise from true north
 
@@ -108,7 +108,7 @@ georeferenced.)")
             return degrees_from_states(frame_in(p.plan.record), rows);
           },
           "states"_a,
-          "The way back: float64 [n, 3], latitude, longitude and course in [0, 360), of states "
+          "The inverse: float64 [n, 3], latitude, longitude and course in [0, 360), of states "
           "x_m, y_m, heading_rad.")
       .def("__repr__", [](const HeldPlan& p) {
         return fmt::format("<fairway.Plan: {}, {:g} m/s, turning radius {:g} m>",

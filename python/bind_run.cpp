@@ -102,34 +102,35 @@ void bind_run(py::module_& m) {
         return fmt::format("<fairway.Scenario: {}>", s.file.string());
       });
 
-  py::class_<RunResult>(m, "RunResult", "What a run found; every product is in its folder.")
+  py::class_<RunResult>(m, "RunResult", "The result of a run; all products are in its folder.")
       .def_property_readonly(
           "summary", [](const RunResult& r) { return python_of(r.summary); },
           "What summary.json holds, a dict (docs/formats.md).")
       .def_property_readonly(
-          "paragraph", [](const RunResult& r) { return r.paragraph; }, "What came out, in words.")
+          "paragraph", [](const RunResult& r) { return r.paragraph; }, "The result in words.")
       .def_property_readonly(
           "warnings", [](const RunResult& r) { return r.warnings; },
-          "What should not be missed: of the map, of free cells that are cut off, of flights that "
-          "fail, of a proof that a limit ended.")
+          "Warnings about the map, free cells that are cut off, flights that fail, and a proof "
+          "stopped by a limit.")
       .def("__repr__", [](const RunResult& r) { return r.paragraph; });
 
   m.def("plan", &plan, "scenario"_a, "progress"_a = py::none(),
         R"(map -> field -> plan, in memory.
 
 progress  called as progress(stage, left_s) in the calling thread; left_s: seconds, None when
-          unknown. What it raises ends the work, and so does Ctrl-C, at the next call.
+          unknown. An exception it raises, or Ctrl-C, stops the work at the next call.
 
 Raises InputError (a ValueError) for bad input, MissionRefused when the goal cannot be reached.)");
   m.def("run", &run_whole, "scenario"_a, "dir"_a, py::kw_only(), "force"_a = true,
         "progress"_a = py::none(),
-        R"(The main job: map, plan, flights, verdicts, check, pictures, all into the folder `dir`.
+        R"(The main job: plans, flies, proves, checks and draws a scenario, into the folder `dir`.
 
-The folder appears whole or not at all. Products of an earlier run in it are replaced, and nothing
-else; with force=False a folder with files in it is kept: InputError.
+The folder appears whole or not at all. Only the products of an earlier run in it are replaced;
+with force=False a folder with files in it is kept and InputError is raised.
 progress: as in plan(). Returns a RunResult; raises as plan() does.)");
-  m.def("limit_threads", &limit_threads, "n"_a,
-        "Bounds the threads of all that follows; None: all cores. Results never depend on it.");
+  m.def(
+      "limit_threads", &limit_threads, "n"_a,
+      "Limits the number of threads of later calls; None: all cores. Results never depend on it.");
 }
 
 }  // namespace fairway::python

@@ -35,7 +35,7 @@ void fly_all(Flights& flights) {
 std::optional<FollowFor> follow_of(const HeldPlan& plan, std::optional<double> laps,
                                    std::optional<double> follow_s) {
   if (!laps && !follow_s) return {};
-  if (laps && follow_s) throw py::value_error("laps, follow_s: expected one of them");
+  if (laps && follow_s) throw py::value_error("laps, follow_s: expected only one of them");
   const double value = laps ? *laps : *follow_s;
   const char* name = laps ? "laps" : "follow_s";
   if (!(value > 0.0) || value > 1e9) {
@@ -135,13 +135,13 @@ void bind_simulate(py::module_& m) {
   for (const Outcome o : outcomes_in_order) {
     codes.emplace_back(name_of(o), static_cast<int>(o));
   }
-  add_enum(m, "Outcome", "What ends a flight, as Flights.outcome has it; numbered as Verdict.",
+  add_enum(m, "Outcome", "What ends a flight, as in Flights.outcome; numbered like Verdict.",
            codes);
   std::vector<std::pair<const char*, int>> after_codes{{"none", static_cast<int>(After::none)}};
   for (const After after : afters_in_order) {
     after_codes.emplace_back(name_of(after), static_cast<int>(after));
   }
-  add_enum(m, "After", "What came after reaching, of flights that were followed along a path.",
+  add_enum(m, "After", "What happened after reaching, for flights that were followed along a path.",
            after_codes);
   bind_flights(m);
 
@@ -151,10 +151,10 @@ void bind_simulate(py::module_& m) {
            R"(Exact flights under the bang-bang law, event by event, without time steps.
 
 states    float64 [n, 3]: x_m, y_m, heading_rad (-7 to 7)
-laps      path missions: fly on along the path after reaching it, so many times its length
-follow_s  path missions: the same, for so many seconds
+laps      path missions: after reaching the path, follow it for this many times its length
+follow_s  path missions: the same, for this many seconds
 
-Returns Flights. On all cores; other threads of Python run meanwhile, and Ctrl-C ends it.)");
+Returns Flights. Runs on all cores without the GIL; Ctrl-C stops it.)");
   plan.def("fly_sampled", &fly_sampled, "states"_a, py::kw_only(), "law"_a = "bang-bang",
            "gain_per_s"_a = SaturatedProportional{}.gain_per_s,
            "control_period_s"_a = d.control_period_s, "position_noise_m"_a = d.position_noise_m,
@@ -166,16 +166,16 @@ Returns Flights. On all cores; other threads of Python run meanwhile, and Ctrl-C
 
 states             float64 [n, 3]: x_m, y_m, heading_rad
 law                "bang-bang"; "proportional", with gain_per_s; or a function of (x_m, y_m,
-                   heading_rad, heading_error_rad, time_s) as measured that returns the turn rate
-                   wanted in rad/s, positive to the left; it is cut at the vehicle's limit
-control_period_s   seconds between two controls
-position_noise_m   standard deviation of the measured place, each axis, metres
-heading_noise_rad  of the measured heading, radians
-wind_mps           (east, north), metres per second, where it blows to
+                   heading_rad, heading_error_rad, time_s), as measured, that returns the desired
+                   turn rate in rad/s, positive to the left; clipped to the vehicle's limit
+control_period_s   seconds between two control updates
+position_noise_m   standard deviation of the measured position, each axis, metres
+heading_noise_rad  standard deviation of the measured heading, radians
+wind_mps           (east, north), metres per second: the direction it blows to
 gust_mps           standard deviation of gusts, each axis, metres per second
-gust_time_s        their correlation time, seconds
+gust_time_s        correlation time of gusts, seconds
 time_limit_s       0: the time for 20 (nx + ny) cells or 4 times the cost to go
-seed               flight i depends on the plan, the options and i alone
+seed               random seed; flight i depends only on the plan, the options and i
 laps, follow_s     as in fly; neither is part of time_limit_s
 
 Returns Flights; trapped means: not ended within the time limit.)");

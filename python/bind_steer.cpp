@@ -36,9 +36,9 @@ void match(std::vector<State>& from, std::vector<State>& to) {
   } else if (to.size() == 1) {
     to.assign(from.size(), to.front());
   } else {
-    throw py::value_error(
-        fmt::format("start, goal: have {} and {} rows, expected as many, or one of either",
-                    from.size(), to.size()));
+    throw py::value_error(fmt::format(
+        "start, goal: have {} and {} rows, expected equal numbers, or one row in either",
+        from.size(), to.size()));
   }
 }
 
@@ -90,14 +90,14 @@ void bind_path(py::module_& m) {
           "end", [](const DubinsPath& p) { return row(end_of(p)); }, "[3]: x_m, y_m, heading_rad.")
       .def(
           "pose_at", [](const DubinsPath& p, double length_m) { return row(pose_at(p, length_m)); },
-          "length_m"_a, "[3]: the pose after so many metres; beyond the end, the end.")
+          "length_m"_a, "[3]: the pose after `length_m` metres; beyond the end, the end.")
       .def(
           "sample",
           [](const DubinsPath& p, double step_m) {
             if (!(step_m > 0.0)) throw py::value_error("step_m: expected a number > 0");
             return state_array(sampled(p, step_m));
           },
-          "step_m"_a, "float64 [n, 3]: poses at most so many metres apart, both ends among them.")
+          "step_m"_a, "float64 [n, 3]: poses at most `step_m` metres apart, including both ends.")
       .def("__repr__", [](const DubinsPath& p) {
         return fmt::format("<fairway.DubinsPath: {}, {:g} m>", name_of(p.word), p.length_m());
       });
@@ -200,7 +200,7 @@ WaypointFlight follow(const py::object& start, const py::object& waypoints, doub
                       std::optional<double> step_m) {
   const State from = state_of(start, "start");
   const std::vector<State> way = states_of(waypoints, "waypoints");
-  if (way.empty()) throw py::value_error("waypoints: there are none");
+  if (way.empty()) throw py::value_error("waypoints: expected at least one");
   const bool shortest = choice_of<bool>("law", law, {{"shortest", true}, {"clf", false}});
   const SteeringOptions usual = steering_options(from, way.front(), turn_radius_m);
   const WaypointOptions options{{place_m.value_or(usual.tolerance.place_m), heading_rad},
@@ -219,8 +219,8 @@ void bind_waypoints(py::module_& m) {
   py::class_<WaypointLeg>(m, "WaypointLeg", "The way to one waypoint.")
       .def_readonly("length_m", &WaypointLeg::length_m, "Metres driven.")
       .def_readonly("shortest_m", &WaypointLeg::shortest_m,
-                    "Metres of the shortest path from where the leg began.")
-      .def_readonly("reached", &WaypointLeg::reached, "Else passed, or given up.")
+                    "Length of the shortest path from the start of the leg, metres.")
+      .def_readonly("reached", &WaypointLeg::reached, "Otherwise passed, or given up.")
       .def_readonly("converged", &WaypointLeg::converged, "Reached or passed.")
       .def_readonly("word", &WaypointLeg::word, "L, S, R as driven.")
       .def_property_readonly(
@@ -239,7 +239,8 @@ void bind_waypoints(py::module_& m) {
                                            : "given up");
       });
   py::class_<WaypointFlight>(m, "WaypointFlight", "What a law drove along waypoints.")
-      .def_readonly("converged", &WaypointFlight::converged, "To every waypoint.")
+      .def_readonly("converged", &WaypointFlight::converged,
+                    "Whether every waypoint was reached or passed.")
       .def_readonly("length_m", &WaypointFlight::length_m, "Metres driven.")
       .def_readonly("legs", &WaypointFlight::legs,
                     "A WaypointLeg for each waypoint, up to the first that is given up.")
@@ -252,7 +253,7 @@ void bind_waypoints(py::module_& m) {
         "heading_rad"_a = steering_options({}, {}, 1.0).tolerance.heading_rad,
         "passed_place_m"_a = 0.0, "passed_heading_rad"_a = 0.0,
         "tie_m"_a = ShortestLawOptions{}.tie_m, "step_m"_a = py::none(),
-        R"(Drives along waypoints with headings, one by one, where nothing is in the way.
+        R"(Drives along waypoints with headings, one after another, ignoring obstacles.
 
 start               x_m, y_m, heading_rad
 waypoints           float64 [n, 3]: x_m, y_m, heading_rad
@@ -260,8 +261,8 @@ law                 "shortest" or "clf"
 place_m, heading_rad                a waypoint is reached within these; default: a fiftieth of the
                                     radius
 passed_place_m, passed_heading_rad  and passed when the line across it is crossed within these
-tie_m               "shortest": a word is kept while it is at most so much longer
-step_m              between two controls; default: a hundredth of the radius
+tie_m               "shortest": a word is kept while it is at most this much longer
+step_m              metres between two control updates; default: a hundredth of the radius
 
 Returns a WaypointFlight.)");
 }

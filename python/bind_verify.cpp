@@ -62,18 +62,18 @@ void bind_verify(py::module_& m) {
         "resume"_a = nullptr, "progress"_a = py::none(),
         R"(Proves, for every place and heading, what the vehicle does under `plan`.
 
-region           what is to be reached: "goal", "obstacle", the cells wholly inside
+region           region to be reached: "goal", "obstacle", the cells wholly inside
                  (x0, y0, x1, y1), metres, or any cells: a mask bool [ny, nx], a polygon [n, 2]
                  of corners x_m, y_m that they lie wholly in, or a pathlib.Path of a file
                  (GeoJSON areas, or CSV ix,iy)
-undecided_max    stop once this share of the volume is undecided
-time_limit_s     stop after this time, seconds
-memory_limit_mb  stop before using more, megabytes
+undecided_max    stop once at most this share of the volume is undecided
+time_limit_s     stop after this many seconds
+memory_limit_mb  stop before using more memory than this, megabytes
 samples, seed    random states that measure the volumes
-resume           a Certificate of the same plan, vehicle and region to go on from; its
+resume           a Certificate of the same plan, vehicle and region to continue from; its
                  leaves are proved again first
 progress         called as progress(stage, left_s) now and then in the calling thread; left_s is
-                 None when unknown; what it raises ends the work, and so does Ctrl-C
+                 None when unknown; an exception it raises, or Ctrl-C, stops the work
 
 Returns a Certificate. Raises ValueError when the plan cannot be verified.)");
 }

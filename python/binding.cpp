@@ -14,7 +14,7 @@
 namespace fairway::python {
 namespace {
 
-// Rows of three doubles: what numpy is told of states.
+// Rows of three doubles: how numpy sees states.
 static_assert(std::is_standard_layout_v<State> && sizeof(State) == 3 * sizeof(double));
 
 std::string shape_of(const py::array& array) {
@@ -34,7 +34,7 @@ Doubles doubles_of(const py::object& rows, const char* name, const std::string& 
   if (!array || std::string_view("iuf").find(array.dtype().kind()) == std::string_view::npos) {
     throw py::type_error(fmt::format(
         "{}: expected numbers, {}, found {}", name, expected,
-        array ? "an array of " + std::string(py::str(array.dtype())) : "no array at all"));
+        array ? "an array of " + std::string(py::str(array.dtype())) : "something else"));
   }
   return Doubles::ensure(array);
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The command as a user meets it: exit codes, messages, products.
+"""The command as a user sees it: exit codes, messages, products.
 
 Usage: command_test.py FAIRWAY SOURCE_DIR [unittest arguments]
 """
@@ -115,9 +115,9 @@ class Run(Command):
         self.assertIn("s-out/verdicts.svg", done.stdout)
         self.assertIn("s-out/summary.json", done.stdout)
         if absent:
-            self.assertIn("report.html was left out: ", done.stderr)
+            self.assertIn("report.html was not written: ", done.stderr)
         else:
-            # Without a terminal no progress, but for a line now and then where it takes long.
+            # Without a terminal there is no progress, except for a line now and then on slow machines.
             self.assertEqual(re.sub("(?m)^fairway: .* so far.*\n", "", done.stderr), "")
         summary = json.loads((folder / "summary.json").read_text())
         self.assertEqual(summary["cells"], [62, 47])
@@ -306,7 +306,7 @@ class Draw(Command):
         self.assertTrue((self.folder / "p.png").read_bytes().startswith(b"\x89PNG"))
         shutil.copy(self.folder / "p", self.folder / "s")
         self.expect(0, "draw", "s", "-o", "s.svg")
-        # The same picture, whether it is drawn with the plan or from its file of the same name.
+        # The picture is the same whether drawn with the plan or from its file of the same name.
         self.assertEqual((self.folder / "s.svg").read_bytes(), (self.folder / "with.svg").read_bytes())
         self.expect(0, "verify", "p", "-o", "c", "--undecided-max", "0.5", "--volume-samples", "1000")
         done = self.expect(0, "draw", "c", "-o", "c.svg", "--json")
@@ -458,7 +458,7 @@ class Verify(Command):
         told = self.expect(0, "verify", "p.safetensors", "-o", "b", "--method", "bitmap",
                            "--border-samples", 20, "--pictures", "pictures").stdout
         self.assertIn("not a proof", told)
-        self.assertIn("The bitmap is b", told)
+        self.assertIn("Bitmap: b. Summary: ", told)
         self.assertEqual(sorted(os.listdir(self.folder / "pictures")),
                          ["sampled.png", "sampled.svg", "slices.png", "slices.svg"])
         summary = json.loads((self.folder / "b.summary.json").read_text())
@@ -517,7 +517,7 @@ class Simulate(Command):
         for row in rows[:4]:
             self.assertEqual(row["outcome"], "reach")
             self.assertAlmostEqual(float(row["length_m"]), 10 * float(row["time_s"]), places=6)
-            # No shorter than the way to the goal disc (beta r = 8 m), a cell less exact.
+            # No shorter than the distance to the goal disc (beta r = 8 m), minus a cell of tolerance.
             way = math.dist((float(row["x_m"]), float(row["y_m"])), (90, 45)) - 8
             self.assertGreaterEqual(float(row["length_m"]), way - 1e-6)
         with open(self.folder / "t.csv") as lines:
@@ -558,7 +558,7 @@ class Simulate(Command):
         self.expect(64, "simulate", plan, "--random", 1, "--law", "magic")
         self.expect(65, "simulate", plan, "--random", 1, "--outcomes", "none/o.csv")
 
-    def test_a_wrong_value_on_the_command_line_is_wrong_usage_told_before_files_are_read(self):
+    def test_a_wrong_value_on_the_command_line_is_wrong_usage_reported_before_files_are_read(self):
         for state in ("1,2", "1,2,3,4", "nan,0,0", "inf,0,0", "0,x,0", "0,0,", "", "1 2 3"):
             done = self.expect(64, "simulate", "none.safetensors", "--state", state)
             self.assertIn("--state: ", done.stderr)
@@ -581,7 +581,7 @@ class Simulate(Command):
                 self.assertIn(option, done.stderr)
                 self.assertLess(len(done.stderr), 300)
         self.expect(64, *sampled, "--csv", "-", "--outcomes", "-")
-        self.expect(65, *sampled, "--heading-noise", "180deg", "--wind", "-1,2")  # none is no plan
+        self.expect(65, *sampled, "--heading-noise", "180deg", "--wind", "-1,2")  # "none" is not a plan
 
 
 class Usage(Command):

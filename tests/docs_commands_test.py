@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
-"""What the docs say to type is typed, and what they say to see is seen. CONTRIBUTING.md has the rules.
+"""Runs every command in the docs and compares its output. CONTRIBUTING.md has the rules.
 
 Usage: docs_commands_test.py SOURCE PROGRAM [unittest arguments]
 
-- A fenced block ```console is run, line by line, those that begin with "$ "; "> " continues one. What
-  follows is its output: `...` stands for anything in a line, a line of `...` for any lines. Without
-  output in the page, anything may be printed. A command must end with 0, unless the next asks with
-  `echo $?`. A page is typed from top to bottom into one shell, in a folder of its own that has
-  `demo/`; README into a fresh copy of the sources, built already and with nothing on the PATH.
-- A block with title="NAME" is a file NAME in that folder; one whose NAME begins with tests/ is that
-  file of the sources, to the letter.
-- A block with title="Not run by the tests: REASON" is not run; nor is any other block, but its
+- In a fenced block ```console, lines that begin with "$ " are run; "> " continues a command. Its
+  output follows: `...` matches anything in a line, a line of `...` any lines. If the page shows no
+  output, anything may be printed. A command must exit with 0, unless the next one is `echo $?`. A
+  page is run from top to bottom in one shell, in its own folder with `demo/`; README in a fresh copy
+  of the sources, already built and with nothing on the PATH.
+- A block with title="NAME" is a file NAME in that folder; if NAME begins with tests/, it must equal
+  that file of the sources exactly.
+- A block with title="Not run by the tests: REASON" is not run, nor is any other block; but its
   commands, and those in `code` within sentences, must exist, with every option they are given.
-- Every link of README, CHANGELOG and the like and of docs/ to a file leads to one, and to a heading that is there.
+- Every link to a file, from README, CHANGELOG and the like and from docs/, leads to an existing file and heading.
 """
 import os
 import pathlib
@@ -73,7 +73,7 @@ def pattern_of(lines):
 
 
 def prose_and_blocks(text):
-    """Everything that might be a command beside those that are run: (words, where)."""
+    """Everything that might be a command besides those that are run: (words, where)."""
     for language, title, lines, first in blocks(text):
         if language in ("console", "sh", "bash", "", "text"):
             for number, line in enumerate(lines, first):
@@ -94,7 +94,7 @@ def anchor(heading):
 
 
 class Shell:
-    """Runs command after command, as one shell: what is exported and where it is stay."""
+    """Runs commands one after another like a single shell: exports and the folder persist."""
 
     def __init__(self, folder, environment):
         self.environment, self.ended = environment, 0
@@ -129,14 +129,14 @@ class Docs(unittest.TestCase):
     maxDiff = None
 
     def run_page(self, page, text):
-        """Types a page into a shell, in a folder of its own."""
+        """Types a page into a shell, in its own folder."""
         folder = pathlib.Path(tempfile.mkdtemp(prefix="fairway-docs-"))
         self.addCleanup(shutil.rmtree, folder)
         environment = {**os.environ, "PATH": f"{PROGRAM.parent}:/usr/bin:/bin", "LC_ALL": "C.UTF-8",
                        "CPLUS_INCLUDE_PATH": str(SOURCE)}
         if page == "README.md":
             copy_of_the_sources(folder)
-            # Built already: `make` takes its target `build` as done.
+            # Already built: `make` treats its target `build` as up to date.
             shim = pathlib.Path(tempfile.mkdtemp(prefix="fairway-docs-"))
             self.addCleanup(shutil.rmtree, shim)
             (shim / "make").write_text('#!/bin/sh\nexec /usr/bin/make -o build "$@"\n')
@@ -169,7 +169,7 @@ class Docs(unittest.TestCase):
         known = {}
         checked = 0
         for page in pages():
-            if page == "CHANGELOG.md":  # of other times, too
+            if page == "CHANGELOG.md":  # also describes older versions
                 continue
             for words, number in prose_and_blocks((SOURCE / page).read_text()):
                 found = re.match(r"(?:sudo )?(fairway-check|fairway)((?: .*)?)$", words)
@@ -178,7 +178,7 @@ class Docs(unittest.TestCase):
                 try:
                     arguments = shlex.split(found[2], comments=True)
                 except ValueError:
-                    continue  # half a command, of two lines
+                    continue  # half of a two-line command
                 command = arguments[0] if arguments and re.fullmatch("[a-z]+", arguments[0]) else ""
                 if found[1] == "fairway" and not command and not arguments[0].startswith("-"):
                     continue  # "fairway 0.1.0", "fairway COMMAND"

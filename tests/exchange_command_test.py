@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What goes out of the command to GIS programs and ground stations, and comes in again.
+"""What the command exports to GIS programs and ground stations, and reads back.
 
 Usage: exchange_command_test.py FAIRWAY [unittest arguments]
 """
@@ -68,7 +68,7 @@ class Exchange(unittest.TestCase):
         for name in ("m.plan", "m.waypoints"):
             self.expect(0, "simulate", "p.safetensors", "--state", "-400,-300,180deg", "--qgc",
                         name, "--altitude", 90, "--tolerance", 2)
-            # The mission is a path of its own, on the same fences.
+            # The mission is a separate path, on the same fences.
             self.scenario("again.toml", "fence.plan", f'kind = "path"\npath_file = "{name}"')
             self.expect(0, "plan", "again.toml", "-o", "again.safetensors", "--force")
         mission = json.loads((self.folder / "m.plan").read_text())["mission"]
@@ -108,7 +108,7 @@ class Exchange(unittest.TestCase):
         self.expect(64, "simulate", "p.safetensors", "--state", "0,0,0", "--qgc", "g.waypoints",
                     "--fence", "moved.plan")
 
-    def test_a_mission_is_refused_in_words_where_it_cannot_be(self):
+    def test_a_mission_that_cannot_be_made_is_refused_with_the_reason(self):
         done = self.expect(65, "simulate", "p.safetensors", "--random", 3, "--qgc", "m.plan")
         self.assertIn("3 starts", done.stderr)
         self.expect(64, "simulate", "p.safetensors", "--random", 1, "--qgc", "m.kml")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Nothing of anybody is lost: outputs that are inputs, runs at the same time, runs that were ended.
+"""No file is lost: outputs that are inputs, simultaneous runs, interrupted runs.
 
 Usage: files_command_test.py FAIRWAY [unittest arguments]
 """
@@ -67,7 +67,7 @@ class Files(unittest.TestCase):
         return {p.name: p.read_bytes() for p in self.folder.iterdir() if p.is_file()}
 
     def whole(self, folder):
-        """A run's folder is one set: every product is the one that summary.json speaks of."""
+        """A run's folder is one set: every product is the one listed in summary.json."""
         summary = json.loads((folder / "summary.json").read_text())
         for name, digest in summary["products"].items():
             self.assertEqual(hashlib.sha256((folder / name).read_bytes()).hexdigest(), digest, name)
@@ -116,7 +116,7 @@ class Inputs(Files):
                 with self.subTest(words=words, force=force):
                     self.assertIn("is an input", self.expect(65, *words, *force).stderr)
                     self.assertEqual(self.content(), before)
-        # What only the map's file names is known once that is read.
+        # Files that only the map file names are known once it is read.
         self.assertIn("is an input", self.expect(65, "plan", "ros.toml", "-o", "map.pgm", "--force").stderr)
         self.assertEqual(self.content(), before)
 
@@ -247,13 +247,13 @@ class Help(Files):
     def test_a_word_that_is_no_command_is_told_what_it_may_have_meant(self):
         for words, told in ((("rn", "demo.toml"), "unknown command rn; did you mean run?"),
                             (("verfy",), "unknown command verfy; did you mean verify?"),
-                            (("demo.toml",), "demo.toml is no command; did you mean fairway run demo.toml?"),
+                            (("demo.toml",), "demo.toml is not a command; did you mean fairway run demo.toml?"),
                             ((".",), "did you mean fairway view .?"),
                             (("frobnicate",), "expected one of run, plan, simulate")):
             done = self.expect(64, *words)
             self.assertIn(told, done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1)
-        self.assertIn("fairway plan: not expected: b c", self.expect(64, "plan", "a", "-o", "x", "b", "c").stderr)
+        self.assertIn("fairway plan: unexpected argument: b c", self.expect(64, "plan", "a", "-o", "x", "b", "c").stderr)
 
     def test_run_says_what_it_leaves(self):
         told = self.expect(0, "run", "--help").stdout

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Paths followed beyond the first touch, as a user of the command meets it: what comes after reach,
+"""Paths followed beyond the first touch, as a user of the command sees it: what follows reach,
 how near flights keep to the path, in every product alike.
 
 Usage: follow_command_test.py FAIRWAY [unittest arguments]
@@ -15,7 +15,7 @@ import unittest
 
 FAIRWAY = None
 
-# A rectangle 14 m beside the world's edge, which is an obstacle: a flight that comes at it squarely
+# A rectangle 14 m inside the world's edge, which is an obstacle: a flight that meets it squarely
 # overshoots by up to a turning radius.
 SCENARIO = """[map]
 file = "map.pgm"
@@ -91,7 +91,7 @@ class Follow(unittest.TestCase):
                          [row["after"] for row in rows[:21]])
         drawn = sum(row["after"] == "collide" for row in rows[:21])
         self.assertTrue(f"reach, then collide ({drawn})" in (self.folder / "out/flights.svg").read_text())
-        # With the paper's room beside the path nothing of the kind happens.
+        # With the room beside the path that the paper asks for, nothing like this happens.
         (self.folder / "path.csv").write_text("x_m,y_m\n60,60\n340,60\n340,240\n60,240\n")
         wide, _, _ = self.run_it("wide", alpha=2.0)
         self.assertEqual(wide["random_flights"]["following"]["after"]["collide"], 0)

@@ -115,7 +115,7 @@ class HelpPages(unittest.TestCase):
                 done = subprocess.run(["man", "--warnings", "-E", "UTF-8", "-l", "-Tutf8", "-Z", page],
                                       capture_output=True, text=True,
                                       env={**os.environ, "LC_ALL": "C.UTF-8", "MANWIDTH": "80"})
-                if "nothing" not in done.stderr:  # a man that was cut from its system
+                if "nothing" not in done.stderr:  # a man without its system
                     self.assertEqual(done.stderr, "", page)
 
     def complete(self, shell, environment, load, keys, wanted):

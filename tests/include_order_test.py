@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The house keeps its order: which file may include which (ARCHITECTURE.md).
+"""Include order: which file may include which (ARCHITECTURE.md).
 
 Usage: include_order_test.py SOURCE_DIR. Prints every include that breaks a rule; exit 1 if any.
 """
@@ -35,7 +35,7 @@ OUTSIDE = [
     (re.compile(r"zlib"), {"report"}),
     (re.compile(r"httplib"), {"view"}),
 ]
-RUNTIME = "fairway/runtime.hpp"  # beside the stages: what a vehicle needs of them
+RUNTIME = "fairway/runtime.hpp"  # outside the stages: what a vehicle needs of them
 RUNTIME_STAGES = {"base", "vehicle", "verify"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]')
 

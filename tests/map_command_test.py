@@ -106,7 +106,7 @@ class Init(Maps):
             self.expect(0, "plan", "s.toml", "-o", "p", "--force")
             text = (self.folder / "s.toml").read_text()
             self.assertEqual("goal_deg =" in text, map_file == "site.plan")
-            # What is commented out holds, too: the goal in the map's metres.
+            # The commented-out value is valid too: the goal in map metres.
             if map_file == "site.plan":
                 metres = re.sub(r"goal_deg = .*\n# (goal_m = .*)", r"\1", text)
                 self.assertIn("\ngoal_m", metres)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Markdown is wrapped at 100 columns, but for what cannot be: tables, code, headings, long words.
+"""Markdown is wrapped at 100 columns, except where it cannot be: tables, code, headings, long words.
 
 Usage: markdown_lines_test.py SOURCE_DIR. Prints every line that is too long; exit 1 if any.
 """

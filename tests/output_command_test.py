@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What is told on standard output is written, or the command fails: on every command that prints.
+"""Standard output is written in full, or the command fails: for every command that prints.
 
 Usage: output_command_test.py FAIRWAY [unittest arguments]
 """

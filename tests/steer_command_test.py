@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`fairway steer` as a user meets it: lengths against a brute force of the six words in numpy.
+"""`fairway steer` as a user sees it: lengths against a brute force of the six words in numpy.
 
 Usage: steer_command_test.py FAIRWAY [unittest arguments]
 """
@@ -21,7 +21,7 @@ COLUMNS = ["length_m", "word", "converged", "end_x_m", "end_y_m", "end_heading_r
 
 
 def brute_force(start, goal, radius):
-    """Least length over the six words, arrays of shape [n, 3]; the textbook's formulas."""
+    """Shortest length over the six words, arrays of shape [n, 3]; the textbook's formulas."""
     d = (goal[:, :2] - start[:, :2]) / radius
     h0, h1 = start[:, 2], goal[:, 2]
     best = np.full(len(d), np.inf)
@@ -184,7 +184,7 @@ class Steer(unittest.TestCase):
         for leg, goal in zip(legs, rows[1:]):
             self.assertAlmostEqual(float(leg["end_x_m"]), goal[0], places=8)
             self.assertAlmostEqual(float(leg["end_y_m"]), goal[1], places=8)
-        # A start of one's own is one leg more, and one waypoint is then enough.
+        # A separate start adds one leg, and then a single waypoint is enough.
         more = self.rows(self.steer("--turn-radius", 20, "--waypoints", "-", "--from", "5,5,1",
                                     text=text))
         self.assertEqual(more[1:], legs)
@@ -326,7 +326,7 @@ def read_region(path):
 
 
 class GoalHeading(unittest.TestCase):
-    """A run whose goal has a heading, in a bay with a wall beside the goal."""
+    """A run whose goal has a heading, in a bay with a wall next to the goal."""
 
     @classmethod
     def setUpClass(cls):

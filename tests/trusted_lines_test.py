@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What docs/trust.md calls trusted is what the proofs need, and has as many lines as it says.
+"""The files that docs/trust.md calls trusted are those the proofs need, with the stated line counts.
 
 Usage: trusted_lines_test.py SOURCE_DIR [--print]. For each table of trusted files: its files are
 those that its roots include, themselves included, headers with their sources; each has as many

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`fairway view` as a user meets it: it says where it is, ends with Ctrl-C, and what it refuses.
+"""`fairway view` as a user sees it: it prints its address, ends with Ctrl-C, and rejects bad folders.
 
 Usage: view_command_test.py FAIRWAY [unittest arguments]
 """
@@ -119,8 +119,8 @@ class View(unittest.TestCase):
         self.assertIn("xdg-open could not be run", server.stderr.read())
 
     def test_what_is_not_the_folder_of_a_run_is_refused(self):
-        self.assertIn("is no folder", self.refused(65, "nowhere"))
-        self.assertIn("is no folder", self.refused(65, "s.toml"))
+        self.assertIn("is not a folder", self.refused(65, "nowhere"))
+        self.assertIn("is not a folder", self.refused(65, "s.toml"))
         self.assertIn("report.html", self.refused(65, "."))
         broken = self.folder / "broken"
         shutil.copytree(self.folder / "run", broken)

@@ -29,7 +29,7 @@ CLI::Validator number_with(const std::string& expected, bool (*holds)(double, do
           ""};
 }
 
-/// A reader's complaint, as CLI11 wants it: a text that is empty when all is well.
+/// A reader's error message as CLI11 expects it: empty when the text is valid.
 template <typename Read>
 std::string complaint_of(const std::string& text, const Read& read) {
   try {
@@ -89,7 +89,7 @@ CLI::Validator angle_argument() {
 CLI::Validator picture_argument() {
   return {[](const std::string& file) -> std::string {
             if (file.ends_with(".svg") || file.ends_with(".png")) return {};
-            return file + ": expected a file that ends in .svg or .png";
+            return file + ": expected a file name that ends in .svg or .png";
           },
           ""};
 }

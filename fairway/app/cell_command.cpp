@@ -48,7 +48,7 @@ CLI::Validator cell_argument() {
           ""};
 }
 
-/// One set: where it is, and its ranges.
+/// One set: its place and its ranges.
 struct Line {
   const char* set;
   Side entry;
@@ -153,43 +153,44 @@ Action declare_cell(CLI::App& options) {
   auto arguments = std::make_shared<CellArguments>();
   CellArguments& a = *arguments;
   options.add_option("plan", a.plan, "the plan file")->required()->type_name("PLAN");
-  options.add_option("--cell", a.cell, "column and row of the cell, from 0, the lowest row first")
+  options
+      .add_option("--cell", a.cell, "column and row of the cell, counted from 0 at the lower left")
       ->required()
       ->type_name("IX,IY")
       ->check(cell_argument());
   const auto side = CLI::IsMember({"right", "top", "left", "bottom"});
-  options.add_option("--entry", a.entry, "only sets of vehicles that come in by this border")
+  options.add_option("--entry", a.entry, "only sets of vehicles that enter through this border")
       ->check(side)
       ->type_name("BORDER");
-  options.add_option("--exit", a.exit, "only sets of vehicles that leave by this border")
+  options.add_option("--exit", a.exit, "only sets of vehicles that leave through this border")
       ->check(side)
       ->type_name("BORDER");
-  options.add_option("--places", a.places, "places on each border: the middles of equal pieces")
+  options
+      .add_option("--places", a.places,
+                  "number of places on each border: the middles of equal pieces")
       ->check(CLI::Range(1, 10'000))
       ->type_name("N")
       ->capture_default_str();
   options
       .add_option("-o,--output", a.picture,
-                  "draw all sets of the cell, place by heading: .svg or .png")
+                  "draw all sets of the cell, heading against place: .svg or .png")
       ->check(CLI::Validator(
           [](const std::string& file) {
             const std::string ending = fs::path(file).extension().string();
             return ending == ".svg" || ending == ".png"
                        ? std::string()
-                       : file +
-                             " is drawn as SVG or PNG, expected a name that ends in .svg or .png";
+                       : file + ": expected a file name that ends in .svg or .png";
           },
           ""))
       ->type_name("FILE");
   options.footer(
       "Paper 2's cellular sets under the cell's command, as CSV\n"
-      "set,entry,exit,along_m,from_rad,to_rad: a line for each range of headings, "
-      "counter-clockwise\n"
-      "from the first to the second. theta: the headings that enter at a place of the border of\n"
-      "entry and lead out by the other (along_m on the entry). phi: the headings with which a\n"
-      "vehicle that came in anywhere on the entry can leave at a place of the exit (along_m on "
-      "the\n"
-      "exit). along_m runs upwards, or to the right. A set without a line is empty.\n"
+      "set,entry,exit,along_m,from_rad,to_rad: one line for each range of headings,\n"
+      "counter-clockwise from the first to the second. theta: the headings that enter at a place\n"
+      "of the entry border and leave through the exit border (along_m on the entry). phi: the\n"
+      "headings with which a vehicle that entered anywhere on the entry can leave at a place of\n"
+      "the exit (along_m on the exit). along_m runs upwards or to the right. A set without a line\n"
+      "is empty.\n"
       "Example: fairway cell out/demo/plan.safetensors --cell 60,40 -o cell.svg");
   return [arguments](const Session& session) { return cell_command(*arguments, session); };
 }

@@ -1,4 +1,4 @@
-// fairway check: hands a certificate to the independent program beside this one.
+// fairway check: passes a certificate to the independent program fairway-check.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -27,8 +27,7 @@ int check_command(const CheckArguments& a, const Session& session) {
   }
   const CheckRun run = run_checker(std::move(words), false);
   if (run.exit_code != 127) return run.exit_code;
-  complain(
-      fmt::format("fairway: cannot run {}: it is installed beside fairway", checker_program()));
+  complain(fmt::format("fairway: cannot run {}: expected it next to fairway", checker_program()));
   return exit_fault;
 }
 
@@ -39,10 +38,10 @@ Action declare_check(CLI::App& options) {
   options.add_option("certificate", arguments->certificate, "the certificate")
       ->required()
       ->type_name("CERT");
-  options.add_option("--plan", arguments->plan, "the plan it is to be a certificate of")
+  options.add_option("--plan", arguments->plan, "also check that it is a certificate of this plan")
       ->type_name("PLAN");
   options.footer(
-      "Re-proves every claim with a separate program, fairway-check. Exit code 0: accepted; 1: "
+      "Re-proves every claim with an independent program, fairway-check. Exit code 0: accepted; 1: "
       "refused, with the reason.");
   return [arguments](const Session& session) { return check_command(*arguments, session); };
 }

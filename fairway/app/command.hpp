@@ -1,4 +1,4 @@
-// The table of subcommands: each declares its options and says what it does with them.
+// The table of subcommands: each declares its options and returns its action.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ struct Command {
   const char* name;
   const char* does;
   Action (*declare)(CLI::App& options);
-  bool writes;  ///< products, which --force replaces
+  bool writes;  ///< writes products, which --force may overwrite
 };
 
 // One file each.

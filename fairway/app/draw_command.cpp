@@ -36,13 +36,12 @@ Action declare_draw(CLI::App& options) {
   options.add_option("product", a.product, "a plan or a certificate")
       ->required()
       ->type_name("PLAN|CERT");
-  options
-      .add_option("-o,--output", a.output, "the picture to write, SVG or PNG by the file's ending")
+  options.add_option("-o,--output", a.output, "the picture to write, .svg or .png")
       ->required()
       ->check(picture_argument())
       ->type_name("FILE");
   options.footer(
-      "Of a plan: regions, cost to go, streamlines, the goal or the path; of a certificate: the\n"
+      "Draws a plan's regions, cost to go, streamlines and goal or path, or a certificate's\n"
       "verdicts at eight headings.\n"
       "Example: fairway draw out/demo/plan.safetensors -o demo.png");
   return [arguments](const Session& session) { return draw_command(*arguments, session); };

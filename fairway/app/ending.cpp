@@ -33,7 +33,7 @@ std::string words_when_interrupted() {
 }
 
 bool ends_gently() {
-  // Under the lock, so that what `end` speaks of lives until it is done.
+  // Under the lock, so that what `end` refers to lives until it returns.
   const std::lock_guard lock(guard);
   const auto end = std::exchange(wanted, nullptr);  // the second signal finds none
   if (!end) return false;

@@ -1,5 +1,5 @@
-// What Ctrl-C does: a signal ends the process at once, unless a command that runs for as long as
-// it is wanted has said how it ends by itself.
+// What Ctrl-C does: a signal ends the process at once, unless a command that runs until it is
+// stopped has registered a way to stop itself.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,8 @@
 
 namespace fairway {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP call `end`, from a thread of their own, instead of
-/// ending the process; a second signal ends it all the same. One at a time.
+/// During its lifetime SIGINT, SIGTERM and SIGHUP call `end`, from a separate thread, instead of
+/// ending the process; a second signal ends it anyway. Only one may exist at a time.
 class EndsGently {
  public:
   explicit EndsGently(std::function<void()> end);
@@ -17,11 +17,11 @@ class EndsGently {
   EndsGently& operator=(const EndsGently&) = delete;
 };
 
-/// What a signal that ends the process at once leaves to say, on stderr.
+/// The message printed to stderr when a signal ends the process at once.
 void say_when_interrupted(std::string words);
 [[nodiscard]] std::string words_when_interrupted();
 
-/// Called with every signal; true when a command ends by itself.
+/// Called on every signal; true when the command stops by itself.
 [[nodiscard]] bool ends_gently();
 
 }  // namespace fairway

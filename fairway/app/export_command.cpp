@@ -1,4 +1,4 @@
-// fairway export: a plan, verdicts or what a bitmap says, as GeoTIFF.
+// fairway export: a plan, the verdicts of a certificate or the samples of a bitmap, as GeoTIFF.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -45,15 +45,15 @@ CLI::Validator heading_argument() {
 }
 
 std::string place_words(const Frame& frame) {
-  if (frame.projected_crs) return "in the map's projected system";
+  if (frame.projected_crs) return "in the map's projected reference system";
   if (frame.geo) {
     return fmt::format("in the tangent plane about latitude {}, longitude {}",
                        frame.geo->latitude_deg, frame.geo->longitude_deg);
   }
-  return "in metres of the map, which is not georeferenced";
+  return "in map metres (the map is not georeferenced)";
 }
 
-/// What was written, in words, and where it lies.
+/// What was written, for the message, and its frame.
 struct Exported {
   const char* of = "plan";
   std::string words = "heading, cost and region of the plan";
@@ -78,8 +78,8 @@ Exported export_product(const ExportArguments& a, const std::vector<Heading>& he
     const Frame frame = bitmap.frame.value_or(Frame{});
     write_sampled_raster(bitmap.grid(), frame, sampled_layers(bitmap, headings), a.output,
                          existing);
-    return {"samples", layers_words("what samples say (a picture, not a proof)", headings.size()),
-            frame};
+    return {"samples",
+            layers_words("what the samples show (a picture, not a proof)", headings.size()), frame};
   }
   const Plan plan = read_plan(a.product);
   write_plan_raster(plan, a.output, existing);
@@ -97,7 +97,7 @@ int export_command(const ExportArguments& a, const Session& session) {
     if (headings.empty()) headings = even_headings(8);
   } else if (!a.headings.empty()) {
     throw InputError(a.product.string(),
-                     "is a plan: --heading asks for verdicts, which a certificate has");
+                     "is a plan: --heading applies to a certificate or a bitmap");
   }
   const Exported made = export_product(a, headings, kind, session.existing());
   json list = json::array();
@@ -135,24 +135,23 @@ Action declare_export(CLI::App& options) {
             const std::string ending = CLI::detail::to_lower(fs::path(file).extension().string());
             return ending == ".tif" || ending == ".tiff"
                        ? std::string()
-                       : file +
-                             " is written as GeoTIFF, expected a name that ends in .tif or .tiff";
+                       : file + ": a GeoTIFF; expected a name that ends in .tif or .tiff";
           },
           ""))
       ->type_name("FILE.tif");
   options
       .add_option(
           "--heading", a.headings,
-          "certificates and bitmaps: at this heading, radians or degrees with the suffix deg; "
-          "may be repeated (default: eight, evenly spaced)")
+          "certificates and bitmaps: heading of a band, radians, or degrees with the suffix deg; "
+          "may be repeated (default: eight headings, evenly spaced)")
       ->type_name("H")
       ->check(heading_argument())
       ->allow_extra_args(false);
   options.footer(fmt::format(
-      "A plan becomes the bands heading_rad, cost_m and region; a certificate a band of\n"
+      "A plan becomes the bands heading_rad, cost_m and region; a certificate, one band of\n"
       "verdicts for each heading: {};\n"
-      "a bitmap a band of what its samples say: 0 undecided, 1 sampled_reach, 2 sampled_other.\n"
-      "QGIS opens all where the map was.\n"
+      "a bitmap, one band of sampled answers for each heading: 0 undecided, 1 sampled_reach,\n"
+      "2 sampled_other. QGIS shows them all at the map's place.\n"
       "Example: fairway export out/demo/plan.safetensors -o demo.tif",
       verdict_codes()));
   return [arguments](const Session& session) { return export_command(*arguments, session); };

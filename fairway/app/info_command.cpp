@@ -1,4 +1,4 @@
-// fairway info: what a map holds, before any mission.
+// fairway info: describes a map, before there is a mission.
 #include <filesystem>
 #include <memory>
 
@@ -42,15 +42,14 @@ Action declare_info(CLI::App& options) {
   auto arguments = std::make_shared<InfoArguments>();
   InfoArguments& a = *arguments;
   declare_map(options, a.map);
-  options.add_option("-o,--output", a.picture, "draw the map, as SVG or PNG by the file's ending")
-      ->type_name("PICTURE");
+  options.add_option("-o,--output", a.picture, "draw the map, .svg or .png")->type_name("PICTURE");
   options.final_callback([&a] {
     if (!a.picture.empty() && a.picture.extension() != ".svg" && a.picture.extension() != ".png") {
-      throw CLI::ValidationError("--output", "expected a file that ends in .svg or .png");
+      throw CLI::ValidationError("--output", "expected a file name that ends in .svg or .png");
     }
   });
   options.footer(
-      "With --turn-radius, what lies in the buffer of such a vehicle does not count as free.\n"
+      "With --turn-radius, cells in the buffer of such a vehicle do not count as free.\n"
       "Example: fairway info demo/basin.yaml -o basin.png");
   return [arguments](const Session& session) { return info_command(*arguments, session); };
 }

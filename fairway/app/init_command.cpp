@@ -36,10 +36,11 @@ int init_command(const InitArguments& a, const Session& session) {
        {"turn_radius_m", s.vehicle.turn_radius_m},
        {"speed_mps", s.vehicle.speed_mps},
        {"serves", made.serves}},
-      fmt::format("{}: cells of {} m, a turning radius of {} m, {} m/s; the goal serves {} of the "
-                  "free cells.\nNext: fairway run {}",
-                  a.output.string(), s.map.cell_m, s.vehicle.turn_radius_m, s.vehicle.speed_mps,
-                  whole_percent_text(made.serves), a.output.string()));
+      fmt::format(
+          "{}: cells of {} m, a turning radius of {} m, {} m/s; the goal can be reached from {} "
+          "of the free cells.\nNext: fairway run {}",
+          a.output.string(), s.map.cell_m, s.vehicle.turn_radius_m, s.vehicle.speed_mps,
+          whole_percent_text(made.serves), a.output.string()));
   return exit_done;
 }
 
@@ -56,8 +57,9 @@ Action declare_init(CLI::App& options) {
       ->required()
       ->type_name("SCENARIO.toml");
   options.footer(
-      "What is not given is chosen so that most of the map is served; comments say what to\n"
-      "change. The goal lies in the largest free part that a goal fits in.\n"
+      "Options that are not given are chosen so that the goal can be reached from most of the\n"
+      "map; comments in the file say what to change. The goal is placed in the largest free part\n"
+      "that has room for one.\n"
       "Example: fairway init demo/basin.yaml -o basin.toml");
   return [arguments](const Session& session) { return init_command(*arguments, session); };
 }

@@ -1,4 +1,4 @@
-// fairway: a table of subcommands, the global options, and what errors become.
+// fairway: a table of subcommands, the global options, and how errors become exit codes.
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -33,29 +33,29 @@ namespace {
 
 // To add a subcommand: a file with its declare function, and a line here.
 constexpr Command commands[] = {
-    {"run", "the main job: map, plan, flights, pictures; the folder gets every product",
-     declare_run, true},
-    {"plan", "the feedback plan alone", declare_plan, true},
-    {"simulate", "flights under a plan: exact, or by a sampled control law in noise and wind",
-     declare_simulate, true},
-    {"verify", "which states reach the goal: a proof for all of them, and its certificate",
-     declare_verify, true},
-    {"query", "what a certificate, or a bitmap, says of a state", declare_query, false},
-    {"check", "re-prove a certificate with a separate program", declare_check, false},
-    {"draw", "a plan or verdicts as a picture", declare_draw, true},
-    {"cell", "which headings lead out of a cell by which border, after paper 2", declare_cell,
+    {"run", "the main job: plan, fly, prove and draw a scenario, into one folder", declare_run,
      true},
-    {"export", "a plan, verdicts or a bitmap as GeoTIFF, for GIS programs", declare_export, true},
-    {"steer", "to a pose by a shortest path, or under a control law; nothing is in the way",
+    {"plan", "compute only the feedback plan", declare_plan, true},
+    {"simulate", "fly a plan: exactly, or with a sampled control law in noise and wind",
+     declare_simulate, true},
+    {"verify", "prove which states reach the goal, and write a certificate", declare_verify, true},
+    {"query", "look up states in a certificate or a bitmap", declare_query, false},
+    {"check", "re-prove a certificate with an independent program", declare_check, false},
+    {"draw", "draw a plan or a certificate", declare_draw, true},
+    {"cell", "list which headings lead from one border of a cell to another (paper 2)",
+     declare_cell, true},
+    {"export", "export a plan, a certificate or a bitmap as GeoTIFF for GIS programs",
+     declare_export, true},
+    {"steer", "steer to a pose by a shortest path or a control law, ignoring obstacles",
      declare_steer, true},
-    {"view", "the interactive page of a run, live on this machine", declare_view, false},
-    {"info", "what a map holds: its size, what is free and connected, and where there is room",
+    {"view", "serve the interactive page of a run on this machine", declare_view, false},
+    {"info", "describe a map: its size, its free and connected parts, its largest clearance",
      declare_info, true},
-    {"init", "a first scenario for a map, which runs as it is", declare_init, true},
+    {"init", "write a first scenario for a map, ready to run", declare_init, true},
 };
 
-/// Ctrl-C and friends must leave nothing half-written: they are taken by a thread of their own,
-/// which may do what a signal handler may not.
+/// Ctrl-C and the like must leave no partial files. A dedicated thread waits for the signals,
+/// because it may do what a signal handler may not.
 void tidy_up_on_signals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -79,20 +79,20 @@ int fail(const Session& session, int code, const std::string& where, const std::
   if (session.json) {
     try {
       session.tell({{"error", message}, {"where", where}, {"exit_code", code}}, "");
-    } catch (const OutputError&) {  // told on stderr, and by the code
+    } catch (const OutputError&) {  // stderr and the exit code have already reported it
     }
   }
   return code;
 }
 
-int fail_to_tell(std::string_view why) {
+int fail_to_print(std::string_view why) {
   complain(fmt::format("fairway: standard output could not be written{}{}", why.empty() ? "" : ": ",
                        why));
   return exit_output;
 }
 
 int perform(const Action& action, bool writes, const Session& session) {
-  if (writes) say_when_interrupted("nothing half-made was left");
+  if (writes) say_when_interrupted("no partial files were left");
   std::optional<tbb::global_control> bound;
   if (session.threads > 0) {
     bound.emplace(tbb::global_control::max_allowed_parallelism,
@@ -104,41 +104,41 @@ int perform(const Action& action, bool writes, const Session& session) {
     for (const std::string& warning : error.warnings) session.warn(warning);
     return fail(session, exit_input, error.where(), error.what());
   } catch (const OutputError& error) {
-    return fail_to_tell(error.what());
+    return fail_to_print(error.what());
   } catch (const InputError& error) {
     return fail(session, exit_input, error.where(), error.what());
   } catch (const std::bad_alloc&) {
-    return fail(session, exit_fault, "", "out of memory; larger cells need less");
+    return fail(session, exit_fault, "", "out of memory; larger cells use less");
   } catch (const std::exception& error) {
     return fail(session, exit_fault, "",
-                fmt::format("a fault of fairway itself, not of your input: {}", error.what()));
+                fmt::format("internal error (please report it): {}", error.what()));
   }
 }
 
-/// The options of all commands: before the command's name or after it.
+/// The options common to all commands, accepted before the command's name or after it.
 void declare_common(CLI::App& app, bool writes, Session& session, const std::string& group) {
   app.add_option("--threads", session.threads,
-                 "threads to use (default: all cores); results never depend on it")
+                 "number of threads (default: all cores); does not affect results")
       ->check(CLI::Range(1, 4096))
       ->type_name("N")
       ->group(group);
-  app.add_flag("--quiet", session.quiet, "no progress, no closing words")->group(group);
+  app.add_flag("--quiet", session.quiet, "suppress progress and the final summary")->group(group);
   app.add_flag("--json", session.json, "print one JSON object to stdout")->group(group);
   if (writes) {
-    app.add_flag("--force", session.force, "replace products that exist")->group(group);
+    app.add_flag("--force", session.force, "overwrite existing products")->group(group);
   }
 }
 
-/// What is wrong with a first word that is none of the commands, and what may have been meant.
+/// The error for a first word that is not a command, with a guess at what was meant.
 std::string no_command_words(const std::string& word) {
   if (word.starts_with("-")) return fmt::format("unknown option {}; see fairway --help", word);
   std::error_code error;
   const std::filesystem::path path(word);
   if (path.extension() == ".toml") {
-    return fmt::format("{} is no command; did you mean fairway run {}?", word, word);
+    return fmt::format("{} is not a command; did you mean fairway run {}?", word, word);
   }
   if (std::filesystem::is_directory(path, error)) {
-    return fmt::format("{} is no command; did you mean fairway view {}?", word, word);
+    return fmt::format("{} is not a command; did you mean fairway view {}?", word, word);
   }
   const std::string known = word.substr(0, 64);
   const Command* best = &commands[0];
@@ -162,11 +162,10 @@ int main_with(int argc, char** argv) {
   bool show_keys = false;
   app.add_flag("--scenario-keys", show_keys, "print every scenario key with its range and default");
   app.footer(
-      "Exit codes: 0 done, whatever becomes of the states asked about; 1 the answer is no (the "
-      "goal "
+      "Exit codes: 0 success, whatever the verdicts and outcomes; 1 negative result (the goal "
       "cannot be reached from anywhere, the certificate was refused); 64 wrong usage; 65 bad input "
-      "(told with file and line); 70 our fault; 74 standard output could not be written; 130 ended "
-      "by Ctrl-C.");
+      "(reported with file and line); 70 internal error; 74 standard output could not be written; "
+      "130 interrupted by Ctrl-C.");
   app.require_subcommand(0, 1);
   app.fallthrough();
 
@@ -189,7 +188,7 @@ int main_with(int argc, char** argv) {
       return exit_usage;
     }
     const std::string command = app.get_subcommands().front()->get_name();
-    complain(fmt::format("fairway {}: not expected: {}; see fairway {} --help", command,
+    complain(fmt::format("fairway {}: unexpected argument: {}; see fairway {} --help", command,
                          fmt::join(app.remaining(true), " "), command));
     return exit_usage;
   } catch (const CLI::ParseError& error) {
@@ -206,26 +205,26 @@ int main_with(int argc, char** argv) {
   return exit_usage;
 }
 
-/// A descriptor that the caller closed would go to the next file that is opened, and what is told
-/// would end up in it. What is written to such a place fails, as it did.
+/// A standard descriptor that the caller closed would be reused for the next file opened, and
+/// output would end up in that file. Opens a placeholder to which writing still fails.
 void keep_standard_descriptors() {
   for (const auto& [descriptor, way] :
        {std::pair{STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}}) {
     if (::fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
-    const int opened = ::open("/dev/null", way);  // the lowest that is free: this one
+    const int opened = ::open("/dev/null", way);  // takes the lowest free descriptor: this one
     if (opened >= 0 && opened != descriptor) ::close(opened);
   }
 }
 
-/// What was told is only told once it is written, help and version too.
+/// Output counts as written only once it is flushed; help and version included.
 int when_written(int code) {
-  if (code == exit_output) return code;  // told
+  if (code == exit_output) return code;  // already reported
   errno = 0;
   std::cout.flush();
   const bool flushed = std::fflush(stdout) == 0;
   const int error = errno;
   if (flushed && std::ferror(stdout) == 0 && std::cout.good()) return code;
-  const int lost = fail_to_tell(error == 0 ? "" : std::strerror(error));
+  const int lost = fail_to_print(error == 0 ? "" : std::strerror(error));
   return code == exit_done ? lost : code;
 }
 

@@ -15,19 +15,18 @@ MapRequest MapArguments::request() const {
 }
 
 void declare_map(CLI::App& options, MapArguments& a) {
-  options.add_option("map", a.file, "the map file, of any kind that a scenario takes")
+  options.add_option("map", a.file, "the map file, in any format that a scenario accepts")
       ->required()
       ->type_name("MAP");
-  options.add_option("--cell", a.cell_m, "side of a cell, metres (default: chosen for the map)")
+  options
+      .add_option("--cell", a.cell_m, "side of a cell, metres (default: chosen to suit the map)")
       ->type_name("M")
       ->check(finite_above(0.0));
   options
-      .add_option("--turn-radius", a.turn_radius_m, "the vehicle's least turning radius, metres")
+      .add_option("--turn-radius", a.turn_radius_m, "the vehicle's minimum turning radius, metres")
       ->type_name("R")
       ->check(finite_above(0.0));
-  options
-      .add_option("--resolution", a.resolution_m,
-                  "metres per pixel, for maps without a scale of their own")
+  options.add_option("--resolution", a.resolution_m, "metres per pixel, for maps without a scale")
       ->type_name("M")
       ->check(finite_above(0.0));
   options.add_option("--altitude", a.altitude_m, "flight altitude on elevation maps, metres")

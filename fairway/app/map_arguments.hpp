@@ -1,4 +1,4 @@
-// What a map needs beside its file, as options: of the commands that begin with a map.
+// The options of commands that start from a map.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ struct MapArguments {
   std::string inclusion;  ///< "all", "any", or empty
   std::optional<double> turn_radius_m;
 
-  /// Its cell_m is 1 where none was given.
+  /// Its cell_m is 1 when none was given.
   [[nodiscard]] MapRequest request() const;
 };
 

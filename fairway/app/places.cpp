@@ -32,7 +32,8 @@ void require_places(const Places& outputs, const Places& inputs, Existing existi
     require_no_input(to[i], from);
     for (std::size_t j = 0; j < i; ++j) {
       if (same_place(to[i], to[j])) {
-        throw InputError(to[i].string(), "is the place of two products, expected one for each");
+        throw InputError(to[i].string(),
+                         "is given for two products, expected a different file for each");
       }
     }
     require_writable_place(to[i], existing);

@@ -1,4 +1,4 @@
-// Where a command is about to write, looked at before it begins.
+// Checks of where a command will write, made before it starts.
 #pragma once
 
 #include <filesystem>
@@ -8,14 +8,14 @@
 
 namespace fairway {
 
-/// Files to read or to write, as options name them: empty ones are not asked for, and - is standard
-/// input or output.
+/// Files to read or to write, as given by options: an empty path means the option was not given, -
+/// means standard input or output.
 using Places = std::vector<std::filesystem::path>;
 
-/// Throws InputError unless each output can be written, none is an input, and no two are the same.
+/// Throws InputError unless every output can be written, is not an input, and is given only once.
 void require_places(const Places& outputs, const Places& inputs, Existing existing);
 
-/// Those that are files.
+/// Only those that are files.
 [[nodiscard]] Places files_of(Places places);
 
 }  // namespace fairway

@@ -39,7 +39,7 @@ Action declare_plan(CLI::App& options) {
   options.add_option("-o,--output", arguments->output, "the plan file to write")
       ->required()
       ->type_name("PLAN.safetensors");
-  options.add_option("--picture", arguments->picture, "draw the plan, too; see fairway draw")
+  options.add_option("--picture", arguments->picture, "also draw the plan, as fairway draw does")
       ->check(picture_argument())
       ->type_name("FILE");
   options.footer("Example: fairway plan demo/demo.toml -o demo.safetensors --picture demo.svg");

@@ -1,4 +1,4 @@
-// fairway query: what a certificate, or a bitmap, says of a state.
+// fairway query: looks up states in a certificate or a bitmap.
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -33,7 +33,7 @@ struct QueryArguments {
   bool trust_file = false;
 };
 
-/// What is printed of a state.
+/// What is printed for a state.
 struct Answer {
   const char* word = "";
   std::optional<double> time_bound_s;
@@ -110,7 +110,8 @@ int query_command(const QueryArguments& a, const Session& session) {
     tell(a, "bitmap", frame, states, answers_of(bitmap, states), session);
     return exit_done;
   }
-  // Reading it whole checks digests and order; the answers then come from the mapped file.
+  // Reading the whole file checks its digests and order; the answers then come from the mapped
+  // file.
   Frame frame;
   if (!a.trust_file || a.asked.may_be_in_degrees()) {
     frame = read_certificate(a.certificate).frame.value_or(Frame{});
@@ -135,18 +136,17 @@ Action declare_query(CLI::App& options) {
       ->type_name("CERT|BITMAP");
   declare_states(options, a.asked, "state");
   options.add_flag("--trust-file", a.trust_file,
-                   "do not check a certificate's digests first: faster for a few states of a large "
-                   "one");
+                   "skip checking the certificate's digests: faster for a few states of a large "
+                   "certificate");
   options.final_callback([&a] {
     if (a.asked.empty()) throw CLI::RequiredError("--state, --state-deg or --states");
   });
   options.footer(
-      "Prints CSV x_m,y_m,heading_rad,verdict,time_bound_s (the bound for reach, else empty).\n"
-      "A certificate answers with what is proved. A bitmap answers with what its samples say of "
+      "Prints CSV x_m,y_m,heading_rad,verdict,time_bound_s (the bound is empty unless the verdict\n"
+      "is reach). A certificate gives proved verdicts. A bitmap gives what its samples show at "
       "the\n"
-      "border that the state's flight meets first: sampled_reach, sampled_other, or undecided "
-      "where\n"
-      "they disagree. That is a picture, not a proof.\n"
+      "first border that the state's flight meets: sampled_reach, sampled_other, or undecided\n"
+      "where they disagree. That is a picture, not a proof.\n"
       "Example: fairway query demo.cert.safetensors --state 100,100,90deg");
   return [arguments](const Session& session) { return query_command(*arguments, session); };
 }

@@ -25,7 +25,7 @@ struct RunArguments {
   std::optional<double> undecided_max;
   bool no_verify = false;
 
-  /// The short names of what --set could say, too.
+  /// Options that are short for a --set.
   std::vector<ScenarioOverride> overrides() const {
     std::vector<ScenarioOverride> all;
     const auto add = [&](const char* key, const std::optional<double>& value, const char* option) {
@@ -41,7 +41,7 @@ struct RunArguments {
 int run_command(const RunArguments& arguments, const Session& session) {
   say_when_interrupted(
       "nothing of this run was kept; with --time-limit S a run keeps what is proved by then, and "
-      "fairway verify --resume goes on from its certificate");
+      "fairway verify --resume continues from its certificate");
   const Scenario scenario = arguments.scenario.read(arguments.overrides());
   const fs::path folder = arguments.folder.empty()
                               ? fs::path(scenario.file.stem().string() + "-out")
@@ -59,30 +59,32 @@ Action declare_run(CLI::App& options) {
   RunArguments& a = *arguments;
   declare(options, a.scenario);
   options
-      .add_option("-o,--output", a.folder,
-                  "folder for every product (default: the scenario's name with -out, here)")
+      .add_option(
+          "-o,--output", a.folder,
+          "folder for all products (default: the scenario's name with -out, in the current folder)")
       ->type_name("DIR");
   options
       .add_option("--time-limit", a.time_limit_s,
-                  "stop proving after this time, seconds (verify.time_limit_s)")
+                  "stop the proof after this many seconds (verify.time_limit_s)")
       ->check(finite_above(0.0))
       ->type_name("S");
   options
       .add_option("--undecided-max", a.undecided_max,
-                  "stop proving once this share of the volume is undecided; 1: a first look "
-                  "(verify.undecided_max)")
+                  "stop the proof once at most this share of the volume is undecided; 1 gives a "
+                  "quick first look (verify.undecided_max)")
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("F");
-  options.add_flag("--no-verify", a.no_verify, "plan and fly, and prove nothing");
+  options.add_flag("--no-verify", a.no_verify, "plan and fly only, without a proof");
   options.final_callback([&a] {
     if (a.no_verify && (a.time_limit_s || a.undecided_max)) {
-      throw CLI::ValidationError("--no-verify", "has no --time-limit or --undecided-max");
+      throw CLI::ValidationError("--no-verify",
+                                 "cannot be combined with --time-limit or --undecided-max");
     }
   });
   options.footer(
-      "Leaves in the folder, which appears whole or not at all: report.html, the page to look\n"
-      "at (fairway view DIR serves it, and it then answers live); plan.safetensors;\n"
-      "certificate.safetensors, what is proved of every state, with failures.csv;\n"
+      "Writes to the folder, which appears complete or not at all: report.html, the page to open\n"
+      "(fairway view DIR serves it with live queries); plan.safetensors;\n"
+      "certificate.safetensors, what is proved of every state, and failures.csv;\n"
       "flights.csv, flights.geojson, outcomes.csv; pictures (SVG and PNG); summary.json.\n"
       "Example: fairway run demo/demo.toml -o out/demo");
   return [arguments](const Session& session) { return run_command(*arguments, session); };

@@ -6,7 +6,7 @@
 namespace fairway {
 namespace {
 
-/// Known keys, and values that they can have: told before the scenario is read.
+/// Checks the key and its value before the scenario is read.
 CLI::Validator override_argument() {
   return {[](const std::string& text) -> std::string {
             try {
@@ -36,7 +36,7 @@ void declare(CLI::App& options, ScenarioArguments& arguments) {
       ->type_name("SCENARIO.toml");
   options
       .add_option("--set", arguments.set,
-                  "a value in place of the scenario's: map.cell_m=4, plan.metric=paper, "
+                  "override a value of the scenario: map.cell_m=4, plan.metric=paper, "
                   "'mission.goal_m=[30, 40]'; may be repeated")
       ->type_name("KEY=VALUE")
       ->check(override_argument())

@@ -1,4 +1,4 @@
-// The scenario that a command is given, and what its options put in place of the file's values.
+// A command's scenario and the options that override its values.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What every subcommand is given: the global options, and the ways to speak.
+// What every subcommand receives: the global options and the output functions.
 #pragma once
 
 #include <stdexcept>
@@ -22,16 +22,16 @@ enum ExitCode : int {
   exit_output = 74
 };
 
-/// What was to be told could not be written to standard output.
+/// Standard output could not be written.
 class OutputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// To standard output, and on to where it leads. Throws OutputError.
+/// Writes to standard output and flushes it. Throws OutputError.
 void print(std::string_view text);
 
-/// A line to stderr. Where that cannot be written there is nobody to tell.
+/// Writes a line to stderr; failure to do so is ignored.
 void complain(std::string_view text) noexcept;
 
 struct Session {
@@ -42,11 +42,11 @@ struct Session {
 
   Existing existing() const { return force ? Existing::replace : Existing::keep; }
 
-  /// The result: `report` with --json, else `text` (nothing with --quiet). To stdout, like print().
+  /// Prints the result: `report` with --json, else `text` (nothing with --quiet), like print().
   void tell(const nlohmann::json& report, std::string_view text) const;
-  /// Warnings, result, and the exit code it stands for: exit_done, or exit_no when unreachable.
+  /// Prints warnings and result; returns the exit code: exit_done, or exit_no when unreachable.
   int tell(const RunResult& result) const;
-  /// What the user should know; to stderr.
+  /// Prints a warning to stderr.
   void warn(std::string_view sentence) const;
 };
 

@@ -8,65 +8,67 @@ namespace {
 void declare_starts(CLI::App& options, SimulateArguments& a) {
   options.add_option("plan", a.plan, "the plan file")->required()->type_name("PLAN");
   declare_states(options, a.asked, "start");
-  options.add_option("--random", a.random, "this many random starts")
+  options.add_option("--random", a.random, "number of random starts")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{100'000'000}));
-  options.add_option("--seed", a.sampled.seed, "of all random draws")
+  options.add_option("--seed", a.sampled.seed, "random seed")
       ->type_name("S")
       ->check(finite_from(0.0))
       ->capture_default_str();
   options
       .add_option("--random-in", a.random_in,
-                  "safe_start: free cells with a command; flyable: free and buffer; "
-                  "not_obstacle: goal cells too")
+                  "cells to draw random starts from; safe_start: free cells with a command; "
+                  "flyable: free and buffer cells; not_obstacle: goal cells too")
       ->check(CLI::IsMember({"safe_start", "flyable", "not_obstacle"}))
       ->type_name("WHERE")
       ->capture_default_str();
 }
 
 void declare_outputs(CLI::App& options, SimulateArguments& a) {
-  options.add_option("--csv", a.csv, "write the flights' tracks; - for stdout")->type_name("FILE");
-  options.add_option("--outcomes", a.outcomes, "write a line per start; - for stdout")
+  options.add_option("--csv", a.csv, "write the flights' tracks as CSV; - for stdout")
+      ->type_name("FILE");
+  options.add_option("--outcomes", a.outcomes, "write one line per start as CSV; - for stdout")
       ->type_name("CSV");
   options.add_option("--geojson", a.geojson, "write the flights' tracks as GeoJSON; - for stdout")
       ->type_name("FILE");
   options
-      .add_option("--qgc", a.qgc,
-                  "write the one flight as a mission: .plan for QGroundControl, .waypoints or .txt "
-                  "for QGC WPL 110")
+      .add_option(
+          "--qgc", a.qgc,
+          "write a single flight as a mission: .plan for QGroundControl, .waypoints or .txt "
+          "for QGC WPL 110")
       ->type_name("FILE");
   options
       .add_option("--fence", a.fence,
                   "a QGroundControl .plan whose fence, rally points and home altitude the exported "
                   ".plan keeps (default: the one the map was read from)")
       ->type_name("PLAN");
-  options.add_option("--altitude", a.mission.altitude_m, "of the mission, metres above its start")
+  options
+      .add_option("--altitude", a.mission.altitude_m, "mission altitude above its start, metres")
       ->type_name("M")
       ->check(finite_from(0.0))
       ->capture_default_str();
   options
       .add_option("--tolerance", a.mission.tolerance_m,
-                  "farthest that the mission's line may be from the flight, metres")
+                  "maximum distance of the mission's line from the flight, metres")
       ->type_name("M")
       ->check(finite_above(0.0))
       ->capture_default_str();
   options
       .add_option("--step", a.step_m,
-                  "longest step between points of a track, metres (default: a cell)")
+                  "maximum distance between points of a track, metres (default: one cell)")
       ->type_name("M")
       ->check(finite_above(0.0));
 }
 
 void declare_following(CLI::App& options, SimulateArguments& a) {
   options
-      .add_option(
-          "--laps", a.laps,
-          "path missions: fly on along the path after reaching it, so many times its length")
+      .add_option("--laps", a.laps,
+                  "path missions: after reaching the path, follow it for N times its length")
       ->type_name("N")
       ->check(finite_above(0.0));
   options
       .add_option("--follow", a.follow_s,
-                  "path missions: fly on along the path for so many seconds after reaching it")
+                  "path missions: after reaching the path, follow it for S seconds")
       ->type_name("S")
       ->check(finite_above(0.0));
 }
@@ -78,7 +80,9 @@ std::vector<std::string> law_names() {
 }
 
 void declare_laws(CLI::App& options, SimulateArguments& a) {
-  options.add_option("--law", a.law, "exact: the model itself; bang-bang, proportional: sampled")
+  options
+      .add_option("--law", a.law,
+                  "exact: the model itself; bang-bang and proportional: sampled control laws")
       ->check(CLI::IsMember(law_names()))
       ->type_name("LAW")
       ->capture_default_str();
@@ -91,25 +95,29 @@ void declare_laws(CLI::App& options, SimulateArguments& a) {
   const CLI::Validator positive = finite_above(0.0);
   const CLI::Validator not_negative = finite_from(0.0);
   constexpr double shortest_period_s = 1e-4;  // a flight of a minute: half a million periods
-  sampled("--gain", a.gain_per_s, "proportional: turn rate per heading error, 1/s", "G")
+  sampled("--gain", a.gain_per_s, "law proportional: turn rate per heading error, 1/s", "G")
       ->check(positive);
   sampled("--period", a.sampled.control_period_s, "control period, seconds", "S")
       ->check(finite_from(shortest_period_s));
-  sampled("--position-noise", a.sampled.position_noise_m, "of the measurement, metres", "M")
+  sampled("--position-noise", a.sampled.position_noise_m,
+          "standard deviation of the measured position, metres", "M")
       ->check(not_negative);
   sampled("--heading-noise", a.heading_noise,
-          "of the measurement, radians, or degrees with the suffix deg", "H")
+          "standard deviation of the measured heading, radians, or degrees with the suffix deg",
+          "H")
       ->check(angle_argument());
-  sampled("--wind", a.wind_mps, "where it blows to, metres per second", "EAST,NORTH")
+  sampled("--wind", a.wind_mps, "wind velocity (the direction it blows to), metres per second",
+          "EAST,NORTH")
       ->delimiter(',')
       ->expected(2)
       ->check(finite_number());
-  sampled("--gust", a.sampled.gust_mps, "standard deviation of gusts per axis", "MPS")
+  sampled("--gust", a.sampled.gust_mps, "standard deviation of gusts per axis, metres per second",
+          "MPS")
       ->check(not_negative);
   sampled("--gust-time", a.sampled.gust_time_s, "correlation time of gusts, seconds", "S")
       ->check(positive);
-  sampled("--time-limit", a.sampled.time_limit_s, "a flight still under way then counts as trapped",
-          "S")
+  sampled("--time-limit", a.sampled.time_limit_s,
+          "time after which an unfinished flight counts as trapped, seconds", "S")
       ->check(positive);
 }
 
@@ -131,7 +139,7 @@ void check(const SimulateArguments& a) {
   }
   if (!a.fence.empty() && a.qgc.extension() != ".plan") {
     throw CLI::ValidationError("--fence",
-                               "goes with --qgc FILE.plan: no other mission has a fence");
+                               "needs --qgc FILE.plan: other mission formats have no fence");
   }
   if (a.sampled_only_given && a.law == exact_law) {
     throw CLI::ValidationError(
@@ -168,11 +176,10 @@ void declare(CLI::App& options, SimulateArguments& a) {
   declare_laws(options, a);
   options.final_callback([&a] { check(a); });
   options.footer(
-      "Without --outcomes - and the like, prints what became of the flights.\n"
-      "Where the plan's goal has a heading, exact flights that reach go on by a last leg to it.\n"
-      "Flights of a path mission end where they reach the path, unless --laps or --follow is "
-      "given:\n"
-      "what comes after is then told in columns, properties and sentences of its own.\n"
+      "Prints a summary of the outcomes unless one of the outputs goes to stdout.\n"
+      "If the plan's goal has a heading, exact flights that reach it continue with a last leg to\n"
+      "that heading. Flights of a path mission end where they reach the path, unless --laps or\n"
+      "--follow is given; what happens afterwards is then reported separately.\n"
       "Uploading an exported .plan replaces the vehicle's mission, fence and rally points.\n"
       "Example: fairway simulate demo.safetensors --state 100,100,90deg --random 1000 --outcomes "
       "out.csv");

@@ -1,4 +1,4 @@
-// What `fairway simulate` can be asked.
+// The arguments of `fairway simulate`.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ struct SimulateArguments {
   QgcMissionOptions mission;
   double laps = 0.0;      ///< 0: not given
   double follow_s = 0.0;  ///< 0: not given
-  double step_m = 0.0;    ///< 0: a cell
+  double step_m = 0.0;    ///< 0: one cell
   std::string law = exact_law;
   double gain_per_s = SaturatedProportional{}.gain_per_s;
   SampledOptions sampled;
@@ -46,7 +46,7 @@ struct SimulateArguments {
   std::optional<SampledOptions> sampled_options() const;
 };
 
-/// Its options, with the checks of one against another. `arguments` must outlive `options`.
+/// Declares the options and the checks between them. `arguments` must outlive `options`.
 void declare(CLI::App& options, SimulateArguments& arguments);
 
 }  // namespace fairway

@@ -59,12 +59,12 @@ ManyFlights flights_asked_for(const SimulateArguments& arguments, const Plan& pl
   const FlightEngine engine(plan, arguments.sampled_options());
   if (options.follow && engine.path() == nullptr) {
     throw InputError(arguments.plan.string(),
-                     "its mission is not a path, and --laps and --follow are for paths");
+                     "its mission is not a path, as --laps and --follow require");
   }
   return fly_many(engine, starts, options);
 }
 
-/// Where random starts were drawn from, and how many when not all of them were.
+/// Where random starts were drawn from, and their number when there are other starts too.
 std::string drawn_words(const SimulateArguments& arguments, std::size_t starts) {
   if (arguments.random == 0) return {};
   const StartRegion region = arguments.start_region();
@@ -91,7 +91,7 @@ void check_places(const SimulateArguments& arguments, const Session& session) {
                  {arguments.plan, arguments.asked.file, arguments.fence}, session.existing());
 }
 
-/// What the exported plan keeps beside the mission.
+/// What the exported plan keeps in addition to the mission.
 QgcSite site_of(const SimulateArguments& arguments, const Plan& plan, const Session& session) {
   if (arguments.qgc.extension() != ".plan") return {};
   if (!arguments.fence.empty()) return qgc_site_of(arguments.fence);
@@ -106,15 +106,15 @@ std::string mission_text(const SimulateArguments& arguments, const Plan& plan,
   const std::string file = arguments.plan.string();
   if (flights.size() != 1) {
     throw InputError(arguments.qgc.string(),
-                     fmt::format("a mission is one flight, and there are {} starts; give one "
+                     fmt::format("a mission is a single flight, but there are {} starts; give one "
                                  "--state",
                                  flights.size()));
   }
   const LonLatOf lon_lat = lon_lat_of(frame_in(plan.record), file);
   if (!lon_lat) {
     throw InputError(file,
-                     "its map is not georeferenced: there is no latitude and longitude to "
-                     "fly to; a mission needs a plan on a map in degrees or in a projected system");
+                     "the plan's map is not georeferenced, so waypoints have no latitude and "
+                     "longitude; a mission needs a map in degrees or in a projected system");
   }
   QgcMissionOptions mission = arguments.mission;
   mission.site = site_of(arguments, plan, session);

@@ -13,8 +13,8 @@ namespace fairway {
 void declare_states(CLI::App& options, StatesAsked& asked, const std::string& noun) {
   options
       .add_option("--state", asked.metres,
-                  fmt::format("a {}: metres, and radians or degrees with the suffix deg; may be "
-                              "repeated",
+                  fmt::format("a {}: metres, and heading in radians, or degrees with the suffix "
+                              "deg; may be repeated",
                               noun))
       ->type_name("X,Y,H")
       ->check(state_argument())
@@ -22,8 +22,8 @@ void declare_states(CLI::App& options, StatesAsked& asked, const std::string& no
       ->delimiter('\0');
   options
       .add_option("--state-deg", asked.degrees,
-                  fmt::format("a {} on a georeferenced map: degrees, the course clockwise from "
-                              "north; may be repeated",
+                  fmt::format("a {} on a georeferenced map: degrees, with the course clockwise "
+                              "from north; may be repeated",
                               noun))
       ->type_name("LAT,LON,COURSE")
       ->check(earth_state_argument())
@@ -31,8 +31,8 @@ void declare_states(CLI::App& options, StatesAsked& asked, const std::string& no
       ->delimiter('\0');
   options
       .add_option("--states", asked.file,
-                  fmt::format("{}s from a CSV file, x_m,y_m,heading_rad or lat_deg,lon_deg,"
-                              "course_deg; - for standard input",
+                  fmt::format("read {}s from a CSV file with x_m,y_m,heading_rad or lat_deg,"
+                              "lon_deg,course_deg; - for standard input",
                               noun))
       ->type_name("CSV");
 }

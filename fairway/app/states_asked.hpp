@@ -1,4 +1,4 @@
-// The states that a command line names: in metres, in degrees, or in a CSV file of either.
+// The states given on a command line: in metres, in degrees, or in a CSV file of either.
 #pragma once
 
 #include <filesystem>
@@ -21,11 +21,11 @@ struct StatesAsked {
   bool may_be_in_degrees() const { return !degrees.empty() || !file.empty(); }
 };
 
-/// --state, --state-deg and --states. `noun`: what they are called, "start" or "state".
+/// Declares --state, --state-deg and --states. `noun`: "start" or "state", for the help texts.
 void declare_states(CLI::App& options, StatesAsked& asked, const std::string& noun);
 
-/// Those in metres, those in degrees, those of the file. `frame`: of the plan or the certificate in
-/// `file`. Throws InputError for degrees where it has no place on Earth.
+/// In order: those in metres, those in degrees, those of the file. `frame`: of the plan or the
+/// certificate in `file`. Throws InputError for degrees when it is not georeferenced.
 [[nodiscard]] std::vector<State> states_of(const StatesAsked& asked, const Frame& frame,
                                            const std::filesystem::path& file);
 

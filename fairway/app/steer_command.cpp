@@ -1,4 +1,4 @@
-// fairway steer: to a pose, or along poses one by one, where nothing is in the way.
+// fairway steer: to a pose, or through a list of poses, ignoring obstacles.
 #include <cstddef>
 #include <filesystem>
 #include <iterator>
@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// Beyond it the doubles of a path are not right to the millimetre (dubins_words.hpp, property 2).
+/// Beyond it a path in doubles is not accurate to a millimetre (dubins_words.hpp, property 2).
 constexpr double largest_radius_m = 1e9;
 
 struct SteerArguments {
@@ -41,7 +41,7 @@ struct SteerArguments {
   fs::path picture;
   fs::path track;
 
-  /// A flight takes a hundred steps for each.
+  /// A flight takes a hundred steps per radius.
   double most_radii() const { return request.is_flown() ? farthest_flown_radii : farthest_radii; }
   LegTrack legs_track() const {
     return picture.empty() && track.empty() ? LegTrack::none : LegTrack::all;
@@ -106,7 +106,7 @@ int steer_command(const SteerArguments& a, const Session& session) {
   return exit_done;
 }
 
-/// What was given, as one request.
+/// Completes the request from the arguments.
 void complete_request(SteerArguments& a) {
   a.request.law = a.law == "clf" ? SteeringLaw::clf : SteeringLaw::shortest;
   a.request.clf.repulsion = a.repulsion == "none"      ? Repulsion::none
@@ -126,8 +126,8 @@ void check_flight(const SteerArguments& a) {
   if (!PoseTolerance{place_m, place_m / r}.covers(step_m, r)) {
     throw CLI::ValidationError(
         "--tolerance",
-        fmt::format("{:g} metres may be missed between two steps of {:g} metres: expected more "
-                    "than {:g}",
+        fmt::format("a goal within {:g} metres could be missed between two steps of {:g} metres: "
+                    "expected more than {:g}",
                     place_m, step_m, step_m * (0.5 + 0.5 * step_m / r)));
   }
 }
@@ -175,7 +175,8 @@ void check_arguments(const SteerArguments& a) {
 
 void declare_flight(CLI::App& options, SteerArguments& a) {
   options
-      .add_option("--n", a.request.clf.n, "law clf: n of its vote (Eq. 8); shapes V, not the path")
+      .add_option("--n", a.request.clf.n,
+                  "law clf: exponent n of its vote (Eq. 8); shapes V, not the path")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   options
@@ -185,28 +186,29 @@ void declare_flight(CLI::App& options, SteerArguments& a) {
       ->capture_default_str();
   options
       .add_option("--step", a.request.step_m,
-                  "metres that a flight drives between two controls (default: R / 100)")
+                  "distance between two control updates, metres (default: R / 100)")
       ->type_name("M")
       ->check(finite_above(0.0));
   options
       .add_option("--tolerance", a.request.tolerance_m,
-                  "a flight has converged within M metres and M / R radians (default: R / 50)")
+                  "a flight has converged when within M metres and M / R radians of the goal "
+                  "(default: R / 50)")
       ->type_name("M")
       ->check(finite_above(0.0));
   options
       .add_option("--goal-speed", a.request.goal_speed,
-                  "the goal moves along its heading at S times the vehicle's speed, 0 to 0.99")
+                  "move the goal along its heading at S times the vehicle's speed, 0 to 0.99")
       ->type_name("S")
       ->check(CLI::Range(0.0, 0.99))
       ->capture_default_str();
   options
       .add_option("--noise", a.request.noise_m,
-                  "after each step x and y are off by M metres (standard deviation), the heading "
-                  "by M / R radians")
+                  "noise added to x and y after each step, metres (standard deviation); M / R "
+                  "radians for the heading")
       ->type_name("M")
       ->check(finite_from(0.0))
       ->capture_default_str();
-  options.add_option("--seed", a.request.seed, "of the noise")
+  options.add_option("--seed", a.request.seed, "random seed of the noise")
       ->type_name("S")
       ->capture_default_str();
 }
@@ -216,16 +218,17 @@ void declare_flight(CLI::App& options, SteerArguments& a) {
 Action declare_steer(CLI::App& options) {
   auto arguments = std::make_shared<SteerArguments>();
   SteerArguments& a = *arguments;
-  for (const auto& [name, place, what] : {std::tuple{"--from", &a.from, "where the vehicle is"},
+  for (const auto& [name, place, what] : {std::tuple{"--from", &a.from, "the vehicle's pose"},
                                           std::tuple{"--to", &a.to, "the pose to reach"}}) {
     options
-        .add_option(name, *place,
-                    fmt::format("{}: metres, and radians or degrees with the suffix deg", what))
+        .add_option(
+            name, *place,
+            fmt::format("{}: metres, and heading in radians, or degrees with the suffix deg", what))
         ->type_name("X,Y,H")
         ->check(state_argument());
   }
   options
-      .add_option("--turn-radius", a.turn_radius_m, "the vehicle's least turning radius, metres")
+      .add_option("--turn-radius", a.turn_radius_m, "the vehicle's minimum turning radius, metres")
       ->required()
       ->type_name("R")
       ->check(finite_above(0.0));
@@ -237,17 +240,16 @@ Action declare_steer(CLI::App& options) {
   declare_flight(options, a);
   options
       .add_option("--pairs", a.pairs_file,
-                  "many at once, from a CSV file x0_m,y0_m,h0_rad,x1_m,y1_m,h1_rad; - for "
-                  "standard input")
+                  "steer many pairs of poses from a CSV file with "
+                  "x0_m,y0_m,h0_rad,x1_m,y1_m,h1_rad; - for standard input")
       ->type_name("CSV");
   options
       .add_option("--waypoints", a.waypoints_file,
-                  "poses to reach one by one, from a CSV file x_m,y_m,heading_rad; the first is "
-                  "the start unless --from is given; - for standard input")
+                  "reach poses one after another, from a CSV file with x_m,y_m,heading_rad; the "
+                  "first is the start unless --from is given; - for standard input")
       ->type_name("CSV");
   options
-      .add_option("--picture", a.picture,
-                  "draw the path, the shortest path and V; as SVG or PNG, by the file's ending")
+      .add_option("--picture", a.picture, "draw the path, the shortest path and V; .svg or .png")
       ->check(picture_argument())
       ->type_name("FILE");
   options
@@ -257,16 +259,16 @@ Action declare_steer(CLI::App& options) {
   options.final_callback([&a, &options] {
     const bool papers = options.count("--n") + options.count("--repulsion") > 0;
     if (papers && a.law != "clf") {
-      throw CLI::ValidationError("--n, --repulsion", "are the law clf's, expected --law clf");
+      throw CLI::ValidationError("--n, --repulsion", "need --law clf");
     }
     complete_request(a);
     check_arguments(a);
   });
   options.footer(
-      "Prints CSV length_m,word,converged,end_x_m,end_y_m,end_heading_rad, a line for each\n"
-      "pair or waypoint. Obstacles are not considered. The law clf is flown in steps; so is the\n"
-      "law shortest when --step, --tolerance, --goal-speed or --noise is given. The word of\n"
-      "a flight is what it drove.\n"
+      "Prints CSV length_m,word,converged,end_x_m,end_y_m,end_heading_rad, one line for each\n"
+      "pair or waypoint. Obstacles are not considered. The law clf is simulated in steps, and so\n"
+      "is the law shortest when --step, --tolerance, --goal-speed or --noise is given; the word\n"
+      "then lists the turns as driven.\n"
       "Example: fairway steer --from 0,0,0 --to 100,50,90deg --turn-radius 20 --picture path.svg");
   return [arguments](const Session& session) { return steer_command(*arguments, session); };
 }

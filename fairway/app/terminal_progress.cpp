@@ -40,14 +40,14 @@ Progress TerminalProgress::progress() {
     const std::scoped_lock lock(mutex_);
     stage_ = stage;
     left_ = left;
-    told_ = Clock::now();
+    updated_ = Clock::now();
   };
 }
 
 std::string TerminalProgress::line(Clock::time_point now, const char* between) const {
   return fmt::format("{}{}{} so far{}", stage_, between,
                      duration_text(std::floor(seconds(now - begin_))),
-                     time_left_words(left_, seconds(now - told_)));
+                     time_left_words(left_, seconds(now - updated_)));
 }
 
 void TerminalProgress::show_until_done() {

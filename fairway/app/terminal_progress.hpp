@@ -1,5 +1,5 @@
-// Where a long run is, on stderr: the stage, the time so far and the time left. One line that is
-// written anew on a terminal; elsewhere, in a log say, a line now and then.
+// Progress of a long run on stderr: the stage, the time so far and the time left. On a terminal one
+// line is rewritten; elsewhere (in a log, for example) a new line is printed now and then.
 #pragma once
 
 #include <chrono>
@@ -19,7 +19,7 @@ class TerminalProgress {
   TerminalProgress(const TerminalProgress&) = delete;
   TerminalProgress& operator=(const TerminalProgress&) = delete;
 
-  /// What to hand to the work; empty when nothing is shown.
+  /// The callback to pass to the work; empty when nothing is shown.
   Progress progress();
 
  private:
@@ -33,7 +33,7 @@ class TerminalProgress {
   bool done_ = false;
   std::string stage_;
   TimeLeft left_;
-  Clock::time_point told_;  // `left_`
+  Clock::time_point updated_;  // when `left_` was set
   Clock::time_point begin_ = Clock::now();
   std::thread thread_;  // joinable only when something is shown
 };

@@ -1,4 +1,4 @@
-// fairway verify: which states reach, and a certificate of it.
+// fairway verify: proves which states reach, and writes a certificate.
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -62,13 +62,13 @@ CLI::Validator region_argument() {
   return {check, "", "region"};
 }
 
-/// Beside the certificate, under its own name when there is a summary of something else.
+/// Next to the certificate and named after it, so that other summaries there are kept.
 fs::path summary_place(const VerifyArguments& a) {
   if (!a.summary.empty()) return a.summary;
   return a.output.parent_path() / (a.output.stem().string() + ".summary.json");
 }
 
-/// The folder of the pictures, none of which takes an input's place.
+/// Opens the folder of the pictures; none of them may overwrite an input.
 void open_pictures(const VerifyArguments& a, const Places& inputs, const Session& session,
                    std::optional<AtomicFolder>& folder) {
   if (a.pictures.empty()) return;
@@ -86,8 +86,8 @@ int verify_command(const VerifyArguments& a, const Session& session) {
   std::optional<AtomicFolder> pictures;
   open_pictures(a, inputs, session, pictures);
   say_when_interrupted(
-      "nothing half-made was left; with --time-limit S a certificate holds what is proved by then, "
-      "and --resume CERT goes on from it");
+      "no partial files were left; with --time-limit S a certificate holds what is proved by then, "
+      "and --resume CERT continues from it");
   std::optional<TerminalProgress> terminal(std::in_place, session.quiet);
   const Progress progress = terminal->progress();
   StageClock clock(progress);
@@ -159,8 +159,9 @@ int verify_command(const VerifyArguments& a, const Session& session) {
   write_whole(summary_file, session.existing(), summary.dump(2) + "\n");
   for (const std::string& warning : warnings) session.warn(warning);
   session.tell(summary,
-               fmt::format("{}\n{}{}\nThe {} is {}, in numbers {}.", findings_table(found), notes,
-                           cost_words(summary), product, a.output.string(), summary_file.string()));
+               fmt::format("{}\n{}{}\n{}: {}. Summary: {}.", findings_table(found), notes,
+                           cost_words(summary), a.method == "bitmap" ? "Bitmap" : "Certificate",
+                           a.output.string(), summary_file.string()));
   return exit_done;
 }
 
@@ -176,35 +177,36 @@ Action declare_verify(CLI::App& options) {
   options
       .add_option(
           "--method", a.method,
-          "certified: a proof, and a certificate of it; bitmap: paper 2's backward reachable "
-          "set on samples of the borders, a picture to look at and to ask, no proof")
+          "certified: a proof with a certificate; bitmap: paper 2's backward reachable set on "
+          "samples of the borders, a picture that can be queried, not a proof")
       ->check(CLI::IsMember({"certified", "bitmap"}))
       ->type_name("METHOD")
       ->capture_default_str();
   options
       .add_option("--region", a.region,
-                  "what is to be reached: goal, obstacle, the cells wholly inside X0,Y0,X1,Y1, or "
-                  "those of a file: GeoJSON areas, or CSV of cells ix,iy")
+                  "region to be reached: goal, obstacle, the cells wholly inside X0,Y0,X1,Y1, or "
+                  "the cells of a file (GeoJSON areas, or CSV with ix,iy)")
       ->check(region_argument())
       ->type_name("REGION")
       ->capture_default_str();
   options
       .add_option("--undecided-max", a.limits.undecided_max,
-                  "stop once this share of the volume is undecided")
+                  "stop once at most this share of the volume is undecided")
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("F")
       ->capture_default_str();
-  options.add_option("--time-limit", a.limits.time_limit_s, "stop after this time, seconds")
+  options.add_option("--time-limit", a.limits.time_limit_s, "stop after this many seconds")
       ->check(finite_above(0.0))
       ->type_name("S");
   options
-      .add_option("--memory-limit", a.limits.memory_limit_mb, "stop before using more, megabytes")
+      .add_option("--memory-limit", a.limits.memory_limit_mb,
+                  "stop before using more memory than this, megabytes")
       ->check(finite_above(0.0))
       ->type_name("MB");
   options
       .add_option(
           "--resume", a.resume,
-          "go on from an earlier certificate of the same plan, vehicle and region; its leaves "
+          "continue from an earlier certificate of the same plan, vehicle and region; its leaves "
           "are proved again first, which takes about as long as fairway check")
       ->type_name("CERT");
   options
@@ -213,23 +215,28 @@ Action declare_verify(CLI::App& options) {
       ->type_name("CSV");
   options
       .add_option("--pictures", a.pictures,
-                  "draw the verdicts, the shares proved, and a flight to each kind of failure; "
-                  "bitmap: slices by heading, and the shares of headings that reach")
+                  "draw the verdicts, the proved shares and one flight for each kind of failure; "
+                  "bitmap: slices by heading and the shares of headings that reach")
       ->type_name("DIR");
   options
       .add_option("--summary", a.summary,
-                  "where to write the numbers (default: beside the certificate, .summary.json)")
+                  "write the numbers to this file (default: next to the certificate, named "
+                  ".summary.json)")
       ->type_name("JSON");
   options
-      .add_option("--volume-samples", a.volume_samples,
-                  "states that measure the volumes; at least 1000, and one a cell")
+      .add_option(
+          "--volume-samples", a.volume_samples,
+          "number of states sampled to measure the volumes; at least 1000, and one per cell")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}))
       ->type_name("N")
       ->capture_default_str();
-  options.add_option("--seed", a.seed, "of these")->type_name("S")->capture_default_str();
+  options.add_option("--seed", a.seed, "random seed for the volume samples")
+      ->type_name("S")
+      ->capture_default_str();
   options
       .add_option("--border-samples", a.samples_per_border,
-                  "bitmap: places and headings on a border, a multiple of four")
+                  "bitmap: number of places and of headings sampled on each border, a multiple of "
+                  "four")
       ->check(CLI::Range(least_border_samples, most_border_samples))
       ->type_name("M")
       ->capture_default_str();
@@ -238,7 +245,8 @@ Action declare_verify(CLI::App& options) {
       throw CLI::ValidationError("--border-samples", "expected a multiple of four");
     }
     if (a.method == "bitmap" && (!a.resume.empty() || !a.failures.empty())) {
-      throw CLI::ValidationError("--method bitmap", "has no --resume or --failures");
+      throw CLI::ValidationError("--method bitmap",
+                                 "cannot be combined with --resume or --failures");
     }
   });
   options.footer("Example: fairway verify out/demo/plan.safetensors -o demo.cert.safetensors");

@@ -1,4 +1,4 @@
-// fairway view: the page of a run, live.
+// fairway view: serves the page of a run with live queries.
 #include <array>
 #include <csignal>
 #include <filesystem>
@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Always the same when it can be had, so that the address can be kept.
+/// Always the same when it is available, so that the address can be bookmarked.
 constexpr int usual_port = 8642;
 
 struct ViewArguments {
@@ -43,7 +43,7 @@ std::unique_ptr<PageServer> server_for(const ViewArguments& a, const LiveEngine&
   }
 }
 
-/// What the desktop shows addresses with, by itself. False when there is none to run.
+/// Opens the desktop's browser as a separate process. False when it cannot be started.
 bool open_browser(std::string address) {
   std::string program = "xdg-open";
   std::array<char*, 3> words{program.data(), address.data(), nullptr};
@@ -52,8 +52,8 @@ bool open_browser(std::string address) {
   for (const int d : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     posix_spawn_file_actions_addopen(&silent, d, "/dev/null", O_RDWR, 0);
   }
-  // The signals that this process keeps for a thread of its own are the browser's again, and
-  // Ctrl-C is not meant for it.
+  // Unblock the signals that this process handles in a thread, and put the browser into its own
+  // process group, because Ctrl-C is not meant for it.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t none;
@@ -72,12 +72,13 @@ bool open_browser(std::string address) {
 
 int view_command(const ViewArguments& a, const Session& session) {
   if (!fs::is_directory(a.folder)) {
-    throw InputError(a.folder.string(), "is no folder: expected what `fairway run` made");
+    throw InputError(a.folder.string(),
+                     "is not a folder; expected the output folder of `fairway run`");
   }
   if (!fs::exists(a.folder / product::report_page)) {
     throw InputError(
         (a.folder / product::report_page).string(),
-        "is not there: expected the folder of a `fairway run` whose build has the page "
+        "not found; expected the output folder of a `fairway run` whose build includes the page "
         "(docs/report.md)");
   }
   const LiveEngine engine(a.folder);
@@ -86,7 +87,7 @@ int view_command(const ViewArguments& a, const Session& session) {
   session.tell({{"address", server->address()}, {"port", server->port()}},
                fmt::format("{} shows {}; Ctrl-C ends it.", server->address(), a.folder.string()));
   if (a.open && !open_browser(server->address())) {
-    session.warn("xdg-open could not be run: open " + server->address() + " in a browser");
+    session.warn("xdg-open could not be run; open " + server->address() + " in a browser");
   }
   server->serve();
   return exit_done;
@@ -96,22 +97,22 @@ int view_command(const ViewArguments& a, const Session& session) {
 
 Action declare_view(CLI::App& options) {
   auto arguments = std::make_shared<ViewArguments>();
-  options.add_option("folder", arguments->folder, "a folder that `fairway run` made")
+  options.add_option("folder", arguments->folder, "the output folder of `fairway run`")
       ->required()
       ->type_name("DIR");
   options
       .add_option(
           "--port", arguments->port,
-          fmt::format("port on 127.0.0.1, 0 for a free one (default: {}, or a free one when "
-                      "that is taken)",
+          fmt::format("port on 127.0.0.1, 0 for a free one (default: {}, or a free one if that "
+                      "is in use)",
                       usual_port))
       ->check(CLI::Range(0, 65535))
       ->type_name("N")
       ->each([arguments](const std::string&) { arguments->port_given = true; });
-  options.add_flag("--open", arguments->open, "show the page in a browser, by xdg-open");
+  options.add_flag("--open", arguments->open, "open the page in a browser, using xdg-open");
   options.footer(
-      "Serves DIR/report.html and the run's other products on this machine alone, and\n"
-      "answers what the page asks: verdicts, flights and ways to a pose. Prints the address.\n"
+      "Serves DIR/report.html and the run's other products to this machine only, and answers the\n"
+      "page's queries: verdicts, flights and paths to a pose. Prints the address.\n"
       "Example: fairway view out/demo");
   return [arguments](const Session& session) { return view_command(*arguments, session); };
 }

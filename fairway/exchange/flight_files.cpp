@@ -43,7 +43,7 @@ void for_steps(const FlightSegment& piece, double step_m, const Visit& visit) {
   visit(piece, piece.length_m);
 }
 
-/// Degrees where the frame has a place on Earth, else metres.
+/// Degrees if the frame is georeferenced, else metres.
 Vec2 coordinates_of(Vec2 p, const LonLatOf& lon_lat_of) {
   if (!lon_lat_of) return p;
   const LonLat place = lon_lat_of(p);
@@ -116,7 +116,7 @@ void append_geometry(std::string& text, const State& start, std::span<const Flig
   }
   Line line{coordinates_of(segments.front().start.position_m, lon_lat_of)};
   for (const FlightSegment& piece : segments) {
-    // A straight line needs its end alone.
+    // A straight line needs only its end.
     const double chord_m = piece.curvature_per_m == 0.0 ? piece.length_m : step_m;
     for_steps(piece, chord_m, [&](const FlightSegment& p, double along_m) {
       if (along_m == 0.0) return;

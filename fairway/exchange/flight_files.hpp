@@ -16,8 +16,8 @@ namespace fairway {
 
 /// One line per start: `x_m,y_m,heading_rad,outcome,time_s,length_m,flown_m,reversals,turned_rad`
 /// and, when the flights were followed along a path, `after,after_s,joined_s,laps,on_path_share,
-/// distance_mean_m,distance_worst_m,heading_difference_worst_rad`, empty where there is nothing to
-/// tell. Throws PreconditionViolation when the lengths differ.
+/// distance_mean_m,distance_worst_m,heading_difference_worst_rad`, empty where it does
+/// not apply. Throws PreconditionViolation when the lengths differ.
 [[nodiscard]] std::string outcomes_csv(std::span<const State> starts,
                                        std::span<const FlightResult> results,
                                        std::span<const FlightMeasures> measures, bool followed);

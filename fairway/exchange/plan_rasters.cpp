@@ -24,7 +24,7 @@ void write_plan_raster(const Plan& plan, const std::filesystem::path& path, Exis
   for (std::size_t i = 0; i < region.size(); ++i) region[i] = static_cast<float>(plan.region[i]);
   constexpr const char* heading_meaning =
       "heading to steer, radians counter-clockwise from the grid's x axis (east unless the grid is "
-      "turned); no value: no command";
+      "rotated); no value: no command";
   const std::vector<RasterBand> bands{
       {"heading_rad", "rad", heading_meaning, plan.heading_rad},
       {"cost_m", "m", "cost to go, metres; no value: the goal cannot be reached", cost_m},
@@ -62,7 +62,7 @@ void write_verdict_raster(const Grid& grid, const Frame& frame,
   for (const VerdictLayer& layer : layers) {
     bands.push_back(
         band_of("verdict", layer.heading,
-                "what is proved of the vehicle there: " + codes_text<Verdict>(verdict_count),
+                "what is proved for a vehicle there: " + codes_text<Verdict>(verdict_count),
                 layer.verdict));
   }
   write_geotiff(grid, frame, bands, path, existing);
@@ -76,7 +76,7 @@ void write_sampled_raster(const Grid& grid, const Frame& frame,
   for (const SampledLayer& layer : layers) {
     bands.push_back(band_of(
         "samples", layer.heading,
-        "what samples say of the vehicle there, not a proof: " + codes_text<Sampled>(sampled_count),
+        "what samples show for a vehicle there, not a proof: " + codes_text<Sampled>(sampled_count),
         layer.answer));
   }
   write_geotiff(grid, frame, bands, path, existing);

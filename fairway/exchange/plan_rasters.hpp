@@ -1,4 +1,4 @@
-// Plans and verdicts as GeoTIFF: what GIS programs open.
+// Plans, verdicts and bitmaps as GeoTIFF for GIS programs.
 #pragma once
 
 #include <filesystem>
@@ -30,13 +30,13 @@ void write_verdict_raster(const Grid& grid, const Frame& frame,
                           std::span<const VerdictLayer> layers, const std::filesystem::path& path,
                           Existing existing);
 
-/// What a bitmap says of a grid at one heading, [iy][ix].
+/// A bitmap's answers for a grid at one heading, [iy][ix].
 struct SampledLayer {
   Heading heading;
   std::vector<Sampled> answer;
 };
 
-/// The same of a bitmap: answers by code, a picture.
+/// The same for a bitmap: answers by code, a picture and not a proof.
 void write_sampled_raster(const Grid& grid, const Frame& frame,
                           std::span<const SampledLayer> layers, const std::filesystem::path& path,
                           Existing existing);

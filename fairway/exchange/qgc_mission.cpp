@@ -62,22 +62,22 @@ std::vector<std::string> mission_warnings(std::span<const Flight> flights) {
       case Outcome::reach:
         if (flight.onward.after == After::collide) {
           warnings.push_back("the flight reaches the path and collides" + onward +
-                             ", and the mission leads there, too.");
+                             ", and the mission leads there too.");
         } else if (flight.onward.after == After::leave) {
           warnings.push_back("the flight reaches the path and leaves the map" + onward +
-                             ", and the mission leads there, too.");
+                             ", and the mission leads there too.");
         }
         break;
       case Outcome::collide:
-        warnings.push_back("the flight collides" + after(r.time_s) +
-                           ", and the mission leads there, too.");
+        warnings.push_back("the flight collides" + after(r.time_s) + ", and the mission leads there too.");
         break;
       case Outcome::leave:
         warnings.push_back("the flight leaves the map" + after(r.time_s) +
-                           ", and the mission leads there, too.");
+                           ", and the mission leads there too.");
         break;
       case Outcome::trapped:
-        warnings.push_back("the flight never reaches the goal, nor does the mission, which ends.");
+        warnings.push_back(
+            "the flight never reaches the goal; the mission, which ends, does not either.");
         break;
     }
   }

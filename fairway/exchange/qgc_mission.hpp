@@ -3,7 +3,7 @@
 //
 // The mission is a line through waypoints: the points of the thinned track (track.hpp), no farther
 // from the flight than the tolerance. An autopilot has its own guidance between them: what is
-// proved of the plan is not proved of such a mission.
+// proved about the plan is not proved about such a mission.
 // Properties that always hold:
 //   1. The first waypoint is where the flight starts, the last where it ends, its last leg
 //      included.
@@ -23,7 +23,8 @@
 
 namespace fairway {
 
-/// What a .plan holds beside the mission, as JSON: uploading it replaces all three on the vehicle.
+/// What a .plan holds in addition to the mission, as JSON: uploading it replaces all three on the
+/// vehicle.
 struct QgcSite {
   std::string fence_json = R"({"circles": [], "polygons": [], "version": 2})";
   std::string rally_points_json = R"({"points": [], "version": 2})";
@@ -36,8 +37,8 @@ struct QgcMissionOptions {
   QgcSite site = {};         ///< .plan alone: a waypoint file has neither fence nor rally points
 };
 
-/// A sentence for each flight that does not reach, or ends after that: its mission leads there,
-/// too.
+/// A warning for each flight that does not reach, or that collides or leaves after reaching,
+/// because its mission leads there too.
 [[nodiscard]] std::vector<std::string> mission_warnings(std::span<const Flight> flights);
 
 /// QGroundControl's .plan, version 1. Throws PreconditionViolation when an option is out of range
@@ -54,7 +55,7 @@ struct QgcMissionOptions {
 /// Whether a mission's file may have that name: it ends in .plan, .waypoints or .txt.
 [[nodiscard]] bool is_qgc_mission_name(const std::filesystem::path& file);
 
-/// Either, as the file's name asks for.
+/// Either format, according to the file's name.
 [[nodiscard]] std::string qgc_mission_text(const std::filesystem::path& file, const Flight& flight,
                                            double speed_mps, const LonLatOf& lon_lat_of,
                                            const QgcMissionOptions& options);

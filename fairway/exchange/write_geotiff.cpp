@@ -81,7 +81,7 @@ void set_system(GDALDataset& file, const Frame& frame, const std::filesystem::pa
   }
   system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   if (error != OGRERR_NONE || file.SetSpatialRef(&system) != CE_None) {
-    fail(path, session, "cannot be given the map's reference system");
+    fail(path, session, "cannot store the map's reference system");
   }
 }
 
@@ -89,7 +89,7 @@ template <typename T>
 bool write_rows(GDALRasterBand& band, GDALDataType type, const Grid& grid,
                 std::span<const T> values) {
   for (int row = 0; row < grid.ny; ++row) {
-    // GDAL takes what it writes by a pointer that is not const.
+    // GDAL takes the data it writes through a non-const pointer.
     auto* cells = const_cast<T*>(values.data() + grid.index({0, grid.ny - 1 - row}));
     if (band.RasterIO(GF_Write, 0, row, grid.nx, 1, cells, grid.nx, 1, type, 0, 0, nullptr) !=
         CE_None) {
@@ -138,7 +138,7 @@ void write_geotiff(const Grid& grid, const Frame& frame, std::span<const RasterB
   if (!file) fail(path, session, "cannot be written");
   std::array<double, 6> transform = transform_of(grid, frame.world_from_grid);
   if (file->SetGeoTransform(transform.data()) != CE_None) {
-    fail(path, session, "cannot be laid in its place");
+    fail(path, session, "cannot be georeferenced");
   }
   set_system(*file, frame, path, session);
   for (std::size_t i = 0; i < bands.size(); ++i) {

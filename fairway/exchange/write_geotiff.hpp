@@ -1,12 +1,12 @@
-// Values over a grid as a GeoTIFF, laid on Earth where the map was.
+// Values over a grid as a GeoTIFF, georeferenced if the map was.
 //
 // Properties that always hold:
 //   1. Values read back bit for bit, the pixel of row r and column c being cell (c, ny - 1 - r):
 //      images have their highest row first.
 //   2. The place is that of the grid: in the map's projected system; else, for maps in degrees, in
 //      the azimuthal equidistant one about the map's reference point, whose axes are the tangent
-//      plane's; else in metres of a system of its own, which no other knows. A grid that is turned
-//      in its world has a turned transform.
+//      plane's; else in metres of a local system. A grid that is rotated in its world has a rotated
+//      transform.
 //   3. The bytes depend on the arguments and the version of GDAL alone: no times, no sidecar files.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What a bitmap says of every cell for some headings.
+// Looks up every cell of a bitmap for some headings.
 #pragma once
 
 #include <span>

@@ -1,7 +1,7 @@
-// What a certificate says of many states at once, and of every cell for one heading.
+// Looks up many states at once in a certificate, and every cell for one heading.
 //
 // Properties that always hold: those of fairway/runtime.hpp; the answers do not depend on threads.
-// Cost: about a microsecond a state and core.
+// Cost: about a microsecond per state and core.
 #pragma once
 
 #include <span>

@@ -21,7 +21,7 @@ BitmapVerification draw_bitmap(const Plan& plan, const std::string& where,
                                std::uint64_t seed) {
   if (!(plan.grid.cell_m < plan.vehicle.turn_radius_m)) {
     throw InputError(where, fmt::format("its cells of {:g} m are not smaller than the turning "
-                                        "radius, {:g} m: no bitmap of such a plan can be drawn",
+                                        "radius of {:g} m, as a bitmap requires",
                                         plan.grid.cell_m, plan.vehicle.turn_radius_m));
   }
   BitmapVerification made;
@@ -65,9 +65,9 @@ std::string estimated_reach_text(const BitmapVerification& v) {
 
 std::string verification_words(const BitmapVerification& v) {
   return fmt::format(
-      "A picture, not a proof: by {0} positions and {0} headings on each border, about {1} of all "
-      "states outside obstacles and goal reach. Nothing certain is known of the states between "
-      "the samples.",
+      "Estimated from {0} positions and {0} headings on each border (a picture, not a proof): "
+      "about {1} of all states outside obstacles and goal reach. Nothing is proved about the "
+      "states between the samples.",
       v.bitmap.set.samples, estimated_reach_text(v));
 }
 

@@ -1,4 +1,4 @@
-// plan -> bitmap: paper 2's method, an estimate and a picture, no proof.
+// plan -> bitmap: paper 2's method, an estimate and a picture, not a proof.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace fairway {
 
-/// Samples of a border when nobody says otherwise, and their limits: a multiple of four.
+/// Default number of samples per border and its limits; must be a multiple of four.
 inline constexpr int usual_border_samples = 200;
 inline constexpr int least_border_samples = 4;
 inline constexpr int most_border_samples = 4000;
@@ -32,10 +32,10 @@ struct BitmapVerification {
 /// docs/formats.md, summary.json of verify; without times.
 [[nodiscard]] nlohmann::json verification_json(const BitmapVerification& verification);
 
-/// The estimated share, in the digits that its standard error bears.
+/// The estimated share, with as many digits as its standard error justifies.
 [[nodiscard]] std::string estimated_reach_text(const BitmapVerification& verification);
 
-/// What was drawn and what that is worth, in one paragraph.
+/// What was sampled and how far it can be trusted, in one paragraph.
 [[nodiscard]] std::string verification_words(const BitmapVerification& verification);
 
 }  // namespace fairway

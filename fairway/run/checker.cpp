@@ -16,7 +16,7 @@ namespace {
 constexpr int cannot_run = 127;  // what shells say
 
 [[noreturn]] void become(std::vector<char*>& argv, int output) {
-  // The signals that the parent keeps for a thread of its own are the child's again.
+  // The child handles the signals again that the parent reserves for a thread.
   sigset_t none;
   sigemptyset(&none);
   pthread_sigmask(SIG_SETMASK, &none, nullptr);

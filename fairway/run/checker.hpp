@@ -7,7 +7,7 @@
 
 namespace fairway {
 
-/// `fairway-check` beside the running program, else as the shell finds it.
+/// `fairway-check` next to the running program, else as the shell finds it.
 [[nodiscard]] std::string checker_program();
 
 struct CheckRun {

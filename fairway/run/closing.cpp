@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 std::string checked_words(bool checked) {
-  return checked ? "A separate program re-proved the certificate."
+  return checked ? "An independent program re-proved the certificate."
                  : "The certificate was NOT checked: fairway-check could not be run.";
 }
 
@@ -69,7 +69,7 @@ std::string notes_of(const Plan& plan, const ScenarioFlights& flown, const Verif
     notes = words_of(verified) + "\n";
   }
   if (!flown.random_results().empty()) {
-    notes += "Flights are evidence, not a proof; in brackets the 95 % interval of their share.\n";
+    notes += "Flights are evidence, not a proof; brackets give the 95 % interval of their share.\n";
   }
   if (const std::string legs = final_legs_words(flown.final_legs); !legs.empty()) {
     notes += legs + "\n";

@@ -1,4 +1,4 @@
-// How a run closes: its findings, its warnings, what they rest on, and the same in prose.
+// How a run ends: its findings, its warnings, what they are based on, and the same in prose.
 #pragma once
 
 #include <string>

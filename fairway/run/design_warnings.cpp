@@ -22,7 +22,7 @@ class Warnings {
   }
   void add_width(std::string_view key, double sigma) {
     if (!sets(key) || sigma == 0.0 || (sigma >= 1.0 && sigma <= 2.0)) return;
-    add(key, fmt::format("is {}, the paper asks for 1 to 2", length_text(sigma)));
+    add(key, fmt::format("is {}; the paper asks for 1 to 2", length_text(sigma)));
   }
   std::vector<std::string> found() && { return std::move(found_); }
 
@@ -38,15 +38,16 @@ std::vector<std::string> design_warnings(const Scenario& scenario, const Mission
   const FieldOptions& plan = scenario.plan;
   const auto* path = std::get_if<PathMission>(&mission);
   if (warnings.sets("plan.alpha") && plan.alpha < 2.0) {
-    warnings.add("plan.alpha",
-                 fmt::format("is {}, the paper asks for at least 2: below it a full turn need not "
-                             "fit between an obstacle and the free cells beside its buffer",
-                             length_text(plan.alpha)));
+    warnings.add(
+        "plan.alpha",
+        fmt::format("is {}; the paper asks for at least 2: below that, there may be no room "
+                    "for a full turn between an obstacle and the nearest free cells",
+                    length_text(plan.alpha)));
   }
   if (path == nullptr && warnings.sets("plan.beta") && plan.beta < 2.0) {
     warnings.add("plan.beta",
-                 fmt::format("is {}, the paper asks for at least 2: around a smaller goal flights "
-                             "may circle",
+                 fmt::format("is {}; the paper asks for at least 2: flights may circle around a "
+                             "smaller goal",
                              length_text(plan.beta)));
   }
   warnings.add_width("plan.sigma_border", plan.sigma_border);

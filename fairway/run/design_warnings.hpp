@@ -1,5 +1,5 @@
-// What a scenario asks of a vehicle or of the method that they cannot do well, told before anything
-// is planned.
+// Warnings about parameters and paths that the vehicle or the method cannot handle well, issued
+// before anything is planned.
 #pragma once
 
 #include <string>

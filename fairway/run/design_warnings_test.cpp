@@ -37,17 +37,17 @@ TEST(DesignWarnings, WhatIsSetOutsideTheRangesOfThePaperIsToldAtItsLine) {
   const Scenario scenario =
       scenario_with("alpha = 0.5\nbeta = 1.5\nsigma_border = 0.5\nsigma_path = 2.5");
   const std::string alpha =
-      "s.toml:7: plan.alpha: is 0.5, the paper asks for at least 2: below it a full turn need not "
-      "fit between an obstacle and the free cells beside its buffer";
-  const std::string border = "s.toml:9: plan.sigma_border: is 0.5, the paper asks for 1 to 2";
+      "s.toml:7: plan.alpha: is 0.5; the paper asks for at least 2: below that, there may be no "
+      "room for a full turn between an obstacle and the nearest free cells";
+  const std::string border = "s.toml:9: plan.sigma_border: is 0.5; the paper asks for 1 to 2";
   EXPECT_THAT(design_warnings(scenario, goal),
               ElementsAre(alpha,
-                          "s.toml:8: plan.beta: is 1.5, the paper asks for at least 2: around a "
-                          "smaller goal flights may circle",
+                          "s.toml:8: plan.beta: is 1.5; the paper asks for at least 2: flights "
+                          "may circle around a smaller goal",
                           border));
   EXPECT_THAT(
       design_warnings(scenario, line),
-      ElementsAre(alpha, border, "s.toml:10: plan.sigma_path: is 2.5, the paper asks for 1 to 2"));
+      ElementsAre(alpha, border, "s.toml:10: plan.sigma_path: is 2.5; the paper asks for 1 to 2"));
 }
 
 TEST(DesignWarnings, WhatTheVehicleCannotFlyOfAPathIsToldAtThePathsLine) {

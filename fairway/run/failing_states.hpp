@@ -1,4 +1,4 @@
-// States that do not reach, as proved: where a plan fails, and where the proof could not tell.
+// States that do not reach, as proved: where a plan fails, and where the proof left it undecided.
 #pragma once
 
 #include <array>

@@ -24,7 +24,7 @@ void append(FinalLeg& leg, const DubinsPath& path, double entry_s, double speed_
   leg.time_s = leg.length_m / speed_mps;
 }
 
-/// "L", "R" or "S": what a lead of one part does.
+/// "L", "R" or "S" for a lead of one part.
 std::string word_of_lead(const DubinsPath& lead) {
   for (const DubinsPart& part : parts_of(lead)) {
     if (!(part.length_m > 0.0)) continue;
@@ -115,7 +115,7 @@ std::string final_legs_words(const std::optional<FinalLegTally>& tally) {
       tally->count, tally->shortest, tally->other, tally->longest_m);
   if (tally->none_clear > 0) {
     words += fmt::format(
-        " For {} no approach that was tried is clear: they enter the goal but are not taken to its "
+        " For {}, none of the approaches tried is clear: they enter the goal but do not reach its "
         "heading.",
         tally->none_clear);
   }

@@ -5,7 +5,7 @@
 //   1. A leg begins in the state in which the flight entered the goal cell and ends at the goal's
 //      pose, both but for rounding.
 //   2. A leg touches no closed obstacle cell and stays on the map (steer/clear_approach.hpp: the
-//      arcs and lines themselves, not samples). Buffer cells are no obstacles.
+//      arcs and lines themselves, not samples). Buffer cells are not obstacles.
 //   3. It is the shortest path where that is clear, else the shortest clear one of the approaches
 //      tried. Where none is clear there is no leg, and it is counted: the flight has then reached
 //      its goal cell, as the plan's verdicts mean it, and nothing is claimed beyond.
@@ -43,7 +43,7 @@ class FinalLegs {
   std::vector<std::uint8_t> blocked_;  // [iy][ix]
 };
 
-/// What became of many legs.
+/// The results of many legs.
 struct FinalLegTally {
   struct Refused {
     State start;  ///< of the flight

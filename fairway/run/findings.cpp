@@ -23,7 +23,7 @@ double share_of(const std::array<double, verdict_count>& volume, Verdict verdict
   return volume[static_cast<std::size_t>(verdict)];
 }
 
-/// What is said of states of this verdict.
+/// What the states of this verdict do.
 std::string done_by_states(Verdict verdict, const std::string& goal) {
   switch (verdict) {
     case Verdict::reach:

@@ -1,9 +1,9 @@
-// What was found, a line for each finding: how much, of what, and what becomes of it. The same
-// lines close a command, stand in its summary, and head the page.
+// The findings, one line each: a share, what it is a share of, and what happens to it. The same
+// lines end a command's output, are in its summary, and are at the top of the page.
 //
-// The first says how many of all states reach. Then comes what stands in the way, bad news first,
-// and only then the shares of states that begin well. A line has one denominator and names it; what
-// there is nothing of has no line.
+// The first says how many of all states reach. What goes wrong comes next, bad news first, and only
+// then the shares of states that start well. Each line has one denominator and names it; a share of
+// zero has no line.
 #pragma once
 
 #include <cstddef>

@@ -78,7 +78,8 @@ TEST(Findings, SayWhatEndedTheProof) {
   const auto found = findings(row_of_cells(10, 0), v);
   EXPECT_EQ(found[2].share, "");
   EXPECT_EQ(found[2].what,
-            "the time limit of 20 s ended the proof with 20.0 % undecided (wanted: at most 0.5 %)");
+            "the proof stopped at the time limit of 20 s: 20.0 % undecided (requested: at most "
+            "0.5 %)");
 }
 
 TEST(Findings, OfAnotherRegionAreNotAboutTheGoal) {
@@ -115,8 +116,10 @@ TEST(LimitWarning, ComesWhenTimeOrMemoryEndedTheProof) {
     v.outcome.stopped_by = reason;
     return limit_warning(v).value_or("");
   };
-  EXPECT_THAT(warning(StoppedBy::time_limit), HasSubstr("The time limit of 20 s"));
-  EXPECT_THAT(warning(StoppedBy::memory_limit), HasSubstr("The memory limit of 500 MB"));
+  EXPECT_THAT(warning(StoppedBy::time_limit),
+              HasSubstr("The proof stopped at the time limit of 20 s"));
+  EXPECT_THAT(warning(StoppedBy::memory_limit),
+              HasSubstr("The proof stopped at the memory limit of 500 MB"));
   EXPECT_EQ(warning(StoppedBy::undecided_max), "");
   EXPECT_EQ(warning(StoppedBy::stalled), "");
 }
@@ -128,7 +131,7 @@ TEST(FailingWarning, ComesWhenMoreThanOneFlightInTwentyFails) {
   const auto warning = failing_warning(plan, {{0, 9052, 1, 0, 947}});
   ASSERT_TRUE(warning);
   EXPECT_THAT(*warning, HasSubstr("9.5 % of 10,000 random flights from safe starts with a command "
-                                  "do not reach the goal (1 collides, 947 are trapped)"));
+                                  "do not reach the goal (1 collides, 947 get trapped)"));
   EXPECT_THAT(*warning, testing::Not(HasSubstr("alpha")));
   plan.record.options_json = R"({"plan": {"alpha": 0.9}})";
   EXPECT_THAT(*failing_warning(plan, {{0, 90, 10, 0, 0}}), HasSubstr("plan.alpha is 0.9"));

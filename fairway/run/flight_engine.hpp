@@ -3,7 +3,7 @@
 // Properties that always hold:
 //   1. A flight depends on the plan, the law and the start alone; under a sampled law also on its
 //      index, which picks the random draws. Several threads may ask at once.
-//   2. Exact flights that reach go on to the goal's pose where the goal has a heading. Sampled ones
+//   2. Exact flights that reach continue to the goal's pose if the goal has a heading. Sampled ones
 //      do not: what a disturbed vehicle does in the goal is not known from its entry.
 // Cost: that of the flights, and 25 bytes a cell for exact ones while the object lives.
 #pragma once
@@ -55,7 +55,7 @@ class FlightEngine {
   [[nodiscard]] FlightResult fly(const State& start, std::size_t index) const;
 
   /// With its pieces and its last leg; along the path, where the plan's mission is one and `follow`
-  /// says for how long. The result is that of `fly` all the same. Following by laps ends after ten
+  /// says for how long. The result is still that of `fly`. Following by laps ends after ten
   /// times the time they take in calm air, wherever the wind has held the vehicle.
   [[nodiscard]] Flight record(const State& start, std::size_t index,
                               const std::optional<FollowFor>& follow = {}) const;

@@ -1,4 +1,4 @@
-// What became of flights, as JSON and in words.
+// The results of flights, as JSON and in words.
 #pragma once
 
 #include <cstdint>
@@ -23,13 +23,13 @@ void add_flights(nlohmann::json& summary, const ScenarioFlights& flown, std::uin
 
 /// A line for each flight while there are few of them, then one for all, and one for the last legs.
 /// `drawn`: where the starts were drawn from, " from ..."; empty: nowhere. With `earth`, starts are
-/// told in degrees, too.
+/// given in degrees, too.
 [[nodiscard]] std::string flight_words(std::span<const State> starts, const ManyFlights& flown,
                                        const std::string& drawn = {},
                                        const EarthFrame* earth = nullptr);
 
 /// Every flight, their counts and the last legs. There are as many starts as results.
-/// With `earth`, starts are told in degrees, too.
+/// With `earth`, starts are given in degrees, too.
 [[nodiscard]] nlohmann::json flight_json(std::span<const State> starts, const ManyFlights& flown,
                                          const EarthFrame* earth = nullptr);
 

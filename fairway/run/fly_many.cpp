@@ -9,7 +9,7 @@
 namespace fairway {
 namespace {
 
-/// What is told of flights beside their outcomes. Threads may share it.
+/// Computes what is reported of flights in addition to their outcomes. Threads may share it.
 class Measuring {
  public:
   Measuring(const FlightEngine& engine, const FlyOptions& options, ManyFlights& flown)

@@ -1,10 +1,10 @@
-// Many flights under a plan: what became of each, tracks of the first ones, and their last legs.
+// Many flights under a plan: the result of each, tracks of the first ones, and their last legs.
 //
 // Properties that always hold:
 //   1. Flight i is the engine's flight from start i with index first_index + i. No result depends
 //      on how many fly, on what is kept of them, or on the number of threads.
 //   2. Each start is flown once, beyond its first goal cell too where it is followed.
-// Memory: beside what is kept, the last legs of a thousand flights.
+// Memory: in addition to what is kept, the last legs of a thousand flights.
 #pragma once
 
 #include <cstddef>

@@ -120,14 +120,14 @@ std::string following_words(const std::optional<FollowingSummary>& following) {
       "Followed for {} after they reach the path, {} of these {} collide and {} leave the map.",
       words_of(f.how), f.collide_after, f.reach, f.leave_after);
   if (f.joined == 0) {
-    return words + fmt::format(" None is ever on the path (within {:g} m and {:g} rad).",
+    return words + fmt::format(" None ever gets onto the path (within {:g} m and {:g} rad).",
                                f.delta_position_m, f.delta_heading_rad);
   }
   return words +
          fmt::format(
              " {} join the path (within {:g} m and {:g} rad), after {:.0f} s on average and {:.0f} "
-             "s at worst, and are on it {:.0f} % of the time from then on: {:.1f} m from it on "
-             "average, {:.1f} m or less 95 % of the time, {:.1f} m at worst.",
+             "s at worst, and stay on it for {:.0f} % of the time afterwards: {:.1f} m from it on "
+             "average, at most {:.1f} m for 95 % of the time, {:.1f} m at worst.",
              f.joined, f.delta_position_m, f.delta_heading_rad, f.time_to_join_s.mean,
              f.time_to_join_s.worst, std::floor(100.0 * f.on_path_share), f.distance_m.mean,
              f.distance_m.p95, f.distance_m.worst);

@@ -1,4 +1,5 @@
-// What flights measure beside their outcomes: turning, and how those along a path keep to it.
+// Measures of flights in addition to their outcomes: turning, and how closely those along a path
+// keep to it.
 #pragma once
 
 #include <optional>
@@ -43,7 +44,7 @@ struct FollowingSummary {
     const ManyFlights& flown, std::span<const FlightResult> results,
     std::span<const FlightMeasures> measures);
 
-/// Members mean, p95, worst; null when there is nothing to tell.
+/// Members mean, p95, worst; null when there are no values.
 [[nodiscard]] nlohmann::json spread_json(const Spread& spread);
 [[nodiscard]] nlohmann::json turning_json(const TurningSummary& turning);
 /// null for none.

@@ -71,7 +71,7 @@ TEST(FollowingSummary, CountsWhatComesAfterReachingAndWeighsByTime) {
 TEST(FollowingSummary, SaysWhenNoneJoinsAndNothingWhenNoneReaches) {
   Sample s = sample();
   for (FlightMeasures& m : s.flown.measures) m.following = {};
-  EXPECT_NE(following_words(s.summary()).find("None is ever on the path"), std::string::npos);
+  EXPECT_NE(following_words(s.summary()).find("None ever gets onto the path"), std::string::npos);
   for (FlightResult& r : s.flown.results) r.outcome = Outcome::leave;
   EXPECT_EQ(following_words(s.summary()), "");
   EXPECT_TRUE(following_json(s.summary())["on_path_share"].is_null());

@@ -38,18 +38,18 @@ double share_of(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-constexpr std::size_t parts_told = 5;
+constexpr std::size_t parts_listed = 5;
 
 std::string parts_words(const MapSurvey& s) {
   if (s.part_cells.empty()) return "none";
   if (s.part_cells.size() == 1) return "one, all free cells";
   std::string words;
-  for (std::size_t i = 0; i < std::min(s.part_cells.size(), parts_told); ++i) {
+  for (std::size_t i = 0; i < std::min(s.part_cells.size(), parts_listed); ++i) {
     words += fmt::format("{}{}", i == 0 ? "" : ", ",
                          whole_percent_text(share_of(s.part_cells[i], s.free_cells)));
   }
   return fmt::format("{}: {}{} of the free cells", s.part_cells.size(), words,
-                     s.part_cells.size() > parts_told ? ", ..." : "");
+                     s.part_cells.size() > parts_listed ? ", ..." : "");
 }
 
 std::string place_words(const MapSurvey& s, Vec2 place_m) {
@@ -75,7 +75,7 @@ double sensible_cell_m(MapRequest request, int across) {
   request.cell_m = 1e4;
   for (int readings = 0;; ++readings) {
     const Grid grid = read_map(request).grid;
-    // A ring of obstacles is no part of the map.
+    // The ring of obstacles is not part of the map.
     const int cells = std::max(grid.nx, grid.ny) - (request.outside_is_obstacle ? 2 : 0);
     const double next_m = round_up(std::max(cells, 1) * request.cell_m / across);
     constexpr int most_readings = 12;
@@ -135,12 +135,12 @@ std::string survey_words(const MapSurvey& s, const std::string& name) {
   if (s.widest_place_m) {
     const FieldOptions defaults;
     line("largest clearance", std::isinf(s.clearance_m)
-                                  ? "there is no obstacle"
+                                  ? "unlimited: there are no obstacles"
                                   : fmt::format("{} m, at {}", length_text(s.clearance_m),
                                                 place_words(s, *s.widest_place_m)));
     if (std::isfinite(s.clearance_m)) {
-      line("", fmt::format("a goal and its buffer fit there up to a turning radius of about {:.2g} "
-                           "m (alpha = beta = 2)",
+      line("", fmt::format("room for a goal and its buffer with a turning radius of up to about "
+                           "{:.2g} m (alpha = beta = 2)",
                            s.clearance_m / (defaults.alpha + defaults.beta)));
     }
   }
@@ -182,7 +182,7 @@ json survey_json(const MapSurvey& s) {
 }
 
 Picture survey_picture(const MapSurvey& s, const std::string& title) {
-  Plan plan;  // without a mission: every free cell alike
+  Plan plan;  // without a mission: all free cells look alike
   plan.grid = s.map.grid;
   plan.region = s.region;
   plan.cost_m.assign(plan.grid.size(), 0.0F);

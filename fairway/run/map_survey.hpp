@@ -1,5 +1,5 @@
-// A map before any mission: how large it is, what of it is free and connected, and how much room
-// there is.
+// Describes a map before there is a mission: its size, its free and connected parts, and how much
+// room there is.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace fairway {
 
 struct MapSurvey {
   ObstacleMap map;
-  Grid inside;  ///< its grid without the ring of obstacles that stands for the world outside
+  Grid inside;  ///< its grid without the ring of obstacles that represents the world outside
   std::size_t free_cells = 0;           ///< no obstacle; with a radius, no buffer either
   std::vector<std::size_t> part_cells;  ///< of their connected parts, the largest first
   double clearance_m = 0.0;             ///< the largest; +inf without obstacles
@@ -32,7 +32,7 @@ struct MapSurvey {
 /// large cells. Throws InputError as read_map does.
 [[nodiscard]] double sensible_cell_m(MapRequest request, int across);
 
-/// With a radius, free is what its buffer leaves at the default alpha.
+/// With a radius, free cells are those outside its buffer at the default alpha.
 [[nodiscard]] MapSurvey survey_map(const MapRequest& request, std::optional<double> turn_radius_m);
 
 [[nodiscard]] std::string survey_words(const MapSurvey& survey, const std::string& name);

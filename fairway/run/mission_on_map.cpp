@@ -40,7 +40,7 @@ Vec2 goal_on_map(const Scenario& scenario, const ObstacleMap& map) {
   return goal_m;
 }
 
-/// In degrees, with the map's extent between its corners; nothing where that is not plain.
+/// In degrees, with the map's extent between its corners; empty where that is ambiguous.
 std::string outside_in_degrees(const Scenario& scenario, const ObstacleMap& map) {
   const Grid& g = map.grid;
   const LonLatOf degrees = lon_lat_of(map.frame, scenario.map.file.string());
@@ -54,7 +54,7 @@ std::string outside_in_degrees(const Scenario& scenario, const ObstacleMap& map)
                      text(high.longitude_deg));
 }
 
-/// What most often stands behind a goal outside the map.
+/// The most common cause of a goal outside the map.
 std::string hint(const Scenario& scenario, const ObstacleMap& map) {
   if (!map.frame.geo || !scenario.mission.goal_m) return {};
   return "; this map came in degrees and is planned in metres about its reference point: give "

@@ -1,5 +1,5 @@
-// What a scenario asks for, laid on its map: the world that the mission needs, and the mission once
-// the map and so the frame is known.
+// Puts a scenario's mission on its map: the world that the mission needs, and the mission itself
+// once the map, and hence the frame, is known.
 #pragma once
 
 #include <string>

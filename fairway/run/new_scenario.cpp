@@ -28,7 +28,7 @@ struct Candidate {
   double turn_radius_m = 0.0;
   GoalPlace goal;
   Frame frame;
-  double share = 0.0;  ///< of the cells that are no obstacle: free, and in the goal's part
+  double share = 0.0;  ///< of the cells that are not obstacles: free, and in the goal's part
 };
 
 double two_digits(double value) { return std::stod(fmt::format("{:.2g}", value)); }
@@ -87,7 +87,7 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-/// From the scenario's folder where that is nearby.
+/// Relative to the scenario's folder if possible.
 std::string map_name(const NewScenarioRequest& request) {
   const fs::path folder = fs::weakly_canonical(fs::absolute(request.output)).parent_path();
   const fs::path map = fs::weakly_canonical(fs::absolute(request.map.file));
@@ -100,7 +100,7 @@ std::string map_table(const NewScenarioRequest& request, const Candidate& chosen
   std::string text = fmt::format(
       "[map]\n"
       "file = {}\n"
-      "cell_m = {}  # side of a plan cell; smaller cells see narrower gaps and take longer\n",
+      "cell_m = {}  # side of a plan cell; smaller cells resolve narrower gaps but take longer\n",
       quoted(map_name(request)), chosen.cell_m);
   if (map.resolution_m)
     text += fmt::format("resolution_m = {}  # metres per pixel\n", *map.resolution_m);
@@ -113,7 +113,7 @@ std::string map_table(const NewScenarioRequest& request, const Candidate& chosen
                         *map.inclusion == Inclusion::all ? "every one" : "any");
   return text +
          "# footprint_radius_m = 0.5  # obstacles grow by this: half the vehicle's width\n"
-         "# outside = \"free\"          # the world beyond the map: an obstacle unless this is "
+         "# outside = \"free\"          # the world beyond the map is an obstacle unless this is "
          "set\n";
 }
 
@@ -123,7 +123,8 @@ std::string mission_table(const Candidate& chosen) {
   std::string text = fmt::format(
       "\n[mission]\n"
       "kind = \"goal\"\n"
-      "# A goal with much room in the largest free part: it serves {} of the free cells.\n",
+      "# A goal with much room in the largest free part; it can be reached from {} of the free "
+      "cells.\n",
       whole_percent_text(goal.serves));
   constexpr int of_a_degree = 5;
   if (const LonLatOf degrees = lon_lat_of(chosen.frame, "the map")) {
@@ -140,7 +141,7 @@ std::string text_of(const NewScenarioRequest& request, const Candidate& chosen) 
   constexpr double sideways_mps2 = 3.0;
   const double speed_mps =
       request.speed_mps.value_or(two_digits(std::sqrt(sideways_mps2 * chosen.turn_radius_m)));
-  return "# A first scenario, made from its map: it runs as it is. Every key: fairway "
+  return "# A first scenario made from its map, ready to run. All keys: fairway "
          "--scenario-keys\n\n" +
          map_table(request, chosen) +
          fmt::format(
@@ -148,11 +149,11 @@ std::string text_of(const NewScenarioRequest& request, const Candidate& chosen) 
              "speed_mps = {}\n"
              "turn_radius_m = {}  # smallest; more than cell_m. {}\n",
              speed_mps, chosen.turn_radius_m,
-             request.turn_radius_m ? "As it was asked for"
-                                   : "Chosen for the map: put your vehicle's here") +
+             request.turn_radius_m ? "As requested"
+                                   : "Chosen to suit the map: replace it by your vehicle's") +
          mission_table(chosen) +
          "\n[plan]\n"
-         "alpha = 2.0  # buffer width / turning radius; less opens narrower passages, and more "
+         "alpha = 2.0  # buffer width / turning radius; less opens narrower passages, but more "
          "starts collide\n"
          "beta = 2.0   # goal radius / turning radius\n"
          "\n[simulate]\n"
@@ -179,7 +180,7 @@ std::string text_of(const NewScenarioRequest& request, const Candidate& chosen) 
                                radius_m, cell_m, words(advice, metres_text)));
 }
 
-/// A world without a fence is a little larger with its goal than without: what fitted is tried.
+/// A world without a fence grows a little with its goal, so whether the goal still fits is tried.
 bool can_be_planned(const Scenario& scenario) {
   const Progress silent;
   StageClock clock(silent);

@@ -1,5 +1,5 @@
-// A first scenario for a map, written so that it runs as it is: cells, turning radius and goal are
-// chosen to serve most of the map, and every choice has a comment.
+// A first scenario for a map, ready to run: cells, turning radius and goal are chosen so that the
+// goal can be reached from most of the map, and every choice has a comment.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace fairway {
 
-/// What the user knows already; the rest is chosen.
+/// What the user has given; the rest is chosen.
 struct NewScenarioRequest {
   MapRequest map;                ///< cell_m is not used
   std::filesystem::path output;  ///< where the scenario will lie: its map file is named from there
@@ -28,8 +28,8 @@ struct NewScenario {
 
 /// The largest radius of a few whose free cells, those of the goal's part alone, are nearly as many
 /// as with the best of them; the goal lies in the largest part that one fits in, where the
-/// clearance is largest. It has been planned once. Throws InputError when no goal fits, with what
-/// would do.
+/// clearance is largest. It has been planned once. Throws InputError when no goal fits, with a
+/// remedy.
 [[nodiscard]] NewScenario new_scenario(const NewScenarioRequest& request);
 
 }  // namespace fairway

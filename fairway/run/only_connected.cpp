@@ -58,8 +58,8 @@ void keep_only_connected(ObstacleMap& map, const Mission& mission, const std::st
   }
   if (left_out == 0) return;
   map.warnings.push_back(fmt::format(
-      "{}: map.only_connected left out {} of {} free cells ({}), which nothing joins to the "
-      "mission; no share counts them.",
+      "{}: map.only_connected left out {} of {} free cells ({}), which are not connected to the "
+      "mission; shares do not count them.",
       file, left_out, free,
       whole_percent_text(static_cast<double>(left_out) / static_cast<double>(free))));
 }

@@ -48,7 +48,7 @@ TEST(OnlyConnected, LeavesTheMapAsItIsWhereNothingIsToDo) {
   }
 }
 
-// Where a plan has commands it is the same plan; a part cut off is no free ground any more.
+// Where a plan has commands it is the same plan; a part cut off is no longer free ground.
 TEST(OnlyConnected, ChangesNoCostAndNoRegionOfWhatIsJoined) {
   Random random(8);
   int left_out = 0;

@@ -35,15 +35,15 @@ std::string passage_words(const CutOff& cut_off, const Frame& frame) {
   if (cut_off.passage) {
     const Passage& p = *cut_off.passage;
     words = fmt::format(
-        "The widest passage that is too narrow lies at {}: it is {} m wide from obstacle cell to "
-        "obstacle cell, and the buffers of both sides take {} m; alpha = {:.4g}{} would open it "
+        "The widest passage that is too narrow is at {}: it is {} m wide from obstacle cell to "
+        "obstacle cell, but the buffers on both sides take {} m; alpha = {:.4g}{} would open it "
         "for {}.",
         place_words(p.place_m, frame), length_text(p.width_m), length_text(p.needed_m), p.alpha,
         p.turn_radius_m ? fmt::format(" or turn_radius_m = {:.4g}", *p.turn_radius_m) : "",
         share_words(p.opens_cells, cut_off));
   }
   if (cut_off.walled_off_cells > 0) {
-    words += fmt::format("{}{}: no alpha and no turning radius would open a way.",
+    words += fmt::format("{}{}: no alpha or turning radius opens a way.",
                          words.empty() ? "Walls without a gap enclose "
                                        : " Walls without a gap "
                                          "enclose ",

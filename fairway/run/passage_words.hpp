@@ -14,10 +14,10 @@ namespace fairway {
 /// are cut off.
 [[nodiscard]] CutOff cut_off_in(const Scenario& scenario, const ObstacleMap& map, const Plan& plan);
 
-/// "The widest passage that is too narrow lies at (12.3, 45.6), latitude ..., longitude ...: it is
-/// 8 m wide, and 2 alpha turning radii are 10 m; alpha = 1.599 or turn_radius_m = 1.999 opens it,
-/// for 95 % of the free cells that are cut off." With what is walled off; empty: nothing is cut
-/// off. No full stop is missing; it begins with a capital letter.
+/// "The widest passage that is too narrow is at (12.3, 45.6), latitude ..., longitude ...: it is
+/// 8 m wide from obstacle cell to obstacle cell, but the buffers on both sides take 10 m; alpha =
+/// 1.599 or turn_radius_m = 1.999 would open it for 95 % of the cells that are cut off." Also says
+/// what is walled off; empty if nothing is cut off. Whole sentences with full stops.
 [[nodiscard]] std::string passage_words(const CutOff& cut_off, const Frame& frame);
 
 }  // namespace fairway

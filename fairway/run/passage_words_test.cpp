@@ -16,8 +16,8 @@ CutOff with_passage() {
 TEST(PassageWords, NameThePlaceTheWidthAndWhatOpensIt) {
   const std::string words = passage_words(with_passage(), {});
   EXPECT_EQ(words,
-            "The widest passage that is too narrow lies at (12, -34.56): it is 8 m wide from "
-            "obstacle cell to obstacle cell, and the buffers of both sides take 10 m; alpha = "
+            "The widest passage that is too narrow is at (12, -34.56): it is 8 m wide from "
+            "obstacle cell to obstacle cell, but the buffers on both sides take 10 m; alpha = "
             "1.599 or turn_radius_m = 1.998 would open it for 75 % of the cells that are cut off.");
 }
 
@@ -33,8 +33,8 @@ TEST(PassageWords, OfWallsSayThatNothingOpensThem) {
   CutOff cut = with_passage();
   cut.walled_off_cells = 100;
   EXPECT_TRUE(passage_words(cut, {}).ends_with(
-      " Walls without a gap enclose 25 % of the cells that are cut off: no alpha and no turning "
-      "radius would open a way."));
+      " Walls without a gap enclose 25 % of the cells that are cut off: no alpha or turning "
+      "radius opens a way."));
   cut.passage.reset();
   EXPECT_TRUE(passage_words(cut, {}).starts_with("Walls without a gap enclose 25 %"));
   EXPECT_EQ(passage_words({}, {}), "");

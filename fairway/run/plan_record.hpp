@@ -1,4 +1,4 @@
-// How a plan came about: the record of a plan made from a scenario, or from what is in memory.
+// How a plan was made: the record of a plan made from a scenario, or from data in memory.
 #pragma once
 
 #include "fairway/field/field.hpp"

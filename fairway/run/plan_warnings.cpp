@@ -32,7 +32,7 @@ std::optional<std::string> cut_off_warning(const Plan& plan, const std::string& 
   }
   const std::string warning = fmt::format(
       "{} of the free cells ({} of {}) are cut off from the {}: no way through free cells leads "
-      "there, so they have no command, and a vehicle there flies straight on.",
+      "to it, so they have no command and a vehicle in them flies straight on.",
       percent_text(cells.unreachable, cells.free), grouped(cells.unreachable), grouped(cells.free),
       goal_word(plan));
   return remedy.empty() ? warning : warning + " " + remedy;
@@ -47,12 +47,13 @@ std::optional<std::string> failing_warning(const Plan& plan,
   }
   std::string warning = fmt::format(
       "{} of {} from safe starts with a command do not reach the {} ({}): such a start has room to "
-      "turn, but where the commands bend faster than the vehicle can, a flight misses its way.",
+      "turn, but where the commands turn faster than the vehicle can, a flight cannot follow them.",
       sampled_share(failing, counts.total()).share, plural(counts.total(), "random flight"),
       goal_word(plan), failure_words(counts));
   const std::optional<double> alpha = alpha_of(plan);
   if (alpha && *alpha < 2.0) {
-    warning += fmt::format(" plan.alpha is {:g}: below 2 a full turn need not fit.", *alpha);
+    warning +=
+        fmt::format(" plan.alpha is {:g}: below 2, there may be no room for a full turn.", *alpha);
   }
   return warning;
 }

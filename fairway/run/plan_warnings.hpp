@@ -1,5 +1,5 @@
-// What a first look at a plan must not miss, as warnings: on stderr, in summary.json, and at the
-// very top of the page. One sentence or a few each, ending with a full stop.
+// Warnings that nobody should miss when first looking at a plan: on stderr, in summary.json, and at
+// the very top of the page. One or a few sentences each, ending with a full stop.
 #pragma once
 
 #include <optional>

@@ -16,7 +16,7 @@ ProductKind kind_of_product(const MappedFile& mapped, const std::string& where) 
   const Safetensors content = parse_safetensors(mapped.bytes(), where);
   const auto text = content.metadata.find("fairway");
   if (text == content.metadata.end()) {
-    throw InputError(where, "is neither a plan nor a certificate of fairway");
+    throw InputError(where, "is neither a plan nor a certificate");
   }
   const nlohmann::json record = parse_strict_json(text->second, where + ": fairway");
   if (!record.is_object() || !record.contains("format")) return ProductKind::plan;

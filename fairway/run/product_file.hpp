@@ -1,4 +1,4 @@
-// Which of its products a safetensors file is.
+// Which kind of product a safetensors file is.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@ namespace fairway {
 
 enum class ProductKind : std::uint8_t { plan, certificate, bitmap };
 
-/// By its metadata alone; whoever reads it then checks the rest. Throws InputError for a file that
-/// is none of them.
+/// By its metadata alone; whoever reads it then checks the rest. Throws InputError for a file of
+/// another kind.
 [[nodiscard]] ProductKind product_kind(const std::filesystem::path& file);
 
 }  // namespace fairway

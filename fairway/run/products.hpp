@@ -1,4 +1,4 @@
-// What a run leaves in its folder, by name.
+// The names of a run's products.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ inline constexpr const char* report_page = "report.html";
 inline constexpr const char* summary = "summary.json";
 }  // namespace product
 
-/// Every file that a run may write, pictures among them: what a rerun may replace, and what
+/// Every file that a run may write, including pictures: what a rerun may replace, and what
 /// `fairway view` serves.
 [[nodiscard]] std::vector<std::string> product_names();
 

@@ -1,4 +1,4 @@
-// How a long run tells where it is.
+// How a long run reports its progress.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@ namespace fairway {
 
 inline constexpr double unknown_time = -1.0;
 
-/// How long the work will take from now, seconds, each unknown_time where nobody can say.
+/// How long the work will take from now, seconds; unknown_time if it cannot be estimated.
 struct TimeLeft {
   double estimate_s = unknown_time;  ///< a rough estimate
   double limit_s = unknown_time;     ///< until a time limit ends the stage, whatever the estimate

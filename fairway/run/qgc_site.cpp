@@ -49,7 +49,7 @@ QgcSite qgc_site_of(const fs::path& file) {
     throw InputError(file.string(), "is not a QGroundControl plan, expected JSON");
   }
   const json plan = parse_json(source);
-  (void)read_qgc_plan(source, plan);  // refuses what is no fence
+  (void)read_qgc_plan(source, plan);  // rejects what is not a fence
   QgcSite site;
   if (plan.contains("geoFence") && plan["geoFence"].is_object()) {
     site.fence_json = text_of(plan["geoFence"]);
@@ -79,8 +79,8 @@ std::string no_fence_warning(const PlanRecord& record, const std::string& option
   const std::optional<InputFile> input = map_plan_of(record);
   const std::string source =
       input ? " (that of the map, " + input->path + ", was not found)" : std::string();
-  return "the exported plan has no fence and no rally points, and its home altitude is 0: "
-         "uploading it replaces the vehicle's by none; " +
+  return "the exported plan has no fence or rally points, and its home altitude is 0: "
+         "uploading it deletes the vehicle's; " +
          option + " keeps those of a QGroundControl plan" + source;
 }
 

@@ -1,5 +1,5 @@
 // The fence, rally points and home altitude that a plan's map came with, for missions exported from
-// the plan: to upload a .plan replaces what the vehicle has of all of them.
+// the plan: uploading a .plan replaces all of them on the vehicle.
 #pragma once
 
 #include <filesystem>
@@ -20,8 +20,8 @@ namespace fairway {
 [[nodiscard]] std::optional<QgcSite> qgc_site_of(const PlanRecord& record,
                                                  const std::filesystem::path& folder);
 
-/// What a mission without a site lacks, in a sentence; the map's .plan is named when there is one.
-/// `option`: what gives one, as the caller calls it.
+/// A sentence on what a mission without a site lacks; it names the map's .plan if there is one.
+/// `option`: the caller's name for the option that gives one.
 [[nodiscard]] std::string no_fence_warning(const PlanRecord& record, const std::string& option);
 
 }  // namespace fairway

@@ -33,7 +33,7 @@ class Site : public ::testing::Test {
     std::ofstream(folder_.file(name)) << text;
     return folder_.file(name);
   }
-  /// Of a plan made from a scenario beside `map`.
+  /// Of a plan made from a scenario next to `map`.
   PlanRecord record(const fs::path& map, const Mission& mission) {
     PlanRecord record;
     record.mission = mission;

@@ -47,7 +47,8 @@ RegionOfInterest region_of_cells(std::vector<std::uint8_t> cells, const Plan& pl
   RegionOfInterest region{RegionOfInterest::Kind::cells, {}, std::move(cells)};
   const std::vector<std::uint8_t> target = target_cells(plan.grid, plan.region, region);
   if (std::find(target.begin(), target.end(), 1) == target.end()) {
-    throw InputError(where, "holds no whole cell but obstacles: nothing could be reached");
+    throw InputError(where,
+                     "contains no whole cell outside obstacles, so nothing could be reached");
   }
   return region;
 }

@@ -1,5 +1,5 @@
-// What is to be reached, as the command, scenarios and Python ask for it: before the plan, hence
-// its grid, is known.
+// The region to be reached, as given to the command, in scenarios and in Python: before the plan,
+// and hence its grid, is known.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct RegionRequest {
 };
 
 /// "goal", "obstacle", "X0,Y0,X1,Y1" with X0 < X1 and Y0 < Y1, else the name of a file. Empty for
-/// four numbers that are no rectangle, and for an empty text.
+/// four numbers that are not a rectangle, and for an empty text.
 [[nodiscard]] std::optional<RegionRequest> region_request_of(const std::string& text);
 
 /// On a plan's grid. Throws InputError naming the file when it cannot be read or holds no cell but

@@ -18,8 +18,8 @@ namespace {
 
 using nlohmann::json;
 
-/// By the scenario's own reader, so that every key is known here that is known there. Numbers,
-/// texts and flags are spelt alike in JSON and TOML.
+/// Uses the scenario's own reader, so that both know the same keys. Numbers, strings and flags are
+/// written alike in JSON and TOML.
 void take(const ScenarioKey& key, const json& value, const std::string& where, Scenario& scenario) {
   const toml::table table = toml::parse("value = " + value.dump());
   key.take(TomlValue(*table.get("value"), {where}, "options." + key.name, key.range), scenario);
@@ -31,7 +31,7 @@ FieldOptions field_options_of(const PlanRecord& record, const std::string& where
   const json all = json::parse(record.options_json, nullptr, false);
   const auto plan = all.is_object() ? all.find("plan") : all.end();
   if (!all.is_object() || plan == all.end() || !plan->is_object()) {
-    throw InputError(where, "its record names no options: expected a plan made by fairway");
+    throw InputError(where, "its record names no options; expected a plan made by fairway");
   }
   Scenario scenario;
   const auto& keys = scenario_keys();

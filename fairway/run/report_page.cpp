@@ -27,11 +27,11 @@ VerdictMapOptions sampling_of(const Grid& grid) {
   return options;
 }
 
-/// What takes the assumptions' place where there is no certificate.
+/// Shown instead of the assumptions when there is no certificate.
 std::vector<std::string> nothing_proved() {
   return {
-      fmt::format("Nothing on this page is proved. What the samples of {} say of every place is "
-                  "drawn in slices.svg and sampled.svg, beside this page.",
+      fmt::format("Nothing on this page is proved. What the samples of {} show at every place is "
+                  "drawn in slices.svg and sampled.svg, next to this page.",
                   product::bitmap)};
 }
 
@@ -58,7 +58,7 @@ std::string write_report_page(const Plan& plan, const Mission& mission,
                               const ScenarioFlights& flown, const ReportPage& page,
                               const std::filesystem::path& folder) {
   if (!has_page_template()) {
-    return fmt::format("{} was left out: {}", product::report_page, page_template());
+    return fmt::format("{} was not written: {}", product::report_page, page_template());
   }
   std::optional<VerdictMap> verdicts;
   if (page.certificate != nullptr) {

@@ -18,7 +18,7 @@ namespace fairway {
 
 struct ReportPage {
   std::string title;
-  std::vector<std::string> words;  ///< what was found, in prose
+  std::vector<std::string> words;  ///< the findings in prose
   nlohmann::json summary;          ///< without what differs from run to run
   const Certificate* certificate = nullptr;
   std::vector<FailingFlights> failing;

@@ -28,7 +28,7 @@ SectionVerdicts taken_over(EarlierProof earlier, const Certificate& now, int mos
                      "belongs to a different plan, vehicle or region; cannot resume from it");
   }
   if (!sections_fit(now.flow(), certificate.sections)) {
-    throw InputError(earlier.where, "has leaves where there are none; cannot resume from it");
+    throw InputError(earlier.where, "has leaves where the plan allows none; cannot resume from it");
   }
   resumed.from = earlier.where;
   resumed.decided = decided_leaves(certificate.sections);

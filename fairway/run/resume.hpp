@@ -1,4 +1,4 @@
-// Going on from an earlier certificate of the same proof.
+// Continuing from an earlier certificate of the same proof.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,13 @@
 
 namespace fairway {
 
-/// A certificate to go on from; `where` names it in errors.
+/// A certificate to continue from; `where` names it in errors.
 struct EarlierProof {
   Certificate certificate;
   std::string where;
 };
 
-/// What became of the earlier leaves that had a verdict.
+/// The fate of the earlier leaves that had a verdict.
 struct Resumed {
   std::string from;
   std::size_t decided = 0;  ///< in the earlier certificate

@@ -114,7 +114,7 @@ json product_digests(const fs::path& folder) {
   return digests;
 }
 
-/// "DIR/report.html, DIR/plan.svg, ...": those that a first look goes to.
+/// "DIR/report.html, DIR/plan.svg, ...": the files to look at first.
 std::string to_look_at(const fs::path& folder, const json& products) {
   std::string files;
   for (const char* name :
@@ -219,10 +219,9 @@ RunResult run_plan_only(const Scenario& scenario, const fs::path& file, Existing
   const std::vector<Finding> found = plan_findings(plan);
   result.summary["findings"] = findings_json(found);
   result.summary["warnings"] = result.warnings;
-  result.paragraph =
-      fmt::format("{}{} {}\nThe plan is {}.", findings_table(found), grid_words(plan),
-                  cost_words(result.summary),
-                  file.string() + (picture.empty() ? "" : ", drawn in " + picture.string()));
+  result.paragraph = fmt::format(
+      "{}{} {}\nPlan: {}.", findings_table(found), grid_words(plan), cost_words(result.summary),
+      file.string() + (picture.empty() ? "" : ", drawn in " + picture.string()));
   return result;
 }
 

@@ -1,4 +1,4 @@
-// THE main flow: from a scenario to a folder with every product.
+// THE main flow: from a scenario to a folder with all products.
 #pragma once
 
 #include <filesystem>
@@ -25,21 +25,21 @@ struct Planned {
   Plan plan;
 };
 
-/// map -> field -> plan, in memory: what every run begins with. A refusal is `unreachable`; what
-/// else speaks against the mission is the input's fault, an InputError at the scenario's line.
+/// map -> field -> plan, in memory: the first steps of every run. A refusal is `unreachable`; any
+/// other problem with the mission is an InputError at the scenario's line.
 [[nodiscard]] std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& scenario,
                                                                   StageClock& clock);
 
 struct RunResult {
-  bool unreachable = false;  ///< the answer is no: nothing was written, `paragraph` says why
+  bool unreachable = false;  ///< nothing was written; `paragraph` says why
   nlohmann::json summary;    ///< docs/formats.md
-  std::string paragraph;     ///< what came out, in words
+  std::string paragraph;     ///< the result in words
   std::vector<std::string> warnings;
 };
 
 /// map -> field -> plan -> flights -> pictures -> summary.json, all in `folder`, which appears
 /// whole or not at all. Products do not depend on threads, but for the times in summary.json.
-/// Throws InputError for bad input, a mission the map does not allow, or a place that is taken.
+/// Throws InputError for bad input, a mission the map does not allow, or an existing output.
 [[nodiscard]] RunResult run(const Scenario& scenario, const std::filesystem::path& folder,
                             Existing existing, const Progress& progress);
 

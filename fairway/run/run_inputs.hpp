@@ -1,4 +1,4 @@
-// What a run is made of, and that it does not write over it.
+// The input files of a run, and a check that it does not overwrite them.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,13 @@
 
 namespace fairway {
 
-/// The files that the scenario names, itself among them.
+/// The files that the scenario names, including itself.
 [[nodiscard]] std::vector<std::filesystem::path> inputs_of(const Scenario& scenario);
 
-/// What the map's file names in turn.
+/// The files that the map file names in turn.
 [[nodiscard]] std::vector<std::filesystem::path> inputs_of(const ObstacleMap& map);
 
-/// Throws InputError when a product would take the place of what it is made of.
+/// Throws InputError when a product would overwrite one of its inputs.
 void require_no_inputs(const std::vector<std::filesystem::path>& products,
                        const std::vector<std::filesystem::path>& inputs);
 

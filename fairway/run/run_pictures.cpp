@@ -96,7 +96,7 @@ void write_run_pictures(const Plan& plan, const Mission& mission, const Scenario
         folder, "flights");
   write_final_legs(plan, mission, flown.recorded, title, folder);
 
-  // Charts of more than a few lines say nothing: those of the given states, else the first ones.
+  // Charts of many lines are unreadable: use those of the given states, else the first ones.
   constexpr std::size_t most_lines = 6;
   const std::size_t wanted = flown.given > 0 ? flown.given : 3;
   const std::size_t lines = std::min({wanted, most_lines, flown.recorded.size()});
@@ -113,8 +113,9 @@ void write_run_pictures(const Plan& plan, const Mission& mission, const Scenario
       distances.push_back(path_distance_over_time(flight, speed_mps, *path, step_m, name));
     }
   }
-  ChartOptions chart{
-      .title = title, .x_label = "time, s", .y_label = "heading, degrees from east to the left"};
+  ChartOptions chart{.title = title,
+                     .x_label = "time, s",
+                     .y_label = "heading, degrees counter-clockwise from east"};
   write(draw_chart(headings, chart), folder, "headings");
   if (path == nullptr) return;
   distances.push_back(delta_line(distances, path->delta_position_m));

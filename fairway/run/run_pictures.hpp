@@ -1,5 +1,5 @@
 // The pictures of a run: plan, flights, headings; for paths, distances; for goals with a heading,
-// the last legs from near.
+// a close-up of the last legs.
 #pragma once
 
 #include <array>

@@ -60,11 +60,12 @@ void check_mission(const Scenario& s) {
          "belongs to missions of kind \"path\", this one is of kind \"goal\"");
   forbid(s, "mission.closed", "belongs to missions of kind \"path\", this one is of kind \"goal\"");
   if (s.mission.goal_deg && s.mission.goal_m) {
-    refuse(s, "mission.goal_deg", "given besides mission.goal_m, expected one of the two");
+    refuse(s, "mission.goal_deg",
+           "is given in addition to mission.goal_m, expected only one of them");
   }
   if (!s.mission.goal_deg) {
     require_given(s, "mission.goal_m",
-                  "a mission of kind \"goal\" needs its place, [x, y] in metres");
+                  "a mission of kind \"goal\" needs a position, [x, y] in metres");
   }
 }
 

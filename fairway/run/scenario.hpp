@@ -1,8 +1,8 @@
 // A scenario: everything one run needs, from one TOML file (docs/scenario.md).
 //
 // Defaults live in the option structs of the stages and only there. Paths are relative to the
-// scenario's folder. Values are checked one by one and against each other; what only the map can
-// tell (a goal in an obstacle, say) comes later and finds its line with `place_of`.
+// scenario's folder. Values are checked one by one and against each other; errors that need
+// the map (a goal in an obstacle, for example) come later and find their line with `place_of`.
 #pragma once
 
 #include <cstdint>
@@ -77,10 +77,10 @@ struct Scenario {
   [[nodiscard]] std::string place_of(std::string_view key) const;
 };
 
-/// A value from the command line in place of the file's; the later of two for one key counts.
+/// A value from the command line that overrides the file's; for one key the last one counts.
 struct ScenarioOverride {
   std::string key;    ///< "map.cell_m"
-  std::string value;  ///< as TOML writes it; a text may go without quotes
+  std::string value;  ///< as TOML writes it; a string may go without quotes
   std::string option = "--set";
 };
 

@@ -1,4 +1,4 @@
-// A scenario's key by its name, and what may have been meant by a wrong one.
+// Finds a scenario key by name, and suggests one for an unknown name.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace fairway {
 
-/// The key called "TABLE.LEAF". Throws InputError{place, ...}, with what may have been meant.
+/// The key called "TABLE.LEAF". Throws InputError{place, ...} with a suggestion.
 [[nodiscard]] const ScenarioKey& scenario_key(const std::string& name, const std::string& place);
 
 /// Of a key or a table that does not exist.

@@ -98,26 +98,25 @@ std::vector<ScenarioKey> map_keys() {
       choice<std::optional<Inclusion>>("map.inclusion",
                                        {{"all", Inclusion::all}, {"any", Inclusion::any}},
                                        FAIRWAY_MEMBER(map.inclusion),
-                                       "several keep-in fences: stay in all of them, or in any; "
-                                       "required when there are several"),
+                                       "stay inside all of several keep-in fences, or inside any "
+                                       "one; required when there are several"),
       choice<bool>("map.unknown", {{"obstacle", true}, {"free", false}},
-                   FAIRWAY_MEMBER(map.unknown_is_obstacle), "what unknown map cells are"),
+                   FAIRWAY_MEMBER(map.unknown_is_obstacle), "how unknown map cells are treated"),
       choice<bool>("map.outside", {{"obstacle", true}, {"free", false}},
                    FAIRWAY_MEMBER(map.outside_is_obstacle),
                    "the world beyond the map: a ring of obstacle cells, or free to leave"),
       key("map.only_connected", "true or false", any_finite, FAIRWAY_MEMBER(only_connected),
-          "leave out free ground that nothing joins to goal or path: it becomes an obstacle, and "
-          "no "
-          "share counts it"),
+          "leave out free ground that is not connected to the goal or path: it becomes an obstacle "
+          "and no share counts it"),
       number("map.footprint_radius_m", not_negative, FAIRWAY_MEMBER(map.footprint_radius_m),
              "obstacles grow by this, metres"),
       key("map.reference_deg", "[latitude, longitude]", degrees, FAIRWAY_MEMBER(map.reference),
-          "where metres are measured from on maps in degrees; without it the file's home, else the "
-          "middle of the map"),
+          "maps in degrees: origin of the metric frame; by default the file's home position, else "
+          "the middle of the map"),
       number("map.altitude_m", metres, FAIRWAY_MEMBER(map.altitude_m),
              "elevation maps: flight altitude; higher ground is an obstacle"),
       number("map.margin_m", not_negative, FAIRWAY_MEMBER(map.margin_m),
-             "elevation maps: height to keep above the ground, metres"),
+             "elevation maps: required clearance above the ground, metres"),
       number(
           "map.world_margin_m", not_negative, FAIRWAY_MEMBER(map.world_margin_m),
           "free room around obstacles and mission when no keep-in fence bounds the world; "
@@ -137,13 +136,12 @@ std::vector<ScenarioKey> vehicle_and_mission_keys() {
           "mission.kind", {{"goal", MissionKind::goal}, {"path", MissionKind::path}},
           FAIRWAY_MEMBER(mission.kind), "reach a place, or follow a path")),
       key("mission.goal_m", "[x, y]", metres, FAIRWAY_MEMBER(mission.goal_m),
-          "goal missions: where to, metres in the map's frame"),
+          "goal missions: the goal's position, metres in the map's frame"),
       key("mission.goal_deg", "[latitude, longitude]", degrees, FAIRWAY_MEMBER(mission.goal_deg),
-          "goal missions on georeferenced maps: instead of `mission.goal_m`"),
-      number(
-          "mission.goal_heading_rad", Range{-7.0, 7.0}, FAIRWAY_MEMBER(mission.goal_heading_rad),
-          "heading to arrive with, radians counter-clockwise from east: steering takes over where "
-          "a flight enters the goal"),
+          "goal missions on georeferenced maps: the goal's position, instead of `mission.goal_m`"),
+      number("mission.goal_heading_rad", Range{-7.0, 7.0}, FAIRWAY_MEMBER(mission.goal_heading_rad),
+             "goal missions: heading on arrival, radians counter-clockwise from east; steering "
+             "takes over where a flight enters the goal"),
       key("mission.path_file", "file", any_finite, FAIRWAY_MEMBER(mission.path_file),
           "path missions: CSV with x_m,y_m, GeoJSON LineString, QGC waypoints or .plan"),
       key("mission.closed", "true or false", any_finite, FAIRWAY_MEMBER(mission.closed),
@@ -166,8 +164,8 @@ std::vector<ScenarioKey> plan_keys() {
           "plan.metric",
           {{"euclidean", Metric::euclidean}, {"octile", Metric::octile}, {"paper", Metric::paper}},
           FAIRWAY_MEMBER(plan.metric),
-          "how distances are measured: exactly, along eight directions, or by the "
-          "paper's Algorithms 1 and 2 to the letter"),
+          "how distances are measured: exactly, along eight directions, or exactly as in the "
+          "paper's Algorithms 1 and 2"),
       number("plan.sigma_cells", width, FAIRWAY_MEMBER(plan.sigma_cells),
              "standard deviation of the Gaussian filter, cells (Eqs. 19-21); 0: no filter"),
       number("plan.mu_path", share, FAIRWAY_MEMBER(plan.mu_path),
@@ -189,9 +187,10 @@ std::vector<ScenarioKey> plan_keys() {
       choice<Blend>("plan.blend", {{"paper", Blend::paper}, {"continuous", Blend::continuous}},
                     FAIRWAY_MEMBER(plan.blend),
                     "how a transition begins: with a jump as printed (Eq. 16), or without"),
-      number("plan.axis_capture_rad", Range{0.0, 0.1}, FAIRWAY_MEMBER(plan.axis_capture_rad),
-             "commands this close to a grid axis are put on it, so that opposing commands do not "
-             "weave along a border in tiny hops; metric \"paper\": never"),
+      number(
+          "plan.axis_capture_rad", Range{0.0, 0.1}, FAIRWAY_MEMBER(plan.axis_capture_rad),
+          "commands this close to a grid axis are snapped to it, so that vehicles do not weave "
+          "along a border in tiny hops between opposing commands; not used with metric \"paper\""),
   };
 }
 
@@ -201,35 +200,35 @@ std::vector<ScenarioKey> simulate_and_verify_keys() {
           "flights to record and draw, metres and radians (from -7 to 7)"),
       key("simulate.states_deg", "[[latitude, longitude, course], ...]", turn_degrees,
           FAIRWAY_MEMBER(simulate.states_deg),
-          "further ones on georeferenced maps; the course is in degrees clockwise from north"),
+          "further flights on georeferenced maps; the course is in degrees clockwise from north"),
       whole("simulate.random", Range{0.0, 1e5}, FAIRWAY_MEMBER(simulate.random),
             "further flights to record and draw, from random safe starts with a command"),
       whole(
           "simulate.sample", Range{0.0, 1e7}, FAIRWAY_MEMBER(simulate.sample),
           "random flights, from safe starts with a command, behind the shares in the summary; the "
           "first of them are those of `simulate.random`"),
-      whole("simulate.seed", Range{0.0, 9.0e15}, FAIRWAY_MEMBER(simulate.seed),
-            "of all random draws"),
+      whole("simulate.seed", Range{0.0, 9.0e15}, FAIRWAY_MEMBER(simulate.seed), "random seed"),
       choice<VerifyMethod>(
           "verify.method",
           {{"certified", VerifyMethod::certified},
            {"bitmap", VerifyMethod::bitmap},
            {"none", VerifyMethod::none}},
           FAIRWAY_MEMBER(verify.method),
-          "a proof for every state; or the paper's samples of the borders: a picture; or nothing"),
+          "a proof for every state; the paper's samples of the borders (a picture); or nothing"),
       key("verify.region", "\"goal\", \"obstacle\", [x0, y0, x1, y1] or file", metres,
           FAIRWAY_MEMBER(verify.region),
-          "what is to be reached, in place of the goal: obstacles, the cells wholly inside a "
-          "rectangle, or those of a file (GeoJSON areas, or CSV ix,iy)"),
+          "region to be reached: the goal, obstacles, the cells wholly inside a rectangle, or "
+          "those of a file (GeoJSON areas, or CSV ix,iy)"),
       whole("verify.border_samples", Range{least_border_samples, most_border_samples},
             FAIRWAY_MEMBER(verify.border_samples),
-            "method \"bitmap\": places and headings sampled on each border, a multiple of four"),
+            "method \"bitmap\": number of places and of headings sampled on each border, a "
+            "multiple of four"),
       number("verify.undecided_max", Range{0.0, 1.0}, FAIRWAY_MEMBER(verify.limits.undecided_max),
-             "stop refining once this share of the volume is undecided"),
+             "stop refining once at most this share of the volume is undecided"),
       number("verify.time_limit_s", Range{0.0, 1e9}, FAIRWAY_MEMBER(verify.limits.time_limit_s),
              "stop refining after this time, seconds; 0: no limit"),
       number("verify.memory_limit_mb", positive, FAIRWAY_MEMBER(verify.limits.memory_limit_mb),
-             "stop refining before using more memory, megabytes"),
+             "stop refining before using more memory than this, megabytes"),
   };
 }
 

@@ -1,5 +1,5 @@
-// The table of scenario keys: name, kind, range, default, meaning, and how each is taken. The
-// reader, the documentation and the record in every product come from this one table.
+// The table of scenario keys: name, kind, range, default, meaning, and how each is read. The
+// reader, the documentation and the record in every product are all made from this table.
 #pragma once
 
 #include <functional>

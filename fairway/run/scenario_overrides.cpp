@@ -13,13 +13,13 @@
 namespace fairway {
 namespace {
 
-/// { value = ... }. What is no value in TOML is a text without quotes, unless it begins like one of
-/// the things that end with what they began with.
+/// { value = ... }. Text that is not a TOML value is taken as a string without quotes, unless it
+/// begins with an opening quote or bracket.
 toml::table parsed(const ScenarioOverride& one) {
   const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
   if (std::any_of(one.value.begin(), one.value.end(), is_control)) {
     throw InputError(one.option,
-                     fmt::format("{}: holds a control character, expected a value", one.key));
+                     fmt::format("{}: contains a control character, expected a value", one.key));
   }
   try {
     return toml::parse("value = " + one.value);

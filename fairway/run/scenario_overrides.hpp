@@ -12,11 +12,11 @@ namespace fairway {
 /// `KEY=VALUE`. Throws InputError, without a place, when it has no key or no value.
 [[nodiscard]] ScenarioOverride override_of_text(const std::string& text);
 
-/// Puts the value in place of what the scenario has. Throws InputError{option, ...} for a key that
-/// does not exist and for a value that it cannot have.
+/// Overrides the scenario's value. Throws InputError{option, ...} for a key that does not exist and
+/// for an invalid value.
 void take_override(const ScenarioOverride& one, Scenario& scenario);
 
-/// "set": what the command line gave, key by key, into a summary; nothing when it gave nothing.
+/// Adds "set" to a summary: the values from the command line, key by key; only if there are any.
 void add_overrides(nlohmann::json& summary, const Scenario& scenario);
 
 }  // namespace fairway

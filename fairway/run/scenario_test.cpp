@@ -184,7 +184,7 @@ TEST(Scenarios, RefusalsNameLineKeyAndWhatIsExpected) {
       {with("goal_heading_rad = 1.57", "path_file = \"x\""),
        "dir/s.toml:11: mission.path_file: belongs to missions of kind \"path\""},
       {with("goal_heading_rad = 1.57", "goal_deg = [1, 2]"),
-       "dir/s.toml:11: mission.goal_deg: given besides mission.goal_m"},
+       "dir/s.toml:11: mission.goal_deg: is given in addition to mission.goal_m"},
       {with("goal_m = [120.0, 340.0]", "goal_deg = [91, 2]"),
        "dir/s.toml:10: mission.goal_deg: expected"},
       {with("goal_m = [120.0, 340.0]", "goal_m = [120.0, 340.0"), "dir/s.toml:11: is not TOML: "},

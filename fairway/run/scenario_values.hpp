@@ -1,4 +1,4 @@
-// How a kind of value is taken from a scenario's TOML, and shown as JSON.
+// How each kind of value is read from a scenario's TOML and shown as JSON.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace fairway {
 
-// Each throws InputError at the value's line for what is no such value. States: headings in radians
+// Each throws InputError at the value's line if it is not such a value. States: headings in radians
 // from -7 to 7; on Earth: latitude, longitude, course.
 void take(const TomlValue& value, double& x);
 void take(const TomlValue& value, std::uint64_t& x);

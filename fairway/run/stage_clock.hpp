@@ -1,4 +1,4 @@
-// Wall time per stage, and what is told about progress.
+// Wall time per stage, and progress reports.
 #pragma once
 
 #include <chrono>
@@ -25,7 +25,7 @@ class StageClock {
     begin_ = Clock::now();
     tell(left);
   }
-  /// Another name for the stage under way, as it is told; its time is kept under the old one.
+  /// Another name for the stage under way, as it is reported; its time is kept under the old one.
   void rename(std::string told) { told_ = std::move(told); }
   void tell(double left_s) const { tell(TimeLeft{left_s}); }
   void tell(const TimeLeft& left) const {

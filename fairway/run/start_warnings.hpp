@@ -1,4 +1,4 @@
-// Starts that hardly mean what they say.
+// Warnings about starts that are probably mistakes.
 #pragma once
 
 #include <span>
@@ -16,7 +16,7 @@ namespace fairway {
                                                          const Plan& plan);
 
 /// A sentence when a start in metres has the numbers of the map's own latitude and longitude, or of
-/// its longitude and latitude, to half a degree. None where the frame has no place on Earth.
+/// its longitude and latitude, to half a degree. None where the frame is not georeferenced.
 [[nodiscard]] std::vector<std::string> degree_warnings(std::span<const State> starts,
                                                        const Grid& grid, const Frame& frame);
 

@@ -24,7 +24,7 @@ namespace {
 
 constexpr double step_radii = 0.01;  // of a track along a shortest path
 constexpr double tie_radii = 0.02;
-constexpr double most_points = 10'000.0;  // of a leg along a shortest path, beside its joins
+constexpr double most_points = 10'000.0;  // of a leg along a shortest path, besides its joins
 
 void add_shortest_track(SteeredLeg& leg, const DubinsPath& path) {
   const double length_m = path.length_m();
@@ -56,7 +56,7 @@ SteeredLeg shortest_leg(const State& from, const State& goal, double turn_radius
 
 using GoalAt = std::function<State(double driven_m)>;
 
-/// What a law makes of a state: V, and paper 3's parts of it.
+/// What a law computes for a state: V, and paper 3's parts of it.
 TrackPoint seen_by(const ClfLaw& law, const State& s, const State& goal, double turn_radius_m) {
   const ClfValue value = law.value(s, goal, turn_radius_m);
   const bool repels = value.repels_left || value.repels_right;
@@ -72,7 +72,8 @@ TrackPoint seen_by(const ShortestLaw& /*law*/, const State& s, const State& goal
   return {0.0, s, 0.0, shortest_length_m(s, goal, turn_radius_m) / turn_radius_m, 0.0, 0.0};
 }
 
-/// The states of a flight, with what the law saw at each: it is asked again, and answers the same.
+/// The states of a flight, with what the law saw at each: it is evaluated again, with the same
+/// result.
 template <typename Law>
 void add_flown_track(SteeredLeg& leg, Law law, std::span<const State> states, const GoalAt& goal_at,
                      double turn_radius_m, double step_m) {

@@ -16,8 +16,8 @@ namespace fairway {
 
 enum class SteeringLaw { shortest, clf };
 
-/// How to steer. The law shortest gives the shortest path itself unless something is asked that
-/// only a flight in steps has: a step, a tolerance, a goal that moves, noise.
+/// How to steer. The law shortest gives the shortest path itself unless an option needs a flight in
+/// steps: a step, a tolerance, a moving goal, noise.
 struct SteeringRequest {
   SteeringLaw law = SteeringLaw::shortest;
   ClfOptions clf;
@@ -33,7 +33,7 @@ struct SteeringRequest {
   SteeringOptions options(const State& from, const State& goal, double turn_radius_m) const;
 };
 
-/// A state of a leg, and what the law makes of it.
+/// A state of a leg, with what the law computes there.
 struct TrackPoint {
   double driven_m = 0.0;  ///< since the leg began
   State state;

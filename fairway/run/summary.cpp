@@ -23,12 +23,12 @@ double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// "66 collide", "1 is trapped".
+/// "66 collide", "1 gets trapped".
 std::string counted(Outcome outcome, std::size_t n) {
-  static constexpr std::array<const char*, outcome_codes> one{"", "reaches", "collides", "leaves",
-                                                              "is trapped"};
-  static constexpr std::array<const char*, outcome_codes> many{"", "reach", "collide", "leave",
-                                                               "are trapped"};
+  static constexpr std::array<const char*, outcome_codes> one{"", "reaches", "collides",
+                                                              "leaves the map", "gets trapped"};
+  static constexpr std::array<const char*, outcome_codes> many{"", "reach", "collide",
+                                                               "leave the map", "get trapped"};
   return grouped(n) + " " + (n == 1 ? one : many)[static_cast<std::size_t>(outcome)];
 }
 
@@ -99,7 +99,7 @@ json plan_summary(const Scenario& scenario, const ObstacleMap& map, const Plan& 
   for (const char* table : {"map", "vehicle", "mission", "plan", "simulate"}) {
     options[table] = effective_values(scenario, table);
   }
-  options["map"].erase("file");  // it stands among the inputs, with its digest
+  options["map"].erase("file");  // listed under "inputs", with its digest
   options["mission"].erase("path_file");
   json summary = {
       {"program", program_version},
@@ -149,7 +149,7 @@ void add_cost(json& summary, const StageClock& clock) {
 
 std::string cost_words(const json& summary) {
   const auto threads = summary["threads"].get<std::size_t>();
-  return fmt::format("It took {:.2f} s on {} thread{} and {:.0f} MB at the peak.",
+  return fmt::format("Took {:.2f} s on {} thread{}; peak memory {:.0f} MB.",
                      summary["wall_s"].get<double>(), threads, threads == 1 ? "" : "s",
                      summary["peak_rss_bytes"].get<double>() / 1e6);
 }

@@ -1,4 +1,4 @@
-// What a run found, as JSON and in words.
+// The result of a run, as JSON and in words.
 #pragma once
 
 #include <array>
@@ -29,13 +29,14 @@ struct RegionCells {
 
 [[nodiscard]] nlohmann::json outcome_json(const OutcomeCounts& counts);
 
-/// "9,934 reach (99.3 %; 95 % interval 99.1 % to 99.5 %), 66 collide, 0 leave, 0 are trapped".
+/// "9,934 reach (99.3 %; 95 % interval 99.1 % to 99.5 %), 66 collide, 0 leave the map, 0 get
+/// trapped".
 [[nodiscard]] std::string outcome_words(const OutcomeCounts& counts);
 
-/// "66 collide, 1 is trapped": those that do not reach; empty when all do.
+/// "66 collide, 1 gets trapped": those that do not reach; empty when all do.
 [[nodiscard]] std::string failure_words(const OutcomeCounts& counts);
 
-/// What is to be reached: "goal", or "path".
+/// The word for what is to be reached: "goal" or "path".
 [[nodiscard]] const char* goal_word(const Plan& plan);
 
 /// Cells, regions, inputs, options, warnings: what plan and run have in common.

@@ -14,14 +14,14 @@ OutcomeCounts counts(std::size_t reach, std::size_t collide, std::size_t leave,
 
 TEST(OutcomeWords, NeverRoundAMissAway) {
   EXPECT_EQ(outcome_words(counts(99999, 1, 0, 0)),
-            "99,999 reach (99.999 %; 95 % interval 99.994 % to > 99.999 %), 1 collides, 0 leave, "
-            "0 are trapped");
+            "99,999 reach (99.999 %; 95 % interval 99.994 % to > 99.999 %), 1 collides, 0 leave "
+            "the map, 0 get trapped");
   EXPECT_EQ(outcome_words(counts(10, 0, 0, 0)).substr(0, 18), "10 reach (100 %; 9");
 }
 
 TEST(FailureWords, CountWhatDoesNotReach) {
   EXPECT_EQ(failure_words(counts(5, 0, 0, 0)), "");
-  EXPECT_EQ(failure_words(counts(5, 1, 0, 1200)), "1 collides, 1,200 are trapped");
+  EXPECT_EQ(failure_words(counts(5, 1, 0, 1200)), "1 collides, 1,200 get trapped");
 }
 
 TEST(OutcomeJson, CountsEveryOutcomeByName) {

@@ -52,7 +52,7 @@ std::optional<double> UndecidedTrend::end_s() const {
   const double fall =
       (levels_[levels_.size() - n].log_share - last.log_share) / static_cast<double>(n - 1);
   if (!(fall >= least_fall)) return std::nullopt;
-  // The work ends with a level, on average half a level beyond the goal.
+  // The work ends with a level, on average half a level beyond undecided_max.
   const double levels = std::max(0.0, (last.log_share - std::log(undecided_max_)) / fall) + 0.5;
   const double g = pace->growth;
   const double left_s = pace->took_s * g * (std::pow(g, levels) - 1.0) / (g - 1.0);

@@ -1,4 +1,4 @@
-// When a proof will end, as far as its levels tell, and the words for it.
+// Estimates when a proof will end from its levels, and puts it into words.
 #pragma once
 
 #include <optional>
@@ -20,8 +20,8 @@ class UndecidedTrend {
   void add(double at_s, double undecided);
 
   /// Seconds from the start at which the level will end that meets undecided_max; nothing when that
-  /// cannot be told: after less than three levels, when the share hardly falls, or when it would be
-  /// more than ten times as far as what is done.
+  /// cannot be estimated: after less than three levels, when the share hardly falls, or when it
+  /// would be more than ten times as far as what is done.
   [[nodiscard]] std::optional<double> end_s() const;
 
  private:
@@ -40,13 +40,13 @@ class UndecidedTrend {
 };
 
 /// ", about 40 s left", ", time limit in 12 s" or "": what will end the work first. `since_s`:
-/// seconds since `left` was told.
+/// seconds since `left` was reported.
 [[nodiscard]] std::string time_left_words(const TimeLeft& left, double since_s);
 
 /// "40 s", "2 min 05 s"; whole seconds, upwards.
 [[nodiscard]] std::string duration_text(double seconds);
 
-/// When a line is due after `so_far_s` of work where nobody watches a terminal: after 10 s, then at
+/// When the next line is due after `so_far_s` of work without a terminal: after 10 s, then at
 /// twice the time each, and at last every ten minutes.
 [[nodiscard]] double next_line_s(double so_far_s);
 

@@ -23,7 +23,7 @@ std::string shown(const toml::node& node) {
   return text;
 }
 
-/// Bounds are written in full, but for those with more digits than anybody types: pi.
+/// Bounds are written in full, except pi, which has more digits than anybody types.
 std::string bound_text(double bound) {
   std::string text = fmt::format("{}", bound);
   constexpr std::size_t longest = 16;

@@ -75,10 +75,9 @@ Verification verify_plan(const Plan& plan, const std::string& where, const Regio
                          const CertifyProgress& progress) {
   if (!(plan.grid.cell_m < plan.vehicle.turn_radius_m)) {
     throw InputError(
-        where,
-        fmt::format("its cells of {} m are not smaller than the turning radius, {} m: such a "
-                    "plan cannot be verified",
-                    length_text(plan.grid.cell_m), length_text(plan.vehicle.turn_radius_m)));
+        where, fmt::format("its cells of {} m are not smaller than the turning radius of {} m, as "
+                           "verification requires",
+                           length_text(plan.grid.cell_m), length_text(plan.vehicle.turn_radius_m)));
   }
   Verification made;
   made.options = options;

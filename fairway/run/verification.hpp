@@ -24,9 +24,9 @@ struct Verification {
 };
 
 /// Proves what flights under `plan` do. `earlier`: a certificate of the same proof
-/// (proof_identity.hpp) to go on from, whose leaves are proved again before they count; throws
+/// (proof_identity.hpp) to continue from, whose leaves are proved again before they count; throws
 /// InputError{earlier->where, ...} when it is of another one. The time limit holds for both. Throws
-/// InputError when the plan cannot be verified, in words.
+/// InputError with the reason when the plan cannot be verified.
 [[nodiscard]] Verification verify_plan(const Plan& plan, const std::string& where,
                                        const RegionOfInterest& region,
                                        const CertifyOptions& options,

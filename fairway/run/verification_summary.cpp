@@ -20,18 +20,18 @@ const char* goal_or_region(const Verification& v) {
   return is_goal ? "goal" : "region";
 }
 
-/// What ended the work before its aim was met; empty when it was.
+/// Why the proof stopped before its aim was met; empty when it was met.
 std::string end_of_work(const Verification& v) {
   switch (v.outcome.stopped_by) {
     case StoppedBy::time_limit:
-      return fmt::format("the time limit of {:g} s ended the proof", v.options.time_limit_s);
+      return fmt::format("the proof stopped at the time limit of {:g} s", v.options.time_limit_s);
     case StoppedBy::memory_limit:
-      return fmt::format("the memory limit of {:g} MB ended the proof",
+      return fmt::format("the proof stopped at the memory limit of {:g} MB",
                          static_cast<double>(v.options.memory_limit_bytes) / 1e6);
     case StoppedBy::last_level:
-      return "the finest leaves ended the proof";
+      return "the proof stopped at the finest refinement level";
     case StoppedBy::stalled:
-      return "the proof ended when smaller leaves decided no more";
+      return "the proof stopped because further refinement decided no more states";
     case StoppedBy::undecided_max:
       break;
   }
@@ -74,7 +74,7 @@ std::string stopped_words(const Verification& v) {
   const std::string end = end_of_work(v);
   if (end.empty()) return end;
   const double undecided = share_of(v.outcome.volume.all, Verdict::undecided);
-  return fmt::format("{} with {} undecided (wanted: at most {:g} %)", end,
+  return fmt::format("{}: {} undecided (requested: at most {:g} %)", end,
                      percent_text(undecided, decimals_of_sample(v.outcome.volume.samples)),
                      100.0 * v.options.undecided_max);
 }
@@ -84,14 +84,14 @@ std::optional<std::string> limit_warning(const Verification& v) {
   if (by != StoppedBy::time_limit && by != StoppedBy::memory_limit) return std::nullopt;
   std::string words = stopped_words(v);
   words.front() = 'T';
-  return words + "; a higher limit, or `fairway verify --resume`, goes on.";
+  return words + "; raise the limit, or continue with `fairway verify --resume`.";
 }
 
 std::string proof_notes(const Verification& v) {
   std::string words = fmt::format(
-      "All states: every heading at every place outside obstacles and {}; shares of {} sampled, "
-      "each "
-      "proved.\nAssumed: the exact model, without wind or delay, and a map that does not change.",
+      "All states: every heading at every place outside obstacles and {}; shares of {} sampled "
+      "states, each proved.\nAssumed: the exact model, without wind or delay, and a map that does "
+      "not change.",
       goal_or_region(v), grouped(v.outcome.volume.samples));
   if (v.outcome.volume.worst_time_s > 0.0) {
     words += fmt::format("\nNo sampled state that reaches takes longer than {:.1f} s.",
@@ -104,10 +104,9 @@ std::string verification_words(const Verification& v) {
   const VolumeFractions& volume = v.outcome.volume;
   const int decimals = decimals_of_sample(volume.samples);
   std::string words = fmt::format(
-      "Proved for every heading and place: of all states outside obstacles and {} {}; of safe "
-      "starts {} reach, of safe starts with a command {} (shares of volume, from {} sampled "
-      "states, "
-      "each proved).",
+      "Proved for every heading and place: of all states outside obstacles and {}, {}; of safe "
+      "starts, {} reach; of safe starts with a command, {} (shares of volume, from {} sampled "
+      "states, each proved).",
       goal_or_region(v), shares_words(volume.all, decimals),
       percent_text(share_of(volume.free, Verdict::reach), decimals),
       percent_text(share_of(volume.commanded, Verdict::reach), decimals), grouped(volume.samples));
@@ -129,7 +128,7 @@ const std::vector<std::string>& proof_assumptions() {
   static const std::vector<std::string> sentences{
       "The vehicle follows the model: constant speed, exact turns at the turning radius towards "
       "the commanded heading, exact position and heading. No wind, no delay.",
-      "The map is static and right; an obstacle is the cells that the plan calls so.",
+      "The map is static and correct; obstacles are the cells that the plan marks as such.",
       "The processor computes IEEE 754 doubles and the compiler does not reorder floating-point "
       "operations."};
   return sentences;

@@ -1,4 +1,4 @@
-// What a verification found, as JSON and in words.
+// The result of a verification, as JSON and in words.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ namespace fairway {
 /// What was proved and what was assumed, in one paragraph.
 [[nodiscard]] std::string verification_words(const Verification& verification);
 
-/// "the time limit of 20 s ended the proof with 6.3 % undecided (wanted: at most 0.5 %)"; empty
+/// "the proof stopped at the time limit of 20 s: 6.3 % undecided (requested: at most 0.5 %)"; empty
 /// when the work ended because so little was undecided.
 [[nodiscard]] std::string stopped_words(const Verification& verification);
 

@@ -1,4 +1,4 @@
-// What is told while a proof is under way.
+// Progress reports of a proof.
 #pragma once
 
 #include "fairway/run/stage_clock.hpp"
@@ -6,7 +6,7 @@
 
 namespace fairway {
 
-/// Begins the stage "verifying", and tells its levels with the time left; what comes after the
+/// Begins the stage "verifying", and reports its levels with the time left; what comes after the
 /// proof takes another `after_s`, seconds. `clock` must outlive it.
 [[nodiscard]] CertifyProgress begin_verifying(StageClock& clock, const CertifyOptions& options,
                                               double after_s = 0.0);

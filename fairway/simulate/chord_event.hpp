@@ -14,7 +14,7 @@ struct ChordEvent {
   Outcome outcome;
 };
 
-/// What it is to be in a cell: leave outside the grid; none where the flight goes on.
+/// The event of being in a cell: leave outside the grid; none if the flight continues.
 [[nodiscard]] std::optional<Outcome> outcome_in(const Plan& plan, Cell cell);
 
 /// The first event of the chord from `a`, in whose cell the flight is, to `b`. The chord is shorter

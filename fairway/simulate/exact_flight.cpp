@@ -42,7 +42,7 @@ void ExactFlights::prefetch_ahead(const Position& position) const {
   }
 }
 
-/// Moves `position` from the exit into the next cell and answers what that is.
+/// Moves `position` from the exit into the next cell and returns its kind.
 ExactFlights::Kind ExactFlights::enter_next(Position& position, const CellExit& exit) const {
   const double d = grid_.cell_m;
   position.state = exit.state;
@@ -159,7 +159,7 @@ FlightRun ExactFlights::fly_through(const State& start, FlightLimits limits, dou
   return run;
 }
 
-/// How far a flight goes on that has just reached: its length is measured from there, and the
+/// How far a flight continues after reaching: its length is measured from there, and the
 /// crossings are as many again as so long a flight is given.
 FlightLimits ExactFlights::beyond_goal(FlightLimits limits, const FlightRun& run,
                                        double beyond_m) const {

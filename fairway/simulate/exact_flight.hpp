@@ -74,9 +74,9 @@ class ExactFlights {
   /// The same without its pieces: result and turning.
   [[nodiscard]] Flight measure(const State& start, FlightLimits limits = {}) const;
 
-  /// For path missions: goal cells do not end the flight. It goes on until `length_m` are flown, or
-  /// to an obstacle, the grid's edge or a trap before the first goal cell. The result is the
-  /// outcome as ever (reach: at the first goal cell); the pieces go on.
+  /// For path missions: goal cells do not end the flight. It continues until `length_m` are flown,
+  /// or to an obstacle, the grid's edge or a trap before the first goal cell. The result is the
+  /// usual outcome (reach: at the first goal cell); the pieces continue.
   [[nodiscard]] Flight follow(const State& start, double length_m) const;
 
   /// The same until `beyond` the first goal cell. The result is that of `fly`, to the bit, and so

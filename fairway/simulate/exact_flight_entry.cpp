@@ -49,7 +49,7 @@ ExactFlights::Position ExactFlights::locate(const State& start) const {
   const Vec2 p = start.position_m;
   require(std::isfinite(p.x) && std::isfinite(p.y), "a start's position is finite");
   const double d = grid_.cell_m;
-  // The padding ring stands for all the world outside; on the closed grid's edge we are inside.
+  // The padding ring represents the world outside; the closed grid's edge counts as inside.
   const auto along = [d](double x, double x0, int n, double& local) {
     if (x < x0 || x > x0 + n * d) {
       local = 0.5 * d;
@@ -71,7 +71,7 @@ ExactFlights::Position ExactFlights::locate(const State& start) const {
 }
 
 /// For states on a border that are more than a plain crossing (starts, corners, touches): moves the
-/// state into the cell its heading points into, and answers what it meets there.
+/// state into the cell its heading points into, and returns what it meets there.
 ExactFlights::Kind ExactFlights::settle(Position& position, bool at_start) const {
   const double d = grid_.cell_m;
   Vec2& p = position.state.position_m;

@@ -346,7 +346,7 @@ TEST(ExactFlight, AgreesWithSmallStepsOfTheDifferentialEquation) {
     off_m.push_back(norm(state_at(last, last.length_m).position_m - p));
   }
   std::sort(off_m.begin(), off_m.end());
-  // The steps' own error; a start beside a watershed (an opposite command) may part from it.
+  // The steps' own error; a start next to a watershed (an opposite command) may diverge from it.
   EXPECT_LT(off_m[54], 0.02);
   EXPECT_LT(off_m[30], 2e-3);
 }

@@ -1,4 +1,4 @@
-// The noun of simulation: one flight of a vehicle under a plan.
+// One flight of a vehicle under a plan.
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ struct FlightResult {
 };
 
 /// How a flight went on that was followed beyond its first goal cell, as those of path missions can
-/// be. No part of the flight's result: an outcome is reach once a goal cell is entered.
+/// be. Not part of the flight's result: an outcome is reach once a goal cell is entered.
 enum class After : std::uint8_t {
   none,     ///< not followed, or the flight does not reach
   follow,   ///< flew on for as long as it was followed
@@ -129,7 +129,7 @@ inline State state_at(const FlightSegment& piece, double along_m) {
   return {p + chord_m * middle, Heading::from_rad(piece.start.heading.rad() + turned)};
 }
 
-/// How a flight that reached goes on, where the goal has a heading.
+/// How a flight that reached continues, if the goal has a heading.
 enum class FinalLegState : std::uint8_t {
   not_asked,  ///< the goal has no heading, or the flight does not reach
   shortest,   ///< by the shortest path, which touches no obstacle
@@ -152,7 +152,7 @@ constexpr const char* name_of(FinalLegState state) {
   return "";
 }
 
-/// From where a flight entered a goal cell to the goal's pose. No part of the flight's result: an
+/// From where a flight entered a goal cell to the goal's pose. Not part of the flight's result: an
 /// outcome is reach once a goal cell is entered.
 struct FinalLeg {
   FinalLegState state = FinalLegState::not_asked;

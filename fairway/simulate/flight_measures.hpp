@@ -1,4 +1,4 @@
-// The noun of measuring: what is told of one flight beside its outcome.
+// The measures of one flight, in addition to its outcome.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,4 @@
-// What many flights have in common, and how one flight keeps to a path.
+// Statistics over many flights, and how closely one flight keeps to a path.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace fairway {
 
-/// How many flights ended how.
+/// The number of flights by outcome.
 struct OutcomeCounts {
   std::array<std::size_t, outcome_codes> by_outcome{};  ///< [Outcome]
 

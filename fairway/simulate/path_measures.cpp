@@ -9,7 +9,7 @@
 namespace fairway {
 namespace {
 
-/// Calls visit(time_s, state) at times step_s apart, from the start on, while visit answers true.
+/// Calls visit(time_s, state) at times step_s apart, from the start on, while visit returns true.
 template <typename Visit>
 void in_even_steps(const Flight& flight, double speed_mps, double step_s, const Visit& visit) {
   std::size_t step = 0;

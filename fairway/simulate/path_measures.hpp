@@ -1,9 +1,9 @@
 // How near flights keep to a path, and how parallel to it (paper 1, Fig. 7, by the measures of
 // Eq. 5).
 //
-// A flight is looked at in even steps of time, each the time for `step_m` at the plan's speed: what
-// is told of times is right to one of them, and a worst distance to half of `step_m` (twice that in
-// wind as fast as the vehicle).
+// A flight is sampled in even time steps, each the time for `step_m` at the plan's speed: reported
+// times are accurate to one step, and a worst distance to half of `step_m` (twice that in wind as
+// fast as the vehicle).
 #pragma once
 
 #include "fairway/simulate/flight.hpp"

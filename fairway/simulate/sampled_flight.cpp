@@ -17,7 +17,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr double least_turn = 1e-6;  // of the tightest: a control law's rounding is no turn
+constexpr double least_turn = 1e-6;  // of the tightest: a control law's rounding is not a turn
 
 bool not_negative(double value) { return value >= 0.0 && std::isfinite(value); }
 
@@ -165,7 +165,7 @@ class SampledFlights::Run {
     return rate;
   }
 
-  /// Answers whether the flight is over: with `end_`, or without where it was followed to.
+  /// Returns whether the flight is over: with `end_`, or without where it was followed to.
   bool fly_period(double rate, Vec2 wind) {
     const double speed_mps = plan_.vehicle.speed_mps;
     const double fastest_mps = speed_mps + norm(wind);
@@ -238,7 +238,8 @@ class SampledFlights::Run {
   double keep_ = 0.0;  // of a gust after one period
   Vec2 gust_;
   bool calm_ = true;
-  /// The cells of a path are flown through, by the law: Eq. 8 knows but the buffer and the rest.
+  /// The cells of a path are flown through, by the law: Eq. 8 only distinguishes the buffer from
+  /// the rest.
   Region path_cells_ = Region::free;
   double time_s_ = 0.0;
   double length_m_ = 0.0;

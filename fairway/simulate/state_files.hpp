@@ -3,7 +3,7 @@
 //
 // Columns x_m,y_m,heading_rad, as base/number_csv.hpp reads them: others are passed over when there
 // is a header, so an outcomes file is a states file. A header may name lat_deg,lon_deg,course_deg
-// instead, where a plan has a place on Earth.
+// instead, if the plan is georeferenced.
 #pragma once
 
 #include <filesystem>
@@ -17,8 +17,8 @@
 
 namespace fairway {
 
-/// What a state on Earth is in the metres of a plan; throws InputError{where, ...} where it is
-/// none.
+/// Converts a state on Earth to the metres of a plan; throws InputError{where, ...} if there is
+/// no such state.
 using StateFromEarth = std::function<State(const EarthState& state, const std::string& where)>;
 
 /// Of a file or, for "-", the standard input. Throws InputError{FILE:LINE, ...}, and when the file
@@ -26,7 +26,7 @@ using StateFromEarth = std::function<State(const EarthState& state, const std::s
 [[nodiscard]] std::vector<State> read_states(const std::filesystem::path& path,
                                              const StateFromEarth& from_earth = {});
 
-/// The same for a text in memory; `where` stands for the file's name in errors.
+/// The same for a text in memory; `where` is used as the file's name in errors.
 [[nodiscard]] std::vector<State> states_of_csv(std::string_view text, const std::string& where,
                                                const StateFromEarth& from_earth = {});
 

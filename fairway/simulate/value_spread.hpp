@@ -1,4 +1,4 @@
-// What many values have in common: their mean, what 95 % of them do not exceed, the largest.
+// The spread of many values: their mean, 95th percentile and maximum.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 """Verified feedback motion plans for vehicles with a minimum turning radius.
 
-For every place on a map the heading to steer; exact flights under that plan; and a proof of what
+For every place on a map, the heading to steer; exact flights under that plan; and a proof of what
 the vehicle does from every place and heading.
 
 World: x east, y north, metres. Headings are radians, counter-clockwise from east. Arrays over a
@@ -12,7 +12,7 @@ map are [ny, nx] with the lowest row first; states are rows x_m, y_m, heading_ra
     certificate = fairway.verify(plan)
     verdict, time_bound_s = certificate.query([[100.0, 80.0, 0.5]])
 
-The work is done by the extension _fairway, without the interpreter's lock; nothing is computed here.
+The work is done by the extension _fairway, without the GIL; nothing is computed here.
 """
 
 from fairway._fairway import (

@@ -75,7 +75,7 @@ def test_a_mission_keeps_a_fence(placed, scenario, tmp_path):
         flights.save_mission(0, tmp_path / "m.plan", fence=fence)
     written = json.loads((tmp_path / "m.plan").read_text())
     assert written["geoFence"] == json.loads(fence.read_text())["geoFence"]
-    with pytest.raises(ValueError, match="no other mission has a fence"):
+    with pytest.raises(ValueError, match="other mission formats have no fence"):
         flights.save_mission(0, tmp_path / "m.waypoints", fence=fence)
 
 

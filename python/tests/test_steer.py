@@ -129,7 +129,7 @@ def test_way_points_are_driven_one_after_the_other(law):
         assert np.array_equal(before.end, after.track[0])
     if law == "shortest":
         assert all(leg.length_m < leg.shortest_m + 0.05 * RADIUS_M for leg in driven.legs)
-    with pytest.raises(ValueError, match="there are none"):
+    with pytest.raises(ValueError, match="expected at least one"):
         fairway.follow_waypoints([0, 0, 0], [], RADIUS_M)
     with pytest.raises(ValueError, match="law"):
         fairway.follow_waypoints([0, 0, 0], way, RADIUS_M, law="quick")
