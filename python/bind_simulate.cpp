@@ -29,7 +29,7 @@ void fly_all(Flights& flights) {
   ManyFlights flown = fly_many(*flights.engine, flights.starts, options);
   flights.results = std::move(flown.results);
   flights.measures = std::move(flown.measures);
-  flights.followed = std::move(flown.followed);
+  flights.followed = flown.followed;
 }
 
 std::optional<FollowFor> follow_of(const HeldPlan& plan, std::optional<double> laps,

@@ -69,7 +69,8 @@ std::vector<std::string> mission_warnings(std::span<const Flight> flights) {
         }
         break;
       case Outcome::collide:
-        warnings.push_back("the flight collides" + after(r.time_s) + ", and the mission leads there too.");
+        warnings.push_back("the flight collides" + after(r.time_s) +
+                           ", and the mission leads there too.");
         break;
       case Outcome::leave:
         warnings.push_back("the flight leaves the map" + after(r.time_s) +

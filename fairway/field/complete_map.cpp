@@ -113,7 +113,7 @@ MissionRefusal with_advice(Reason reason, const GoalMission& goal, const std::st
   MissionRefusal out;
   out.reason = reason;
   out.lacks_m = lacks_m;
-  out.words = [goal_m = goal.goal_m, cause, advice = advice](const PlaceText& place) {
+  out.words = [goal_m = goal.goal_m, cause, advice](const PlaceText& place) {
     constexpr int centimetres = 2;
     return fmt::format(fmt::runtime(cause), place(goal_m, centimetres)) + "; " +
            words(advice, place);

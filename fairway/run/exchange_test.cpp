@@ -201,9 +201,9 @@ TEST_F(Exchange, AMissionOfAFlightThatDoesNotReachIsWarnedOf) {
   flight.result = {Outcome::reach, 10.0, 40.0};
   EXPECT_TRUE(mission_warnings(std::vector{flight}).empty());
   flight.result.outcome = Outcome::collide;
-  EXPECT_EQ(
-      mission_warnings(std::vector{flight}),
-      std::vector<std::string>{"the flight collides after 10.00 s, and the mission leads there too."});
+  EXPECT_EQ(mission_warnings(std::vector{flight}),
+            std::vector<std::string>{
+                "the flight collides after 10.00 s, and the mission leads there too."});
   flight.result.outcome = Outcome::leave;
   EXPECT_EQ(mission_warnings(std::vector{flight}).size(), 1U);
   constexpr double never = std::numeric_limits<double>::infinity();
