@@ -190,7 +190,7 @@ class Degrees(Maps):
     def test_a_goal_in_degrees_is_answered_in_degrees_that_fit(self):
         self.site(goal="[47.4065, 8.5600]")
         told = self.expect(65, "plan", "site.toml", "-o", "p").stderr
-        self.assertIn("about [47.4065, 8.56]", told)
+        self.assertIn("around [47.4065, 8.56]", told)
         found = re.search(r"nearest goal that fits is (\[[0-9., ]+\]); it serves 100 %", told)
         self.assertTrue(found, told)
         self.site(goal=found[1])

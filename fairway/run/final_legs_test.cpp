@@ -118,7 +118,7 @@ TEST(FinalLegs, AWalledGoalHasNoneAndTheSummarySaysSo) {
   EXPECT_EQ(json["count"], 1);
   EXPECT_EQ(json["none_clear"], 1);
   EXPECT_EQ(json["first_none_clear"]["entry"], (nlohmann::json{20.0, 20.0, 0.0}));
-  EXPECT_NE(final_legs_words(tally).find("For 1 no approach"), std::string::npos);
+  EXPECT_NE(final_legs_words(tally).find("For 1, none of the approaches"), std::string::npos);
 }
 
 TEST(FinalLegs, AreForFlightsThatReachAndGoalsWithAHeading) {
