@@ -300,7 +300,7 @@ class Steer(unittest.TestCase):
                             ("0,0,0\n\nnan,1,1\n", ":3: x_m is 'nan'"),
                             ("0,0,0\n1e200,1,1\n", ":2: the poses are more than"),
                             ("x_m,y_m\n0,0\n", ":1: no column heading_rad"),
-                            (header, ": no waypoints"), ("0,0,0\n", ": one waypoint")):
+                            (header, ": no waypoints"), ("0,0,0\n", ": has one waypoint")):
             with tempfile.TemporaryDirectory() as folder:
                 path = Path(folder) / "w.csv"
                 path.write_text(text)
