@@ -31,7 +31,6 @@ export function showFacts(record: PageRecord): void {
     share ? term(`of ${of} ${what}`, share) : term("what ended the proof", el("small", {}, what)));
   const bound_s = record.summary.verify?.worst_time_s ?? 0;
   if (bound_s > 0) facts.push(term("longest bound on the time to reach, sampled", bound_s.toFixed(1), el("small", {}, " s")));
-  facts.push(term("cells", grouped(record.grid.nx * record.grid.ny)));
   byId("facts").replaceChildren(...facts);
 }
 

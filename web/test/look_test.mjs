@@ -31,7 +31,9 @@ for (const [width, height] of [[1366, 768], [1400, 900]]) {
     }
     const map = await box(page, "#map");
     assert.ok(map.height > 0.45 * height, `the map is ${map.height} high`);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), "nothing is beside the window");
     const table = await box(page, "#flight-table");
+    assert.ok(table.x + table.width <= width, "the table is not cut off");
     assert.ok(table.x >= map.x + map.width && table.y < map.y + map.height, "the flights table is next to the map");
   });
 }
