@@ -116,7 +116,11 @@ class Shell:
 
 def copy_of_the_sources(folder):
     """As after `make build` in a fresh clone."""
-    files = subprocess.run(["git", "-C", SOURCE, "ls-files", "-z"], capture_output=True, text=True)
+    files = subprocess.run(["git", "-c", "safe.directory=*", "-C", SOURCE, "ls-files", "-z"],
+                           capture_output=True, text=True)
+    if files.returncode != 0:  # not a clone, or no git
+        shutil.copytree(SOURCE, folder, dirs_exist_ok=True,
+                        ignore=shutil.ignore_patterns("build", "out", ".git", "node_modules"))
     for name in filter(None, files.stdout.split("\0")):
         if (SOURCE / name).is_file():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
