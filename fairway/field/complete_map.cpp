@@ -175,12 +175,11 @@ std::optional<MissionRefusal> place_path(CompleteMap& complete, const ObstacleMa
   if (shortage.clearance_m == 0.0) {
     return refusal(Reason::in_obstacle, "the path crosses an obstacle near " + pair_text(where));
   }
-  std::string next_try =
-      fmt::format("alpha below {:.4g} would fit", rounded_down(shortage.largest_alpha, 4));
-  if (options.metric == Metric::paper) {
-    next_try = shortage.largest_alpha > 0.0
-                   ? fmt::format("alpha up to {:.4f} would fit", shortage.largest_alpha)
-                   : "no alpha fits";
+  std::string next_try = "no alpha fits";
+  if (options.metric == Metric::paper && shortage.largest_alpha > 0.0) {
+    next_try = fmt::format("alpha up to {:.4f} would fit", shortage.largest_alpha);
+  } else if (shortage.largest_alpha > 0.0) {
+    next_try = fmt::format("alpha below {:.4g} would fit", rounded_down(shortage.largest_alpha, 4));
   }
   return refusal(Reason::in_buffer,
                  fmt::format("the path enters the buffer near {}: it comes within {} m "
