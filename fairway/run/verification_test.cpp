@@ -147,7 +147,8 @@ TEST(Resume, RefusesLeavesWhereThereCanBeNone) {
   for (std::size_t s = 0; s + 1 < earlier.sections.first.size(); ++s) {
     earlier.sections.first[s] = 0;
   }
-  EXPECT_THAT(refusal(plan, {}, earlier), testing::HasSubstr("has leaves where the plan allows none"));
+  EXPECT_THAT(refusal(plan, {}, earlier),
+              testing::HasSubstr("has leaves where the plan allows none"));
 }
 
 }  // namespace
