@@ -9,12 +9,14 @@
 
 #include <fmt/format.h>
 
+#include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
 #include "fairway/app/places.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/cellular/compute_cell_sets.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/report/draw_cell_sets.hpp"
+#include "fairway/run/product_picture.hpp"
 
 namespace fairway {
 namespace {
@@ -125,8 +127,7 @@ int cell_command(const CellArguments& a, const Session& session) {
         draw_cell_sets(sets_of(plan, cell, fine),
                        fmt::format("Cell ({}, {}), {}, d = {:g} m, r = {:g} m", cell.ix, cell.iy,
                                    command_text, plan.grid.cell_m, plan.vehicle.turn_radius_m));
-    const bool png = a.picture.extension() == ".png";
-    write_whole(a.picture, session.existing(), png ? picture.png : picture.svg);
+    write_picture(picture, a.picture, session.existing());
   }
   const std::vector<Line> lines = lines_of(sets, a);
   if (session.json) {
@@ -174,14 +175,7 @@ Action declare_cell(CLI::App& options) {
   options
       .add_option("-o,--output", a.picture,
                   "draw all sets of the cell, heading against place: .svg or .png")
-      ->check(CLI::Validator(
-          [](const std::string& file) {
-            const std::string ending = fs::path(file).extension().string();
-            return ending == ".svg" || ending == ".png"
-                       ? std::string()
-                       : file + ": expected a file name that ends in .svg or .png";
-          },
-          ""))
+      ->check(picture_argument())
       ->type_name("FILE");
   options.footer(
       "Paper 2's cellular sets under the cell's command, as CSV\n"

@@ -2,11 +2,12 @@
 #include <filesystem>
 #include <memory>
 
+#include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
 #include "fairway/app/map_arguments.hpp"
 #include "fairway/app/places.hpp"
-#include "fairway/base/atomic_file.hpp"
 #include "fairway/run/map_survey.hpp"
+#include "fairway/run/product_picture.hpp"
 
 namespace fairway {
 namespace {
@@ -27,8 +28,7 @@ int info_command(const InfoArguments& a, const Session& session) {
   for (const std::string& warning : survey.map.warnings) session.warn(warning);
   if (!a.picture.empty()) {
     const Picture picture = survey_picture(survey, a.map.file.filename().string());
-    write_whole(a.picture, session.existing(),
-                a.picture.extension() == ".png" ? picture.png : picture.svg);
+    write_picture(picture, a.picture, session.existing());
   }
   nlohmann::json report = survey_json(survey);
   report["map"] = a.map.file.string();
@@ -42,12 +42,9 @@ Action declare_info(CLI::App& options) {
   auto arguments = std::make_shared<InfoArguments>();
   InfoArguments& a = *arguments;
   declare_map(options, a.map);
-  options.add_option("-o,--output", a.picture, "draw the map, .svg or .png")->type_name("PICTURE");
-  options.final_callback([&a] {
-    if (!a.picture.empty() && a.picture.extension() != ".svg" && a.picture.extension() != ".png") {
-      throw CLI::ValidationError("--output", "expected a file name that ends in .svg or .png");
-    }
-  });
+  options.add_option("-o,--output", a.picture, "draw the map, .svg or .png")
+      ->check(picture_argument())
+      ->type_name("PICTURE");
   options.footer(
       "With --turn-radius, cells in the buffer of such a vehicle do not count as free.\n"
       "Example: fairway info demo/basin.yaml -o basin.png");

@@ -164,10 +164,8 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
 
   clock.begin("making the page", left.page_s);
   const std::vector<Finding> found = findings_of(plan, flown, verified);
-  RunResult result{false,
-                   plan_summary(scenario, map, plan),
-                   {},
-                   warnings_of(scenario, map, plan, flown, verified)};
+  RunResult result{
+      false, plan_summary(scenario, plan), {}, warnings_of(scenario, map, plan, flown, verified)};
   add_overrides(result.summary, scenario);
   result.summary["findings"] = findings_json(found);
   result.summary["warnings"] = result.warnings;
@@ -209,8 +207,7 @@ RunResult run_plan_only(const Scenario& scenario, const fs::path& file, Existing
   }
   clock.end();
 
-  RunResult result{
-      false, plan_summary(scenario, map, plan), {}, plan_warnings(scenario, map, plan)};
+  RunResult result{false, plan_summary(scenario, plan), {}, plan_warnings(scenario, map, plan)};
   add_overrides(result.summary, scenario);
   for (const fs::path& place : places) {
     result.summary["products"][place.filename().string()] = sha256_file(place);

@@ -10,7 +10,6 @@
 
 #include "fairway/base/share_text.hpp"
 #include "fairway/run/findings.hpp"
-#include "fairway/run/plan_warnings.hpp"
 #include "fairway/run/scenario_keys.hpp"
 #include "fairway/run/version.hpp"
 
@@ -93,7 +92,7 @@ std::string failure_words(const OutcomeCounts& counts) {
   return words;
 }
 
-json plan_summary(const Scenario& scenario, const ObstacleMap& map, const Plan& plan) {
+json plan_summary(const Scenario& scenario, const Plan& plan) {
   const RegionCells regions = count_regions(plan);
   json options = json::object();
   for (const char* table : {"map", "vehicle", "mission", "plan", "simulate"}) {
@@ -115,7 +114,6 @@ json plan_summary(const Scenario& scenario, const ObstacleMap& map, const Plan& 
       {"unreachable_share_of_free", share(regions.unreachable, regions.free)},
       {"inputs", json::parse(json_text(plan.record)).value("inputs", json::array())},
       {"options", options},
-      {"warnings", plan_warnings(scenario, map, plan)},
   };
   return summary;
 }

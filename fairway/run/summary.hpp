@@ -39,9 +39,8 @@ struct RegionCells {
 /// The word for what is to be reached: "goal" or "path".
 [[nodiscard]] const char* goal_word(const Plan& plan);
 
-/// Cells, regions, inputs, options, warnings: what plan and run have in common.
-[[nodiscard]] nlohmann::json plan_summary(const Scenario& scenario, const ObstacleMap& map,
-                                          const Plan& plan);
+/// Cells, regions, inputs, options: what plan and run have in common.
+[[nodiscard]] nlohmann::json plan_summary(const Scenario& scenario, const Plan& plan);
 /// "A plan of 127 x 102 cells of 8 m: 46.9 % free, ...".
 [[nodiscard]] std::string grid_words(const Plan& plan);
 /// The same, and how many free cells are cut off.
