@@ -136,7 +136,9 @@ class Docs(unittest.TestCase):
         """Types a page into a shell, in its own folder."""
         folder = pathlib.Path(tempfile.mkdtemp(prefix="fairway-docs-"))
         self.addCleanup(shutil.rmtree, folder)
-        environment = {**os.environ, "PATH": f"{PROGRAM.parent}:/usr/bin:/bin", "LC_ALL": "C.UTF-8",
+        # A shell of its own: without the job server and level of a `make` that runs the tests.
+        kept = {key: value for key, value in os.environ.items() if not key.startswith(("MAKE", "MFLAGS"))}
+        environment = {**kept, "PATH": f"{PROGRAM.parent}:/usr/bin:/bin", "LC_ALL": "C.UTF-8",
                        "CPLUS_INCLUDE_PATH": str(SOURCE)}
         if page == "README.md":
             copy_of_the_sources(folder)
