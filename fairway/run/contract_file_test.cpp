@@ -206,5 +206,19 @@ TEST(ContractFiles, GiveBackWhatWasWritten) {
             "1.5707963267948966\nside_uncertain_rad = 0.0\nwind_mps = 0.0\n");
 }
 
+TEST(ContractFiles, AreToldInASentence) {
+  VehicleContract c = contract_with();
+  EXPECT_EQ(contract_words(c),
+            "keeps a contract: the command of a place within 6 m, give or take 0.035 rad; turns of "
+            "18 to 22 m; 10 m/s");
+  c.look_ahead_m = 3.0;
+  c.wind_mps = 2.5;
+  c.speed_mps = {9.0, 11.0};
+  EXPECT_EQ(contract_words(c),
+            "keeps a contract: the command of a place within 6 m of the point 3 m ahead, give or "
+            "take 0.035 rad; turns of 18 to 22 m; 9 to 11 m/s through air that moves at up to 2.5 "
+            "m/s");
+}
+
 }  // namespace
 }  // namespace fairway
