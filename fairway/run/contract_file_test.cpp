@@ -142,6 +142,9 @@ TEST(ContractsInScenarios, AreSetFromTheCommandLine) {
   EXPECT_EQ(refusal([&] { return with(scenario_with, "vehicle.contract.wind_mps=11"); }),
             "--set: vehicle.contract.wind_mps: is 11 m/s, expected less than the least speed, 10 "
             "m/s: the wind carries a slower vehicle away");
+  EXPECT_EQ(refusal([&] { return with(scenario_with, "vehicle.contract={}"); }),
+            "--set: vehicle.contract: is a table, expected one of its keys, such as "
+            "vehicle.contract.command_error_m");
   // A radius set beside a contract takes part, too.
   EXPECT_EQ(with(scenario_without + "[vehicle.contract]\n", "vehicle.turn_radius_m=30")
                 .contract->turn_radius_m,
@@ -151,6 +154,12 @@ TEST(ContractsInScenarios, AreSetFromTheCommandLine) {
 TEST(ContractsInScenarios, StandInThePlansRecordAndTheSummaryIfThereAreAny) {
   const Scenario with = scenario_of_text(scenario_with, "s.toml");
   const Scenario without = scenario_of_text(scenario_without, "s.toml");
+  const ObstacleMap map;
+  const Mission mission = GoalMission{};
+  EXPECT_EQ(plan_record(with, map, mission).contract, contract_with());
+  EXPECT_FALSE(plan_record(without, map, mission).contract);
+  EXPECT_EQ(plan_record(with, map, mission).options_json,
+            plan_record(without, map, mission).options_json);
   EXPECT_EQ(effective_values(with, "vehicle")["contract"]["turn_radius_m"],
             (nlohmann::json{18.0, 22.0}));
   EXPECT_EQ(effective_values(without, "vehicle"),
