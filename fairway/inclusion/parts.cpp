@@ -8,6 +8,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
+#include "fairway/vehicle/nearest_command.hpp"
 
 namespace fairway {
 namespace {
@@ -34,45 +35,14 @@ double apart(double lo, double hi, double other_lo, double other_hi) {
 }  // namespace
 
 std::vector<float> filled_commands(const Grid& grid, const float* heading_rad) {
-  // First the nearest cell with a command in the same column, then along each row.
-  constexpr int none = -1;
-  std::vector<int> nearest_row(grid.size(), none);
-  for (int ix = 0; ix < grid.nx; ++ix) {
-    int below = none;
-    for (int iy = 0; iy < grid.ny; ++iy) {
-      if (!std::isnan(heading_rad[grid.index({ix, iy})])) below = iy;
-      nearest_row[grid.index({ix, iy})] = below;
-    }
-    int above = none;
-    for (int iy = grid.ny; iy-- > 0;) {
-      if (!std::isnan(heading_rad[grid.index({ix, iy})])) above = iy;
-      int& row = nearest_row[grid.index({ix, iy})];
-      if (above != none && (row == none || above - iy < iy - row)) row = above;
-    }
-  }
+  std::vector<int> row(grid.size());
+  find_nearest_rows(grid, heading_rad, row.data());
   std::vector<float> filled(heading_rad, heading_rad + grid.size());
-  for_ranges(static_cast<std::size_t>(grid.ny), 1, [&](std::size_t a, std::size_t b) {
-    for (int iy = static_cast<int>(a); iy < static_cast<int>(b); ++iy) {
-      for (int ix = 0; ix < grid.nx; ++ix) {
-        if (!std::isnan(filled[grid.index({ix, iy})])) continue;
-        std::int64_t best = std::numeric_limits<std::int64_t>::max();
-        std::size_t from = grid.size();
-        for (std::int64_t dx = 0; dx < grid.nx && dx * dx <= best; ++dx) {
-          for (const int x : {ix - static_cast<int>(dx), ix + static_cast<int>(dx)}) {
-            if (x < 0 || x >= grid.nx) continue;
-            const int row = nearest_row[grid.index({x, iy})];
-            if (row == none) continue;
-            const std::int64_t dy = row - iy;
-            const std::int64_t distance = dx * dx + dy * dy;
-            const std::size_t candidate = grid.index({x, row});
-            if (distance < best || (distance == best && candidate < from)) {
-              best = distance;
-              from = candidate;
-            }
-          }
-        }
-        if (from < grid.size()) filled[grid.index({ix, iy})] = heading_rad[from];
-      }
+  for_ranges(grid.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!std::isnan(filled[i])) continue;
+      const std::size_t nearest = cell_in_command(grid, row.data(), grid.cell_at(i));
+      if (nearest < grid.size()) filled[i] = heading_rad[nearest];
     }
   });
   return filled;
