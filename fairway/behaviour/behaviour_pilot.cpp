@@ -86,7 +86,8 @@ BehaviourRun BehaviourPilot::fly(const State& start, Adversary adversary, std::u
   const Flow& flow = choices_.flow();
   const double most_m = limit_m > 0.0 ? limit_m : default_limit_m();
   Random random(seed);
-  Mood mood{adversary};
+  Mood mood;
+  mood.adversary = adversary;
   mood.side = random.below(2) == 0 ? 1 : -1;
   BehaviourState state = BehaviourState::of(start);
   BehaviourRun run;

@@ -9,6 +9,9 @@
 namespace fairway {
 namespace {
 
+/// A step from near the edge of a bin may end in a bin that others reached: then so many more of
+/// its kind are tried, or flights at a shallow angle to an edge would never get away from it.
+constexpr int most_repeats = 3;
 constexpr double bin_rad = two_pi / FailureGuide::headings;
 
 /// A state from which failure is so many steps away.
@@ -35,34 +38,67 @@ class StepsBack {
         flow_(choices.flow()),
         contract_(choices.contract()),
         step_m_(choices.step_m()),
-        // Cells that are not reached by the error of position count for nothing but their own.
-        reach_m_(std::max(contract_.command_error_m, 0.02 * flow_.grid.cell_m)) {
-    for (const double radius_m : {contract_.turn_radius_m.least, contract_.turn_radius_m.most}) {
+        per_cell_m_(1.0 / flow_.grid.cell_m),
+        // A little, so that without an error of position neighbours' commands count at borders.
+        reach_cells_(std::max(contract_.command_error_m * per_cell_m_, 0.02)) {
+    const auto [least, most] = contract_.turn_radius_m;
+    for (const double radius_m : {least, most, 2.5 * least, 7.0 * least}) {
       for (const int side : {1, -1}) {
         const double angle = step_m_ / radius_m;
-        turns_[kinds_++] = {side, radius_m, angle, std::cos(angle), std::sin(angle)};
+        turns_[kinds_++] = {side,           radius_m, angle, std::cos(angle), std::sin(angle),
+                            radius_m > most};
       }
-      if (contract_.turn_radius_m.least == contract_.turn_radius_m.most) break;
     }
   }
 
-  template <typename Visit>
-  void visit(const Reached& to, const Visit& visit) {
-    gather(to);
-    if (commands_ == 0) return;
-    for (std::size_t k = 0; k < kinds_; ++k) {
-      const Turn& turn = turns_[k];
-      if (!is_allowed(turn)) continue;
-      Reached from;
+  /// From the heading to the commands that may be in force about the end of the step, [-pi, pi].
+  void gather(const Reached& to) {
+    commands_ = 0;
+    const Grid& g = flow_.grid;
+    const double ahead_m = contract_.look_ahead_m - 0.5 * step_m_;
+    const double x = (to.place.x + ahead_m * to.unit.x - g.x0_m) * per_cell_m_;
+    const double y = (to.place.y + ahead_m * to.unit.y - g.y0_m) * per_cell_m_;
+    const auto lowest = [&](double at, int count) {
+      return std::clamp(static_cast<int>(at - reach_cells_), 0, count - 1);
+    };
+    const auto highest = [&](double at, int count) {
+      return std::clamp(static_cast<int>(at + reach_cells_), 0, count - 1);
+    };
+    const int x0 = lowest(x, g.nx);
+    const int x1 = highest(x, g.nx);
+    const int y1 = highest(y, g.ny);
+    const double most = reach_cells_ * reach_cells_;
+    for (int iy = lowest(y, g.ny); iy <= y1; ++iy) {
+      const double dy = std::max({0.0, iy - y, y - iy - 1.0});
+      const float* row = choices_.commands().data() + g.index({0, iy});
+      for (int ix = x0; ix <= x1; ++ix) {
+        const double dx = std::max({0.0, ix - x, x - ix - 1.0});
+        if (dx * dx + dy * dy > most || commands_ == off_.size()) continue;
+        const double command = static_cast<double>(row[ix]);
+        if (!std::isnan(command)) off_[commands_++] = wrapped(command - to.heading_rad);
+      }
+    }
+  }
+
+  static constexpr std::size_t straight = 8;
+  static constexpr std::size_t kinds = 9;
+
+  /// Whether a step of that kind may lead to `to`, and from where.
+  bool step(std::size_t kind, const Reached& to, Reached& from) const {
+    if (kind == straight) {
+      if (!is_straight_allowed()) return false;
+      from = {to.place - step_m_ * to.unit, to.unit, to.heading_rad};
+    } else {
+      const Turn& turn = turns_[kind];
+      if (!is_allowed(turn)) return false;
       from.unit = {to.unit.x * turn.cosine + turn.side * to.unit.y * turn.sine,
                    to.unit.y * turn.cosine - turn.side * to.unit.x * turn.sine};
       from.heading_rad = wrapped(to.heading_rad - turn.side * turn.angle_rad);
       from.place = to.place - turn.side * turn.radius_m *
                                   Vec2{to.unit.y - from.unit.y, from.unit.x - to.unit.x};
-      give(from, to, visit);
     }
-    if (is_straight_allowed())
-      give({to.place - step_m_ * to.unit, to.unit, to.heading_rad}, to, visit);
+    return flow_.kind_at(flow_.grid.cell_of(from.place)) == CellKind::ordinary &&
+           choices_.met(from.place, to.place) != CellKind::target;
   }
 
  private:
@@ -72,39 +108,17 @@ class StepsBack {
     double angle_rad = 0.0;
     double cosine = 1.0;
     double sine = 0.0;
+    bool follows = false;  ///< no turn of the contract, but what following commands comes to
   };
-
-  /// From the heading to the commands that may be in force about the end of the step, [-pi, pi].
-  void gather(const Reached& to) {
-    commands_ = 0;
-    const Grid& g = flow_.grid;
-    const Vec2 at = to.place + contract_.look_ahead_m * to.unit - 0.5 * step_m_ * to.unit;
-    const auto range = [&](double p, double low, int count) {
-      return std::pair{
-          std::clamp(static_cast<int>(std::floor((p - low - reach_m_) / g.cell_m)), 0, count - 1),
-          std::clamp(static_cast<int>(std::floor((p - low + reach_m_) / g.cell_m)), 0, count - 1)};
-    };
-    const auto [x0, x1] = range(at.x, g.x0_m, g.nx);
-    const auto [y0, y1] = range(at.y, g.y0_m, g.ny);
-    for (int iy = y0; iy <= y1; ++iy) {
-      for (int ix = x0; ix <= x1; ++ix) {
-        const Vec2 corner = g.corner({ix, iy});
-        const Vec2 apart{std::max({0.0, corner.x - at.x, at.x - corner.x - g.cell_m}),
-                         std::max({0.0, corner.y - at.y, at.y - corner.y - g.cell_m})};
-        if (norm2(apart) > reach_m_ * reach_m_ || commands_ == off_.size()) continue;
-        const double command = static_cast<double>(choices_.commands()[g.index({ix, iy})]);
-        if (!std::isnan(command)) off_[commands_++] = wrapped(command - to.heading_rad);
-      }
-    }
-  }
 
   /// Some command lies ahead of the whole turn, by no more than the smaller angle.
   bool is_allowed(const Turn& turn) const {
     const double error = contract_.heading_error_rad;
-    const double most = pi + contract_.side_uncertain_rad + error - turn.angle_rad;
+    const double most =
+        turn.follows ? error : pi + contract_.side_uncertain_rad + error - turn.angle_rad;
     for (std::size_t i = 0; i < commands_; ++i) {
       const double left = turn.side * off_[i];  // after the turn
-      if (left >= -error && left <= most) return true;
+      if (left >= (turn.follows ? -error - turn.angle_rad : -error) && left <= most) return true;
     }
     return false;
   }
@@ -116,20 +130,13 @@ class StepsBack {
     return false;
   }
 
-  template <typename Visit>
-  void give(const Reached& from, const Reached& to, const Visit& visit) const {
-    const Cell cell = flow_.grid.cell_of(from.place);
-    if (flow_.kind_at(cell) != CellKind::ordinary) return;
-    if (choices_.met(from.place, to.place) == CellKind::target) return;
-    visit(from);
-  }
-
   const BehaviourChoices& choices_;
   const Flow& flow_;
   const VehicleContract& contract_;
   double step_m_;
-  double reach_m_;
-  std::array<Turn, 4> turns_;
+  double per_cell_m_;
+  double reach_cells_;
+  std::array<Turn, 8> turns_;
   std::size_t kinds_ = 0;
   std::array<double, 128> off_{};
   std::size_t commands_ = 0;
@@ -187,9 +194,10 @@ FailureGuide::FailureGuide(const BehaviourChoices& choices, const FailureGuideOp
   std::vector<Reached> next;
   const auto add = [&](const Reached& state, int steps) {
     const std::size_t bin = bin_of(state.place, state.heading_rad);
-    if (bin >= level_.size() || level_[bin] != never) return;
+    if (bin >= level_.size() || level_[bin] != never) return false;
     level_[bin] = code_of(steps);
     next.push_back(state);
+    return true;
   };
   visit_edges(choices.flow(), per_cell, [&](const Reached& state) { add(state, 0); });
   StepsBack back(choices);
@@ -197,7 +205,16 @@ FailureGuide::FailureGuide(const BehaviourChoices& choices, const FailureGuideOp
     reached.swap(next);
     next.clear();
     for (const Reached& to : reached) {
-      back.visit(to, [&](const Reached& from) { add(from, steps); });
+      bool moved = true;
+      for (std::size_t kind = 0; kind < StepsBack::kinds; ++kind) {
+        Reached at = to;
+        Reached from;
+        for (int again = 0; again < most_repeats; ++again, at = from) {
+          if (again > 0 || moved) back.gather(at);
+          moved = again > 0;
+          if (!back.step(kind, at, from) || add(from, steps + again)) break;
+        }
+      }
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fairway/base/random.hpp"
+#include "fairway/behaviour/behaviour_pilot.hpp"
 #include "fairway/behaviour/proved_ends.hpp"
 
 namespace fairway {
@@ -25,7 +26,12 @@ class SeenBins {
  public:
   explicit SeenBins(double per_m) : per_m_(per_m), slots_(std::size_t{1} << 16) {}
 
-  void clear() { ++round_; }
+  void clear() {
+    if (++round_ == 0) {  // marks of old rounds would count again
+      std::fill(slots_.begin(), slots_.end(), 0);
+      round_ = 1;
+    }
+  }
 
   /// False when it was seen already.
   bool add(const BehaviourState& s) {
@@ -41,7 +47,7 @@ class SeenBins {
     key *= 0xbf58476d1ce4e5b9ULL;
     key ^= key >> 32;
     std::uint64_t& slot = slots_[key % slots_.size()];
-    const std::uint64_t mark = key & ~0xffffULL | round_;
+    const std::uint64_t mark = (key & ~0xffffULL) | round_;
     if (slot == mark) return false;
     slot = mark;
     return true;
@@ -62,6 +68,11 @@ struct WitnessSearch::Work {
   std::vector<Node> nodes;
   std::array<std::vector<int>, 256> waiting;  ///< by level, the latest first
   BehaviourChoiceList list;
+  BehaviourPilot pilot;
+
+  bool accepts(const BehaviourFlight& flight) const {
+    return is_witness(choices.flow(), choices.commands(), choices.contract(), flight);
+  }
 
   void clear() {
     nodes.clear();
@@ -101,41 +112,66 @@ struct WitnessSearch::Work {
         continue;
       }
       BehaviourFlight flight = flight_to(start, node, choice.step);
-      if (is_witness(choices.flow(), choices.commands(), choices.contract(), flight)) return flight;
+      if (accepts(flight)) return flight;
+    }
+    return {};
+  }
+
+  std::optional<BehaviourFlight> best_first(const State& start, const WitnessEffort& effort,
+                                            Random& random) {
+    clear();
+    add(BehaviourState::of(start), {}, no_parent);
+    int beyond = 0;
+    for (int tried = 0; tried < effort.most_states; ++tried) {
+      std::size_t level = 0;
+      while (level < waiting.size() && waiting[level].empty()) ++level;
+      if (level == waiting.size()) break;
+      if (level == FailureGuide::never && ++beyond > effort.most_beyond) break;
+      const int node = waiting[level].back();
+      waiting[level].pop_back();
+      if (auto flight = expand(start, node, random)) return flight;
+    }
+    return {};
+  }
+
+  std::optional<BehaviourFlight> by_adversaries(const State& start, int flights, Random& random) {
+    static constexpr std::array turns{Adversary::greedy, Adversary::circling, Adversary::random,
+                                      Adversary::greedy, Adversary::guided};
+    for (int k = 0; k < flights; ++k) {
+      BehaviourFlight flight{start, {}};
+      const Adversary adversary = turns[static_cast<std::size_t>(k) % turns.size()];
+      const auto run = pilot.fly(start, adversary, random.bits(), 0.0, &flight.steps);
+      const bool failed = run.outcome == Outcome::collide || run.outcome == Outcome::leave;
+      if (failed && accepts(flight)) return flight;
     }
     return {};
   }
 };
 
 WitnessSearch::WitnessSearch(const BehaviourChoices& choices, const FailureGuide& guide)
-    : work_(new Work{choices, guide, SeenBins(2.0 * guide.bins_per_m()), {}, {}, {}}) {}
+    : work_(new Work{choices,
+                     guide,
+                     SeenBins(2.0 * guide.bins_per_m()),
+                     {},
+                     {},
+                     {},
+                     BehaviourPilot(choices, &guide)}) {}
 WitnessSearch::~WitnessSearch() = default;
 
 std::optional<BehaviourFlight> WitnessSearch::find(const State& start, const WitnessEffort& effort,
                                                    std::uint64_t seed) {
   Work& work = *work_;
-  BehaviourFlight still{start, {}};
-  if (is_witness(work.choices.flow(), work.choices.commands(), work.choices.contract(), still)) {
-    return still;
-  }
-  if (work.choices.flow().kind_at(work.choices.flow().grid.cell_of(start.position_m)) !=
-      CellKind::ordinary) {
-    return {};
-  }
-  work.clear();
+  const BehaviourFlight still{start, {}};
+  if (work.accepts(still)) return still;
+  const Flow& flow = work.choices.flow();
+  if (flow.kind_at(flow.grid.cell_of(start.position_m)) != CellKind::ordinary) return {};
   Random random(seed);
-  work.add(BehaviourState::of(start), {}, no_parent);
-  int beyond = 0;
-  std::size_t level = 0;
-  for (int tried = 0; tried < effort.most_states; ++tried) {
-    for (level = 0; level < work.waiting.size() && work.waiting[level].empty();) ++level;
-    if (level == work.waiting.size()) break;
-    if (level == FailureGuide::never && ++beyond > effort.most_beyond) break;
-    const int node = work.waiting[level].back();
-    work.waiting[level].pop_back();
-    if (auto flight = work.expand(start, node, random)) return flight;
+  for (int k = 0; k < effort.searches; ++k) {
+    if (auto flight = work.best_first(start, effort, random)) return flight;
   }
-  return {};
+  const bool may_fail =
+      work.guide.level(start.position_m, start.heading.rad()) != FailureGuide::never;
+  return work.by_adversaries(start, may_fail ? effort.flights : effort.flights / 8, random);
 }
 
 }  // namespace fairway

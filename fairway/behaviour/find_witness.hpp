@@ -12,11 +12,15 @@
 namespace fairway {
 
 struct WitnessEffort {
-  int most_states = 3000;  ///< from which steps are tried, of those that the guide says may fail
-  int most_beyond = 60;    ///< the same of those from which it found no way
+  int most_states = 1500;  ///< from which steps are tried in one search, where the guide says that
+                           ///< failure is possible
+  int most_beyond = 60;    ///< the same where it says nothing
+  int searches = 2;        ///< with other orders of the steps
+  int flights = 16;        ///< of adversaries, after them; an eighth where the guide says nothing
 };
 
-/// Best first, by the levels of the guide. Holds memory that it uses again: one for each thread.
+/// Best first, by the levels of the guide; then flights of adversaries. Holds memory that it uses
+/// again: one for each thread.
 class WitnessSearch {
  public:
   /// Both must outlive this.
