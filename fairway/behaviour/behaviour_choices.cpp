@@ -100,13 +100,16 @@ class ChoicesAt {
   }
 
   void gather(const CellRange& cells, Vec2 at) {
-    const bool outside =
-        cells.x0 < 0 || cells.y0 < 0 || cells.x1 >= grid_.nx || cells.y1 >= grid_.ny;
-    if (own_ && outside) return;
+    const bool inside =
+        cells.x0 >= 0 && cells.y0 >= 0 && cells.x1 < grid_.nx && cells.y1 < grid_.ny;
+    if (own_ && !inside && contract_.look_ahead_m > 0.0) return;
     for (int iy = std::max(cells.y0, 0); iy <= std::min(cells.y1, grid_.ny - 1); ++iy) {
       for (int ix = std::max(cells.x0, 0); ix <= std::min(cells.x1, grid_.nx - 1); ++ix) {
         const std::size_t cell = grid_.index({ix, iy});
         const Vec2 corner = grid_.corner({ix, iy});
+        // Where the flight has ended nothing needs to be justified.
+        const bool ended = all_.flow_.kind[cell] != CellKind::ordinary;
+        if (own_ && ended && contract_.look_ahead_m == 0.0) continue;
         if (!own_ && distance_from(at, corner) > reach_m_) continue;
         const double command = static_cast<double>(all_.commands_[cell]);
         if (std::isnan(command)) return;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace fairway {
 namespace {
@@ -122,17 +123,22 @@ class StepCheck {
       return side_under(step, turned, step.cell, held_);
     }
     const auto [x0, x1, y0, y1] = cells_within(a, b, by_m);
-    if (x0 < 0 || y0 < 0 || x1 >= grid_.nx || y1 >= grid_.ny) return Side3::refused;
+    const bool all_inside = x0 >= 0 && y0 >= 0 && x1 < grid_.nx && y1 < grid_.ny;
+    if (!all_inside && ahead_m > 0.0) return Side3::refused;
     // Another cell's command may have made the vehicle forget the side before it enters this one.
     const bool one = x0 == x1 && y0 == y1;
     const Side3 held = one || held_ == static_cast<Side3>(-step.turn) ? held_ : Side3::none;
-    const Side3 first = side_under(step, turned, grid_.index({x0, y0}), held);
-    for (int iy = y0; iy <= y1; ++iy) {
-      for (int ix = x0; ix <= x1; ++ix) {
-        if (side_under(step, turned, grid_.index({ix, iy}), held) != first) return Side3::refused;
+    std::optional<Side3> all;
+    for (int iy = std::max(y0, 0); iy <= std::min(y1, grid_.ny - 1); ++iy) {
+      for (int ix = std::max(x0, 0); ix <= std::min(x1, grid_.nx - 1); ++ix) {
+        // In an obstacle, in a goal cell and outside the flight has ended.
+        if (ahead_m == 0.0 && flow_.kind_at({ix, iy}) != CellKind::ordinary) continue;
+        const Side3 after = side_under(step, turned, grid_.index({ix, iy}), held);
+        if (all && after != *all) return Side3::refused;
+        all = after;
       }
     }
-    return first;
+    return all.value_or(Side3::none);
   }
 
   /// From `p` to a point surely inside the cell.

@@ -14,8 +14,8 @@
 //      an end. If both ends are within command_error of points inside cell c, less the bound of 1
 //      and slack, then some point inside c is within command_error during the whole step: the
 //      command of c, give or take heading_error, may be in force throughout. With `own_cell`, that
-//      point is the vehicle's own (or that ahead of it): then every cell that it may be in during
-//      the step has to justify the step.
+//      point is the vehicle's own (or that ahead of it): then every ordinary cell that it may be
+//      in during the step has to justify the step (in the others the flight has ended).
 //   3. Turning. Let u be the angle from the heading to the command, counted in the direction of the
 //      turn. It falls by the angle turned. If it does not fall below 0 the vehicle turns towards
 //      the command throughout. The side is the one that rule 3 of the contract demands if u is at
