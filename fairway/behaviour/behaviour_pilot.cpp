@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fairway/vehicle/filled_commands.hpp"
+#include "fairway/vehicle/nearest_command.hpp"
 
 namespace fairway {
 
@@ -20,9 +20,14 @@ struct BehaviourPilot::Mood {
 
 BehaviourPilot::BehaviourPilot(const BehaviourChoices& choices, const FailureGuide* guide)
     : choices_(choices), guide_(guide) {
+  // Obstacles as the cells that have something.
   const Flow& flow = choices.flow();
-  nearest_obstacle_ = nearest_cells(
-      flow.grid, [&](std::size_t cell) { return flow.kind[cell] == CellKind::obstacle; });
+  std::vector<float> marks(flow.grid.size(), std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    if (flow.kind[i] == CellKind::obstacle) marks[i] = 1.0F;
+  }
+  obstacle_row_.resize(marks.size());
+  find_nearest_rows(flow.grid, marks.data(), obstacle_row_.data());
 }
 
 double BehaviourPilot::default_limit_m() const {
@@ -45,7 +50,7 @@ void BehaviourPilot::renew(Mood& mood, const BehaviourState& state, Random& rand
   const double towards = state.heading_rad + random.uniform(-0.5 * pi, 0.5 * pi);
   const Cell at = g.cell_of(state.place + far_m * Vec2{std::cos(towards), std::sin(towards)});
   if (!g.contains(at)) return;
-  const std::size_t obstacle = nearest_obstacle_[g.index(at)];
+  const std::size_t obstacle = cell_in_command(g, obstacle_row_.data(), at);
   if (obstacle == g.size()) return;
   mood.aims = true;
   mood.aim = g.center(g.cell_at(obstacle));

@@ -53,7 +53,7 @@ class BehaviourPilot {
 
   const BehaviourChoices& choices_;
   const FailureGuide* guide_;
-  std::vector<std::size_t> nearest_obstacle_;  ///< of each cell; grid.size(): there is none
+  std::vector<int> obstacle_row_;  ///< where cell_in_command finds the nearest obstacle
 };
 
 }  // namespace fairway

@@ -9,6 +9,7 @@
 #include <tbb/global_control.h>
 
 #include "fairway/base/share_text.hpp"
+#include "fairway/run/contract_file.hpp"
 #include "fairway/run/findings.hpp"
 #include "fairway/run/scenario_keys.hpp"
 #include "fairway/run/version.hpp"
@@ -131,6 +132,9 @@ std::string plan_words(const Plan& plan) {
   std::string words = grid_words(plan);
   for (const Finding& finding : plan_findings(plan)) {
     words += fmt::format(" {} of {} {}.", finding.share, finding.of, finding.what);
+  }
+  if (plan.record.contract) {
+    words += fmt::format(" Its vehicle {}.", contract_words(*plan.record.contract));
   }
   return words;
 }
