@@ -19,6 +19,7 @@ NOUNS = {
     "simulate": {"flight.hpp", "flight_measures.hpp"},
     "verify": {"verdict.hpp", "flow.hpp", "region_of_interest.hpp", "region_of_interest_json.hpp", "section_view.hpp",
                "section_verdicts.hpp", "verdict_map.hpp"},
+    "behaviour": {"behaviour_flight.hpp"},
     "certificate": {"certificate.hpp"},
     "cellular": {"border_heading_set.hpp", "cell_sets.hpp"},
     "bitmap": {"border_bitmap.hpp", "bitmap.hpp", "sampled.hpp", "reachability_map.hpp"},

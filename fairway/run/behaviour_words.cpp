@@ -82,13 +82,19 @@ std::string behaviour_words(const FlownBehaviours& flown, const std::string& dra
   }
   const StartCounts counts = counts_of(flown);
   const std::size_t starts = flown.worst.size();
-  text += fmt::format(
-      "Of {}{}, {} fail under some behaviour within the contract ({} collide, {} "
-      "leave the map); {} of them are proved to be at risk by a flight.",
-      plural(starts, "start"), drawn, grouped(counts.fail), grouped(counts.collide),
-      grouped(counts.leave), grouped(counts.proved));
+  text += fmt::format("Of {}{}, ", plural(starts, "start"), drawn);
+  if (counts.fail == 0) {
+    text += fmt::format("none fails under {} each.", plural(flown.each, "behaviour"));
+  } else {
+    text += fmt::format(
+        "{} ({}) {} under some behaviour within the contract: {} collide, {} leave "
+        "the map. Proved, by a flight that keeps the contract throughout: {}.",
+        grouped(counts.fail), percent_text(counts.fail, starts),
+        counts.fail == 1 ? "fails" : "fail", grouped(counts.collide), grouped(counts.leave),
+        grouped(counts.proved));
+  }
   if (counts.endless > 0) {
-    text += fmt::format(" From {} some behaviour met no end.", grouped(counts.endless));
+    text += fmt::format(" From {}, none fails but some meet no end.", grouped(counts.endless));
   }
   const std::size_t rest = starts - counts.fail - counts.endless;
   if (rest > 0) {
