@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "verify", "inclusion", "certificate", "cellular",
+STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "verify", "behaviour", "inclusion", "certificate", "cellular",
           "bitmap", "steer", "exchange", "report", "run", "view", "app"]
 TOOLBOXES = {"base", "vehicle"}
 ON_TOOLBOXES_ALONE = {"cellular", "steer"}
@@ -19,6 +19,7 @@ NOUNS = {
     "simulate": {"flight.hpp", "flight_measures.hpp"},
     "verify": {"verdict.hpp", "flow.hpp", "region_of_interest.hpp", "region_of_interest_json.hpp", "section_view.hpp",
                "section_verdicts.hpp", "verdict_map.hpp"},
+    "behaviour": {"behaviour_flight.hpp"},
     "certificate": {"certificate.hpp"},
     "cellular": {"border_heading_set.hpp", "cell_sets.hpp"},
     "bitmap": {"border_bitmap.hpp", "bitmap.hpp", "sampled.hpp", "reachability_map.hpp"},
