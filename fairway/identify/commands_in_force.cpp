@@ -10,10 +10,8 @@ CommandsInForce::CommandsInForce(const FlownTrack& track, const VehicleContract&
       error_m_(contract.command_error_m),
       look_ahead_m_(contract.look_ahead_m) {}
 
-void CommandsInForce::add(std::size_t sample, double command_rad) {
-  const double course_rad = track_.course_rad[sample];
-  const Vec2 ahead = look_ahead_m_ * Vec2{std::cos(course_rad), std::sin(course_rad)};
-  given_.push_back({track_.place_m[sample] + ahead, command_rad, sample == 0});
+Vec2 CommandsInForce::ahead_of(Vec2 place_m, double course_rad) const {
+  return place_m + look_ahead_m_ * Vec2{std::cos(course_rad), std::sin(course_rad)};
 }
 
 void CommandsInForce::look_back_from(std::size_t sample, double aside_m) {
@@ -23,28 +21,24 @@ void CommandsInForce::look_back_from(std::size_t sample, double aside_m) {
   const auto is_too_far = [&](std::size_t s) {
     return track_.way_m[sample] - track_.way_m[s] > most_m;
   };
-  if (look_ahead_m_ == 0.0) {
-    // Of a command's places the last is the nearest: one for each run.
-    for (std::size_t run = track_.run_of[sample] + 1; run-- > 0;) {
-      const std::size_t s = std::min(sample, track_.runs[run].last);
-      if (is_too_far(s)) return;
-      add(s, track_.runs[run].command_rad);
-    }
-    if (!is_too_far(0)) given_.push_back({track_.place_m[0], 0.0, true});
-    return;
-  }
-  for (std::size_t s = sample + 1; s-- > 0;) {
+  // Of a command's places the last is the nearest: one for each run.
+  for (std::size_t run = track_.run_of[sample] + 1; run-- > 0;) {
+    const std::size_t s = std::min(sample, track_.runs[run].last);
     if (is_too_far(s)) return;
-    add(s, track_.runs[track_.run_of[s]].command_rad);
+    given_.push_back({ahead_of(track_.place_m[s], track_.course_rad[s]), track_.runs[run].command_rad});
+  }
+  if (!is_too_far(0)) {
+    given_.push_back({ahead_of(track_.place_m[0], track_.course_rad[0]), 0.0, true});
   }
 }
 
-void CommandsInForce::near(Vec2 place_m) {
+void CommandsInForce::near(Vec2 place_m, double course_rad) {
+  const Vec2 ahead = look_ahead_m_ == 0.0 ? place_m : ahead_of(place_m, course_rad);
   commands_rad_.clear();
   any_command_ = false;
   const double error2 = error_m_ * error_m_;
   for (const Given& given : given_) {
-    if (norm2(given.place_m - place_m) > error2) continue;
+    if (norm2(given.place_m - ahead) > error2) continue;
     any_command_ = any_command_ || given.is_first;
     if (std::find(commands_rad_.begin(), commands_rad_.end(), given.command_rad) ==
         commands_rad_.end()) {

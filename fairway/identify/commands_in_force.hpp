@@ -17,8 +17,8 @@ class CommandsInForce {
 
   /// The commands given up to this sample that may be in force within `aside_m` of the track.
   void look_back_from(std::size_t sample, double aside_m);
-  /// Of these, the ones in force at a place.
-  void near(Vec2 place_m);
+  /// Of these, the ones in force for a motion at a place on a course.
+  void near(Vec2 place_m, double course_rad);
 
   const std::vector<double>& commands_rad() const { return commands_rad_; }
   /// A command given before the log began may be in force, too.
@@ -30,7 +30,7 @@ class CommandsInForce {
     double command_rad = 0.0;
     bool is_first = false;  ///< of the log
   };
-  void add(std::size_t sample, double command_rad);
+  Vec2 ahead_of(Vec2 place_m, double course_rad) const;
 
   const FlownTrack& track_;
   double error_m_;

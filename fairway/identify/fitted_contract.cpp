@@ -1,8 +1,9 @@
 #include "fairway/identify/fitted_contract.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <initializer_list>
+#include <numeric>
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
@@ -20,6 +21,7 @@ constexpr std::array<Slack, 4> mixes{{{1.0, 1.0, 1.0, 1.0, 1.0},
                                       {1.0, 0.2, 1.0, 1.0, 1.0},
                                       {1.0, 1.0, 0.4, 0.4, 1.0}}};
 
+constexpr double negligible = 0.01;  // of the widest
 constexpr double widest_error_radii = 0.8;
 constexpr double widest_heading_rad = 0.2;
 constexpr double widest_radius = 1.5;  // of the flown one, and its inverse
@@ -29,6 +31,8 @@ class Fit {
  public:
   Fit(const std::vector<FlownTrack>& tracks, const FitOptions& options)
       : tracks_(tracks), options_(options) {
+    order_.resize(tracks.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
     speed_ = speeds_flown_mps(tracks.front());
     for (const FlownTrack& track : tracks) {
       const SizeRange flown = speeds_flown_mps(track);
@@ -40,10 +44,11 @@ class Fit {
     const double r = options_.turn_radius_m;
     VehicleContract c;
     c.command_error_m = widest_error_radii * r * slack[0];
-    c.look_ahead_m = options_.look_ahead_m;
     c.heading_error_rad = widest_heading_rad * slack[1];
     c.turn_radius_m = {r * std::pow(widest_radius, -slack[2]), r * std::pow(widest_radius, slack[3])};
-    c.side_uncertain_rad = std::min(widest_side_rad * slack[4], 0.49 * pi);
+    // The side is chosen when the command is given, and the turn before goes on for that long.
+    const double turned_rad = c.command_error_m / c.turn_radius_m.least;
+    c.side_uncertain_rad = std::min(std::max(widest_side_rad * slack[4], turned_rad), 0.49 * pi);
     c.speed_mps = {0.99 * speed_.least, 1.01 * speed_.most};
     return c;
   }
@@ -51,17 +56,13 @@ class Fit {
   /// Nothing when every log keeps it, else where one does not.
   std::optional<Decider> broken_by(const Slack& slack) const {
     const VehicleContract tried = contract(slack);
-    std::atomic<bool> failed{false};
-    std::vector<std::optional<std::size_t>> at(tracks_.size());
-    for_ranges(tracks_.size(), 1, [&](std::size_t a, std::size_t b) {
-      for (std::size_t k = a; k < b; ++k) {
-        const NearestMotion motion =
-            nearest_motion(tracks_[k], tried, {.limit_m = options_.tracking_m});
-        if (!motion.stays) at[k] = motion.reached;
-      }
-    });
-    for (std::size_t k = 0; k < tracks_.size(); ++k) {
-      if (at[k]) return Decider{k, *at[k]};
+    // The log that failed last is likely to fail again.
+    for (const std::size_t k : order_) {
+      const NearestMotion motion = nearest_motion(tracks_[k], tried, {.limit_m = options_.tracking_m});
+      if (motion.stays) continue;
+      std::rotate(order_.begin(), std::find(order_.begin(), order_.end(), k),
+                  std::find(order_.begin(), order_.end(), k) + 1);
+      return Decider{k, motion.reached};
     }
     return std::nullopt;
   }
@@ -86,8 +87,8 @@ class Fit {
   }
 
   /// One number after the other, by ever smaller steps; at last those that are not needed at all.
-  void tighten_each(Slack& slack, Deciders& deciders) const {
-    for (const double factor : {0.6, 0.8, 0.9, 0.95, 0.0}) {
+  void tighten_each(Slack& slack, std::initializer_list<double> factors, Deciders& deciders) const {
+    for (const double factor : factors) {
       std::array<bool, contract_parts> ended{};
       while (const auto part = next_part(slack, factor, ended)) {
         Slack tried = slack;
@@ -95,28 +96,11 @@ class Fit {
         const auto breaks = broken_by(tried);
         if (breaks) {
           ended[*part] = true;
-          deciders[*part] = breaks;
+          if (factor > 0.0 || !deciders[*part]) deciders[*part] = breaks;
         } else {
           slack = tried;
           deciders[*part] = std::nullopt;
         }
-      }
-    }
-  }
-
-  /// Widens one number and tightens the others, for as long as that lowers the cost.
-  void exchange(Slack& slack, Deciders& deciders) const {
-    for (bool lower = true; lower;) {
-      lower = false;
-      for (std::size_t part = 0; part < contract_parts; ++part) {
-        Slack tried = slack;
-        tried[part] = 1.3 * tried[part] + 0.02;
-        Deciders tried_deciders;
-        tighten_each(tried, tried_deciders);
-        if (cost(tried) > 0.99 * cost(slack)) continue;
-        slack = tried;
-        deciders = tried_deciders;
-        lower = true;
       }
     }
   }
@@ -137,7 +121,7 @@ class Fit {
     std::optional<std::size_t> best;
     double least_cost = 0.0;
     for (std::size_t part = 0; part < contract_parts; ++part) {
-      if (ended[part] || slack[part] == 0.0) continue;
+      if (ended[part] || slack[part] <= (factor == 0.0 ? 0.0 : negligible)) continue;
       Slack tried = slack;
       tried[part] *= factor;
       const double now = cost(tried);
@@ -152,6 +136,7 @@ class Fit {
   const std::vector<FlownTrack>& tracks_;
   const FitOptions& options_;
   SizeRange speed_;
+  mutable std::vector<std::size_t> order_;  ///< in which the logs are tried
 };
 
 }  // namespace
@@ -166,20 +151,28 @@ std::optional<FittedContract> fitted_contract(const std::vector<FlownTrack>& tra
                                               const FitOptions& options, Decider& broken) {
   require(!tracks.empty(), "at least one log");
   require(options.tracking_m > 0.0 && options.turn_radius_m > 0.0, "lengths are above 0");
+  // Each mix on its own: the result does not depend on which ends first.
+  std::array<std::optional<Slack>, mixes.size()> slacks;
+  std::array<Deciders, mixes.size()> mix_deciders;
+  std::array<Decider, mixes.size()> mix_broken;
+  for_ranges(mixes.size(), 1, [&](std::size_t a, std::size_t b) {
+    for (std::size_t m = a; m < b; ++m) {
+      const Fit fit(tracks, options);
+      slacks[m] = fit.tighten_together(mixes[m], mix_broken[m]);
+      if (slacks[m]) fit.tighten_each(*slacks[m], {0.6, 0.8}, mix_deciders[m]);
+    }
+  });
   const Fit fit(tracks, options);
   std::optional<Slack> best;
   Deciders deciders;
-  for (const Slack& mix : mixes) {
-    std::optional<Slack> slack = fit.tighten_together(mix, broken);
-    if (!slack) continue;
-    Deciders mix_deciders;
-    fit.tighten_each(*slack, mix_deciders);
-    if (best && fit.cost(*slack) >= fit.cost(*best)) continue;
-    best = slack;
-    deciders = mix_deciders;
+  for (std::size_t m = 0; m < mixes.size(); ++m) {
+    if (!slacks[m] || (best && fit.cost(*slacks[m]) >= fit.cost(*best))) continue;
+    best = slacks[m];
+    deciders = mix_deciders[m];
   }
+  broken = mix_broken[0];
   if (!best) return std::nullopt;
-  fit.exchange(*best, deciders);
+  fit.tighten_each(*best, {0.9, 0.95, 0.0}, deciders);
   FittedContract result;
   result.deciders = deciders;
   result.contract = fit.contract(*best);

@@ -41,8 +41,7 @@ struct FittedContract {
 };
 
 struct FitOptions {
-  double tracking_m = 0.0;    ///< above 0
-  double look_ahead_m = 0.0;
+  double tracking_m = 0.0;     ///< above 0
   double turn_radius_m = 0.0; ///< flown at full bank
 };
 

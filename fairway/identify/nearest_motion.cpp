@@ -86,7 +86,7 @@ class Beam {
     for (std::uint32_t k = 0; k < now_.size(); ++k) {
       const Reached& r = now_[k];
       const double way_m = step_m(r, i);
-      commands_.near(r.place_m);
+      commands_.near(r.place_m, r.course_rad);
       const TurnChoices choices = turn_choices(commands_, TurnStep(contract_, way_m), contract_,
                                                r.course_rad, r.side);
       for (const TurnChoice& choice : choices) follow(r, k, choice, way_m, i + 1);

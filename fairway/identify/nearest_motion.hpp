@@ -2,8 +2,8 @@
 //
 // A beam search over time. Its states are motions so far: place, course, and the side that is held.
 // At each sample the commands that may be in force are those that the log gave from then back to
-// where the vehicle was more than `command_error_m` from the motion (before the log began: any);
-// with a look-ahead, the place that a command is for lies that far ahead of where it was given.
+// where the vehicle was more than `command_error_m` from the motion (before the log began: any),
+// both seen `look_ahead_m` ahead. A command is never obeyed before it is given.
 // Since the command in force may change at any instant, the turn over a step may be anything
 // between the extremes of what the commands allow (the limit of ever faster changes). The speed is
 // that of the track, corrected within the contract's range. Motions alike in place and course are
