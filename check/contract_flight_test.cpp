@@ -271,8 +271,7 @@ void attack(std::uint64_t from, std::uint64_t to, bool leaves, Count& count) {
                         .fickle = dice.unit() < 0.5 ? 0.02 : 0.3};
         std::string why;
         Flight flight{.w = w, .parts = parts, .contract = contract, .image = image};
-        const Answer answer =
-            flight.fly(start, in, whim, dice.below(1U << 30), why);
+        const Answer answer = flight.fly(start, in, whim, dice.below(1U << 30), why);
         ASSERT_NE(answer, Answer::untold)
             << why << "; world " << seed << " set " << n << " flight " << f << " part " << p.x
             << "," << p.y << " side " << side << " [" << low << ", " << high << "] from ("
