@@ -16,8 +16,8 @@ inline double wrapped(double angle) { return std::remainder(angle, 2.0 * std::nu
 struct SmallWorld {
   int nx = 0;  // cells
   int ny = 0;
-  int k = 1;  // parts in a cell
-  std::vector<float> command;  // [iy][ix] of cells
+  int k = 1;                       // parts in a cell
+  std::vector<float> command;      // [iy][ix] of cells
   std::vector<std::uint8_t> kind;  // 0 ordinary, 1 obstacle, 2 goal
   double rho = 0.0;
   double eps = 0.0;
@@ -90,8 +90,8 @@ struct Flown {
 
 /// How it chooses among what the contract allows.
 struct Whim {
-  int wants = 0;  // to turn: 1 left, -1 right, 0 at random
-  int radius = 0;  // 1 least, 2 most, 0 at random
+  int wants = 0;        // to turn: 1 left, -1 right, 0 at random
+  int radius = 0;       // 1 least, 2 most, 0 at random
   double fickle = 0.1;  // how often it thinks again
 };
 
@@ -110,8 +110,9 @@ class Adversary {
     if (unit() < whim.fickle || !thought_) think(whim);
     const auto near = world_.commands_near(now.x, now.y, now.x, now.y, world_.rho - step);
     const double cell_command = choose(near, now, whim);
-    const double radius = bold_ ? world_.r1 : calm_ ? world_.r2
-                                                    : world_.r1 + (world_.r2 - world_.r1) * mood_;
+    const double radius = bold_   ? world_.r1
+                          : calm_ ? world_.r2
+                                  : world_.r1 + (world_.r2 - world_.r1) * mood_;
     const double off = wrapped(now.heading - cell_command);
     if (std::abs(off) <= world_.eps && world_.eps > 0.0) {  // anything that stays within
       now.side = 0;
@@ -142,8 +143,7 @@ class Adversary {
 
   static void move(Flown& now, double curve, double length) {
     const double turn = curve * length;
-    const double chord =
-        std::abs(turn) < 1e-9 ? length : 2.0 / curve * std::sin(0.5 * turn);
+    const double chord = std::abs(turn) < 1e-9 ? length : 2.0 / curve * std::sin(0.5 * turn);
     now.x += chord * std::cos(now.heading + 0.5 * turn);
     now.y += chord * std::sin(now.heading + 0.5 * turn);
     now.heading += turn;
