@@ -95,6 +95,10 @@ Parts::Parts(const Flow& flow, const VehicleContract& contract, int per_cell)
   const double side = per_cell;  // of a cell, in parts
   const double reach = contract.command_error_m / part_m_ + 4.0 * place_slack;
   const double band = contract.heading_error_rad + 4.0 * heading_slack_rad;
+  // Wider, and a command at one end may turn a heading at the other out of the arc: by the
+  // uncertain side, or by a side held for a command as far on the other side.
+  const double widest =
+      std::min(pi - side_uncertain_rad_, 2.0 * hold_side_rad_) - 8.0 * heading_slack_rad;
   const auto cells_within = [&](double lo, double hi, int count) {
     const double far = count;
     return std::pair{static_cast<int>(std::clamp(std::floor((lo - reach) / side), 0.0, far - 1.0)),
@@ -127,7 +131,7 @@ Parts::Parts(const Flow& flow, const VehicleContract& contract, int per_cell)
           continue;
         }
         arc_[at] = smallest_arc(headings).widened(band);
-        if (arc_[at].width_rad >= pi) kind_[at] = PartKind::wild;
+        if (arc_[at].width_rad >= widest) kind_[at] = PartKind::wild;
       }
     }
   });

@@ -8,8 +8,9 @@
 // Properties that always hold:
 //   1. The arc of an ordinary part holds every command that the contract allows to be in force at
 //      any position of the part, or within `place_slack` of it, with `heading_slack_rad` to spare.
-//   2. An arc is narrower than pi; a part whose arc would not be is `wild`, and nothing is claimed
-//      there.
+//   2. An arc is narrower than pi - side_uncertain_rad and than 2 hold_side_rad, so that a heading
+//   in
+//      it stays in it; a part whose arc would not be is `wild`, and nothing is claimed there.
 #pragma once
 
 #include <cstddef>
