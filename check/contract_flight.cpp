@@ -135,11 +135,24 @@ void Behaviours::follow_leaf(std::size_t part, int side, double low, double high
   double most = arc.right + arc.width;
   if (parts_.kind[part] != ordinary || is_loose(arc, contract_)) return lose();
   if (!point_outwards(side, least, most)) return;
-  // With all commands near, no side is held.
-  const bool may_hold = arc.width > contract_.hold_side - 2.0 * angle_slack;
-  const Memory memory{.nothing = true, .side = may_hold};
-  begin(Cell{0, 0}.beyond(side), places_on(side, low, high), least, most, memory, memory,
-        Past{}.with(least, most, 0.0, 0.0));
+  // A side is held only for a command that is far: at the other end of the arc.
+  const double near_right = arc.right + arc.width - contract_.hold_side + 2.0 * angle_slack;
+  const double near_left = arc.right + contract_.hold_side - 2.0 * angle_slack;
+  const Shape line = places_on(side, low, high);
+  const auto leave = [&](double from, double to, bool holds_left, bool holds_right) {
+    from = std::max(from, least);
+    to = std::min(to, most);
+    if (from > to) return;
+    begin(Cell{0, 0}.beyond(side), line, from, to, Memory{.nothing = true, .side = holds_left},
+          Memory{.nothing = true, .side = holds_right}, Past{}.with(from, to, 0.0, 0.0));
+  };
+  if (near_right < arc.right) {
+    leave(least, most, false, false);
+  } else {  // narrower than twice that far, so that these do not overlap, but for slack
+    leave(least, near_right, true, false);
+    leave(near_right, near_left, false, false);
+    leave(near_left, most, false, true);
+  }
   run(sightings);
 }
 
@@ -203,7 +216,7 @@ void Behaviours::begin(Cell part, const Shape& at, double least, double most, Me
     const std::array<Choices, 2> choices{
         choices_in(arc.right, arc.width, low, step, left, contract_),
         choices_in(-end, arc.width, -low - step, step, right, contract_)};
-    if (choices[0].aligns && !aligns) align(part, at, low + 0.5 * step, past);
+    if (choices[0].aligns && !aligns) align(part, at, low + 0.5 * step, true, past);
     aligns = aligns || choices[0].aligns;
     const bool alternates = choices[0].alternates || choices[1].alternates;
     if (alternates) roam(part, at, low, low + step, past);
@@ -267,7 +280,8 @@ void Behaviours::turn_back(const Turning& set, double end, Cell part, const Shap
 
 /// Aligned in a part, `heading` among the headings. The way in the cone of its arc is shorter than
 /// what it gains along the middle of the cone, divided by the cosine of half its width.
-void Behaviours::align(Cell part, const Shape& at, double heading, const Past& past) {
+void Behaviours::align(Cell part, const Shape& at, double heading, bool is_exact,
+                       const Past& past) {
   const Arc arc = arc_of(part);
   const double right = heading - around_from(heading - arc.right);
   const Point middle = unit(right + 0.5 * arc.width);
@@ -278,7 +292,7 @@ void Behaviours::align(Cell part, const Shape& at, double heading, const Past& p
   for (int side = 0; side < 4; ++side) {
     double low = 0.0;
     double high = 0.0;
-    if (find_way_out(inside, side, right, right + arc.width, low, high)) {
+    if (find_way_out(inside, side, right, right + arc.width, is_exact, low, high)) {
       sightings_->cross(parts_.index(global(part)), side, low, high, then);
     }
   }
@@ -296,7 +310,7 @@ void Behaviours::roam(Cell part, const Shape& at, double least, double most, con
   for (int side = 0; side < 4; ++side) {
     double low = 0.0;
     double high = 0.0;
-    if (!find_way_out(inside, side, low_rad, high_rad, low, high)) continue;
+    if (!find_way_out(inside, side, low_rad, high_rad, false, low, high)) continue;
     double from = low_rad;
     double to = high_rad;
     if (!point_outwards(side, from, to)) continue;
@@ -408,7 +422,7 @@ void Behaviours::meet_part(const Turning& set, double step, Cell part, const Sha
   }
   const Choices c = choices_in(set.turn > 0 ? arc.right : -(arc.right + arc.width), arc.width,
                                set.clock, step, set.memory, contract_);
-  if (c.aligns) align(part, there, least + 0.5 * step, past);
+  if (c.aligns) align(part, there, least + 0.5 * step, false, past);
   if (c.alternates) {
     met_.push_back({part, false});
     return roam(part, there, least, least + step, past);

@@ -80,7 +80,8 @@ class Behaviours {
                  const Past& past);
   void turn_back(const Turning& set, double end, Cell part, const Shape& there, Memory memory,
                  const Past& past);
-  void align(Cell part, const Shape& at, double heading, const Past& past);
+  /// `is_exact`: the places are given exactly.
+  void align(Cell part, const Shape& at, double heading, bool is_exact, const Past& past);
   void roam(Cell part, const Shape& at, double least, double most, const Past& past);
   void touch_ends(const Shape& at, const Past& past);
 
