@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
@@ -11,14 +10,12 @@
 #include <fstream>
 #include <iterator>
 #include <new>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "fairway/base/atomic_file.hpp"
 #include "fairway/base/random.hpp"
-#include "fairway/base/safetensors.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/certificate/contract_certificate_file.hpp"
 #include "fairway/inclusion/parts.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/verify/certify.hpp"
@@ -210,21 +207,20 @@ std::string with_header(const std::string& file, const std::string& was, const s
   return all + header + file.substr(8 + length);
 }
 
-/// A file with the arrays that a certificate under a contract shares with the others, and its own.
-std::string contract_file(const Geometry& geometry, const std::vector<float>& commands,
-                          const std::vector<CellKind>& kinds) {
-  constexpr std::array<std::uint32_t, 481> none{};
-  const std::vector<Tensor> tensors{
-      {"geometry", "F64", {geometry_numbers}, std::as_bytes(std::span(&geometry, 1))},
-      {"heading_rad", "F32", {10, 12}, std::as_bytes(std::span(commands))},
-      {"section_first", "U32", {481}, std::as_bytes(std::span(none))},
-      {"group_time_s", "F32", {1}, std::as_bytes(std::span(commands).first(1))},
-      {"leaf_group", "U32", {0}, {}},
-      {"cell_kind", "U8", {10, 12}, std::as_bytes(std::span(kinds))}};
+/// Of a certificate under a contract that decides nothing.
+std::string contract_file(const Plan& plan, const std::vector<CellKind>& kinds) {
+  ContractCertificate c;
+  c.grid = plan.grid;
+  c.vehicle = plan.vehicle;
+  c.contract = VehicleContract::of(plan.vehicle);
+  c.heading_rad = plan.heading_rad;
+  c.region = plan.region;
+  c.kind = kinds;
+  c.verdicts.first.assign(4 * plan.grid.size() + 1, 0);
+  c.verdicts.group_heading_rad = {std::numeric_limits<float>::quiet_NaN()};
+  c.verdicts.group_time_s = {std::numeric_limits<float>::infinity()};
   const auto path = std::filesystem::temp_directory_path() / "fairway_runtime_contract.safetensors";
-  AtomicFile file(path, Existing::replace);
-  write_safetensors(file, {{{"fairway", "{}"}}, tensors});
-  file.commit();
+  write_contract_certificate(c, path, Existing::replace);
   std::ifstream in(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), {}};
   std::filesystem::remove(path);
@@ -234,7 +230,6 @@ std::string contract_file(const Geometry& geometry, const std::vector<float>& co
 TEST_F(RuntimeTest, CommandsAreReadFromCertificatesOfBothKindsAndOfNoOtherFile) {
   const Plan plan = plan_towards_the_middle();
   const auto kinds = cell_kinds(plan.grid, plan.region, {});
-  const Geometry geometry = Geometry::of(plan.grid, plan.vehicle);
   const auto status = [](const std::string& text, Flow& flow) {
     static std::vector<std::uint64_t> words;  // outlives the flow
     words = aligned(text);
@@ -242,7 +237,7 @@ TEST_F(RuntimeTest, CommandsAreReadFromCertificatesOfBothKindsAndOfNoOtherFile) 
     const auto opened = arrays.open(words.data(), text.size());
     return opened == runtime::Status::ok ? arrays.take_flow(flow) : opened;
   };
-  const std::string whole = contract_file(geometry, plan.heading_rad, kinds);
+  const std::string whole = contract_file(plan, kinds);
   for (const std::string& text : {bytes(), whole}) {
     Flow flow;
     ASSERT_EQ(status(text, flow), runtime::Status::ok);
@@ -254,14 +249,15 @@ TEST_F(RuntimeTest, CommandsAreReadFromCertificatesOfBothKindsAndOfNoOtherFile) 
     }
   }
   Flow flow;
-  Geometry flat = geometry;
-  flat.cell_m = 0.0;
-  EXPECT_EQ(status(contract_file(flat, plan.heading_rad, kinds), flow), runtime::Status::misfit);
+  Plan flat = plan;
+  flat.grid.cell_m = 0.0;
+  EXPECT_EQ(status(contract_file(flat, kinds), flow), runtime::Status::misfit);
   auto odd = kinds;
   odd[7] = static_cast<CellKind>(3);
-  EXPECT_EQ(status(contract_file(geometry, plan.heading_rad, odd), flow), runtime::Status::misfit);
-  EXPECT_EQ(status(with_header(whole, "cell_kind", "cell_king"), flow), runtime::Status::misfit);
-  EXPECT_EQ(status(with_header(whole, "heading_rad", "heading_deg"), flow),
+  EXPECT_EQ(status(contract_file(plan, odd), flow), runtime::Status::misfit);
+  EXPECT_EQ(status(with_header(whole, R"("cell_kind":{)", R"("cell_king":{)"), flow),
+            runtime::Status::misfit);
+  EXPECT_EQ(status(with_header(whole, R"("heading_rad":{)", R"("heading_deg":{)"), flow),
             runtime::Status::not_certificate);
   EXPECT_EQ(status(whole.substr(0, whole.size() - 1), flow), runtime::Status::not_certificate);
   runtime::Certificate exact;
