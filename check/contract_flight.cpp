@@ -10,9 +10,9 @@ namespace {
 using std::numbers::pi;
 
 constexpr double most_step = 2.5 * pi / 180.0;
-constexpr double most_joining = 10.0 * pi / 180.0;  ///< headings of a set that begins
+constexpr double most_joining = 5.0 * pi / 180.0;  ///< headings of a set that begins
 constexpr double most_turned = 8.0 * pi;
-constexpr int most_work = 1 << 16;
+constexpr int most_work = 1 << 14;
 constexpr std::size_t most_waiting = 4096;
 constexpr std::size_t few_waiting = 64;
 constexpr double most_parts_met = 4096.0;
@@ -162,6 +162,9 @@ void Behaviours::run(Sightings& sightings) {
     waiting_.pop_back();
     while (!lost_ && !sightings.has_enough() && advance(set)) {
     }
+    if (returns_.size() + waiting_.size() > most_waiting) lose();
+    for (const Return& one : returns_) waiting_.push_back(one.set);
+    returns_.clear();
   }
   waiting_.clear();
 }
@@ -234,6 +237,34 @@ void Behaviours::turn_from(const Shape& at, int turn, double least, double most,
   }
 }
 
+/// Those that turn back in one part in adjacent steps make one set: the last step is its first.
+void Behaviours::turn_back(const Turning& set, double end, Cell part, const Shape& there,
+                           Memory memory, const Past& past) {
+  for (Return& one : returns_) {
+    Turning& back = one.set;
+    if (one.part.x != part.x || one.part.y != part.y || back.clock != -set.clock ||
+        back.memory.nothing != memory.nothing || back.memory.side != memory.side ||
+        back.joined + end > most_joining) {
+      continue;
+    }
+    back.clock = -end;
+    back.at = back.joining = hull(back.at, there);
+    back.past.least_rad = std::min(back.past.least_rad, past.least_rad);
+    back.past.most_rad = std::max(back.past.most_rad, past.most_rad);
+    back.past.length = std::max(back.past.length, past.length);
+    back.past.turned = std::max(back.past.turned, past.turned);
+    return;
+  }
+  returns_.push_back({part,
+                      {.at = there,
+                       .joining = there,
+                       .turn = -set.turn,
+                       .clock = -end,
+                       .joined = -set.clock,
+                       .memory = memory,
+                       .past = past}});
+}
+
 /// Aligned in a part, `heading` among the headings. The way in the cone of its arc is shorter than
 /// what it gains along the middle of the cone, divided by the cosine of half its width.
 void Behaviours::align(Cell part, const Shape& at, double heading, const Past& past) {
@@ -275,21 +306,25 @@ void Behaviours::roam(Cell part, const Shape& at, double least, double most, con
   }
 }
 
-/// The step to the next heading at which the choices change in any of the parts that are met.
-double Behaviours::step_before_changes(const Turning& set, const Shape& swept, double step) const {
+/// The step to the next heading at which an arc begins or ends in any part that might be met.
+double Behaviours::step_before_changes(const Turning& set, const Box& swept, double step) const {
   double least = step;
-  for_parts(swept, skin, [&](Cell part, const Shape&) {
-    if (kind_of(part) != ordinary) return;
-    const Arc arc = arc_of(part);
-    if (is_loose(arc, contract_)) return;
-    double points[turning_points];
-    find_turning_points(set.turn > 0 ? arc.right : -(arc.right + arc.width), arc.width, contract_,
-                        points);
-    for (const double point : points) {
-      const double until = around_from(point - set.clock);
-      if (until > angle_slack) least = std::min(least, until);
+  const int last_x = static_cast<int>(std::floor(swept.x1 + skin));
+  const int last_y = static_cast<int>(std::floor(swept.y1 + skin));
+  for (int y = static_cast<int>(std::floor(swept.y0 - skin)); y <= last_y; ++y) {
+    for (int x = static_cast<int>(std::floor(swept.x0 - skin)); x <= last_x; ++x) {
+      if (kind_of({x, y}) != ordinary) continue;
+      const Arc arc = arc_of({x, y});
+      if (is_loose(arc, contract_)) continue;
+      double points[turning_points];
+      find_turning_points(set.turn > 0 ? arc.right : -(arc.right + arc.width), arc.width, contract_,
+                          points);
+      for (const double point : points) {
+        const double until = around_from(point - set.clock);
+        if (until > angle_slack) least = std::min(least, until);
+      }
     }
-  });
+  }
   return least;
 }
 
@@ -309,7 +344,7 @@ bool Behaviours::advance(Turning& set) {
     lose();
     return false;
   }
-  const double sooner = step_before_changes(set, swept, step);
+  const double sooner = step_before_changes(set, all, step);
   if (sooner < step) {
     step = sooner;
     by = Displacements(set.turn, set.clock, step, least_radius_, most_radius_);
@@ -378,7 +413,7 @@ void Behaviours::meet_part(const Turning& set, double step, Cell part, const Sha
     met_.push_back({part, false});
     return roam(part, there, least, least + step, past);
   }
-  if (c.turns_back) turn_from(there, -set.turn, least, least + step, c.back, past);
+  if (c.turns_back) turn_back(set, end, part, there, c.back, past);
   met_.push_back({part, c.goes_on});
   if (!c.goes_on) return;
   memory.nothing = memory.nothing || c.on.nothing;
