@@ -144,7 +144,7 @@ void Behaviours::follow_leaf(std::size_t part, int side, double low, double high
     to = std::min(to, most);
     if (from > to) return;
     begin(Cell{0, 0}.beyond(side), line, from, to, Memory{.nothing = true, .side = holds_left},
-          Memory{.nothing = true, .side = holds_right}, Past{}.with(from, to, 0.0, 0.0));
+          Memory{.nothing = true, .side = holds_right}, true, Past{}.with(from, to, 0.0, 0.0));
   };
   if (near_right < arc.right) {
     leave(least, most, false, false);
@@ -163,7 +163,7 @@ void Behaviours::follow_state(std::size_t part, double x, double y, double headi
   work_ = 0;
   origin_ = parts_.part_at(part);
   const Memory memory{.nothing = true, .side = false};
-  begin({0, 0}, Shape{{x, y}}, heading_rad, heading_rad, memory, memory,
+  begin({0, 0}, Shape{{x, y}}, heading_rad, heading_rad, memory, memory, false,
         Past{}.with(heading_rad, heading_rad, 0.0, 0.0));
   run(sightings);
 }
@@ -184,7 +184,7 @@ void Behaviours::run(Sightings& sightings) {
 
 /// States in a part (or on its border, about to enter) with headings in [least, most].
 void Behaviours::begin(Cell part, const Shape& at, double least, double most, Memory left,
-                       Memory right, const Past& past) {
+                       Memory right, bool exact, const Past& past) {
   touch_ends(at, past);
   if (kind_of(part) != ordinary || lost_ || sightings_->has_enough()) return;
   if (++work_ > most_work) return lose();
@@ -216,7 +216,7 @@ void Behaviours::begin(Cell part, const Shape& at, double least, double most, Me
     const std::array<Choices, 2> choices{
         choices_in(arc.right, arc.width, low, step, left, contract_),
         choices_in(-end, arc.width, -low - step, step, right, contract_)};
-    if (choices[0].aligns && !aligns) align(part, at, low + 0.5 * step, true, past);
+    if (choices[0].aligns && !aligns) align(part, at, exact, low + 0.5 * step, past);
     aligns = aligns || choices[0].aligns;
     const bool alternates = choices[0].alternates || choices[1].alternates;
     if (alternates) roam(part, at, low, low + step, past);
@@ -280,8 +280,7 @@ void Behaviours::turn_back(const Turning& set, double end, Cell part, const Shap
 
 /// Aligned in a part, `heading` among the headings. The way in the cone of its arc is shorter than
 /// what it gains along the middle of the cone, divided by the cosine of half its width.
-void Behaviours::align(Cell part, const Shape& at, double heading, bool is_exact,
-                       const Past& past) {
+void Behaviours::align(Cell part, const Shape& at, bool exact, double heading, const Past& past) {
   const Arc arc = arc_of(part);
   const double right = heading - around_from(heading - arc.right);
   const Point middle = unit(right + 0.5 * arc.width);
@@ -292,7 +291,7 @@ void Behaviours::align(Cell part, const Shape& at, double heading, bool is_exact
   for (int side = 0; side < 4; ++side) {
     double low = 0.0;
     double high = 0.0;
-    if (find_way_out(inside, side, right, right + arc.width, is_exact, low, high)) {
+    if (find_way_out(inside, side, right, right + arc.width, exact, low, high)) {
       sightings_->cross(parts_.index(global(part)), side, low, high, then);
     }
   }
@@ -316,7 +315,7 @@ void Behaviours::roam(Cell part, const Shape& at, double least, double most, con
     if (!point_outwards(side, from, to)) continue;
     const Memory any{.nothing = true, .side = true};
     begin(part.beyond(side), moved(places_on(side, low, high), corner_of(part)), from, to, any, any,
-          then);
+          false, then);
   }
 }
 
@@ -422,7 +421,7 @@ void Behaviours::meet_part(const Turning& set, double step, Cell part, const Sha
   }
   const Choices c = choices_in(set.turn > 0 ? arc.right : -(arc.right + arc.width), arc.width,
                                set.clock, step, set.memory, contract_);
-  if (c.aligns) align(part, there, least + 0.5 * step, false, past);
+  if (c.aligns) align(part, there, false, least + 0.5 * step, past);
   if (c.alternates) {
     met_.push_back({part, false});
     return roam(part, there, least, least + step, past);

@@ -75,13 +75,12 @@ class Behaviours {
   struct Run;
 
   void begin(Cell part, const Shape& at, double least, double most, Memory left, Memory right,
-             const Past& past);
+             bool exact, const Past& past);
   void turn_from(const Shape& at, int turn, double least, double most, Memory memory,
                  const Past& past);
   void turn_back(const Turning& set, double end, Cell part, const Shape& there, Memory memory,
                  const Past& past);
-  /// `is_exact`: the places are given exactly.
-  void align(Cell part, const Shape& at, double heading, bool is_exact, const Past& past);
+  void align(Cell part, const Shape& at, bool exact, double heading, const Past& past);
   void roam(Cell part, const Shape& at, double least, double most, const Past& past);
   void touch_ends(const Shape& at, const Past& past);
 

@@ -38,11 +38,11 @@ class Outcome : public Sightings {
     const auto from = c_.begin.begin() + c_.first[section];
     const auto to = c_.begin.begin() + c_.first[section + 1];
     if (from == to) tell(undecided);
-    // The last that begins at `low` or before, up to the last that begins before `high`: leaves hold
-    // their ends, so that together they hold the range.
-    auto at = std::upper_bound(from, to, low * 0x1p32);
-    if (at != from) --at;
-    for (bool first = true; at != to && (first || *at < high * 0x1p32); ++at, first = false) {
+    // Leaves that it shares more than an end with; all that meet at a single place.
+    const bool single = low == high;
+    auto at = std::lower_bound(from, to, low * 0x1p32);
+    if (at != from && (single || at == to || *at > low * 0x1p32)) --at;
+    for (; at != to && (single ? *at <= high * 0x1p32 : *at < high * 0x1p32); ++at) {
       const auto leaf = static_cast<std::size_t>(at - c_.begin.begin());
       const std::uint32_t group = c_.group[leaf];
       tell(c_.verdict[leaf]);

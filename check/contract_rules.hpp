@@ -45,9 +45,7 @@ bool point_outwards(int side, double& least, double& most);
 /// Where those at `at`, in a part at [0, 1]^2 or just beside it, may leave over a side with
 /// headings in [least, most] on the way: a range from 0, at the right of one who looks outwards,
 /// to 1.
-/// `is_exact`: the corners are given exactly. Then places on the side itself are found exactly, so
-/// that those that cross it to and fro do not leak past the ends of leaves.
-bool find_way_out(const Shape& at, int side, double least, double most, bool is_exact, double& low,
+bool find_way_out(const Shape& at, int side, double least, double most, bool exact, double& low,
                   double& high);
 
 /// The places from `low` to `high` of a side of the part at [0, 1]^2.
