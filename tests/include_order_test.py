@@ -8,9 +8,9 @@ import re
 import sys
 
 STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "verify", "behaviour", "inclusion", "certificate", "cellular",
-          "bitmap", "steer", "exchange", "report", "run", "view", "app"]
+          "bitmap", "steer", "identify", "exchange", "report", "run", "view", "app"]
 TOOLBOXES = {"base", "vehicle"}
-ON_TOOLBOXES_ALONE = {"cellular", "steer"}
+ON_TOOLBOXES_ALONE = {"cellular", "steer", "identify"}
 JOINERS = {"run", "view", "app"}
 NOUNS = {
     "map": {"obstacle_map.hpp", "region.hpp", "gdal_session.hpp"},
@@ -19,7 +19,6 @@ NOUNS = {
     "simulate": {"flight.hpp", "flight_measures.hpp"},
     "verify": {"verdict.hpp", "flow.hpp", "region_of_interest.hpp", "region_of_interest_json.hpp", "section_view.hpp",
                "section_verdicts.hpp", "verdict_map.hpp"},
-    "behaviour": {"behaviour_flight.hpp"},
     "certificate": {"certificate.hpp"},
     "cellular": {"border_heading_set.hpp", "cell_sets.hpp"},
     "bitmap": {"border_bitmap.hpp", "bitmap.hpp", "sampled.hpp", "reachability_map.hpp"},

@@ -122,19 +122,21 @@ json plan_summary(const Scenario& scenario, const Plan& plan) {
 std::string grid_words(const Plan& plan) {
   const RegionCells regions = count_regions(plan);
   const std::size_t n = plan.grid.size();
-  return fmt::format("A plan of {} x {} cells of {:g} m: {} free, {} buffer, {} obstacle, {}.",
-                     plan.grid.nx, plan.grid.ny, plan.grid.cell_m, percent_text(regions.free, n),
-                     percent_text(regions.buffer, n), percent_text(regions.obstacle, n),
-                     plural(regions.goal, "goal cell"));
+  std::string words =
+      fmt::format("A plan of {} x {} cells of {:g} m: {} free, {} buffer, {} obstacle, {}.",
+                  plan.grid.nx, plan.grid.ny, plan.grid.cell_m, percent_text(regions.free, n),
+                  percent_text(regions.buffer, n), percent_text(regions.obstacle, n),
+                  plural(regions.goal, "goal cell"));
+  if (plan.record.contract) {
+    words += fmt::format(" Its vehicle {}.", contract_words(*plan.record.contract));
+  }
+  return words;
 }
 
 std::string plan_words(const Plan& plan) {
   std::string words = grid_words(plan);
   for (const Finding& finding : plan_findings(plan)) {
     words += fmt::format(" {} of {} {}.", finding.share, finding.of, finding.what);
-  }
-  if (plan.record.contract) {
-    words += fmt::format(" Its vehicle {}.", contract_words(*plan.record.contract));
   }
   return words;
 }
