@@ -128,7 +128,7 @@ void SetFlight::turn(const TurningSet& set) {
         continue;
       }
       const HeadingArc& arc = parts_.arc(p);
-      if (arc.widened(align_slack_rad).meets(these)) align(p, piece, past, 4.0 * place_slack);
+      if (arc.widened(align_slack_rad).meets(these)) align(p, piece, past, 16.0 * place_slack);
       const double x = behind(arc);
       if (x <= arc.width_rad) continue;
       if (x - off - arc.width_rad <= (forgot ? opposite : hold)) {  // a command on the other side
