@@ -7,10 +7,10 @@ import pathlib
 import re
 import sys
 
-STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "verify", "inclusion", "certificate", "cellular",
-          "bitmap", "steer", "exchange", "report", "run", "view", "app"]
+STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "verify", "behaviour", "inclusion", "certificate", "cellular",
+          "bitmap", "steer", "identify", "exchange", "report", "run", "view", "app"]
 TOOLBOXES = {"base", "vehicle"}
-ON_TOOLBOXES_ALONE = {"cellular", "steer"}
+ON_TOOLBOXES_ALONE = {"cellular", "steer", "identify"}
 JOINERS = {"run", "view", "app"}
 NOUNS = {
     "map": {"obstacle_map.hpp", "region.hpp", "gdal_session.hpp"},

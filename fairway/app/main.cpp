@@ -48,6 +48,8 @@ constexpr Command commands[] = {
      declare_export, true},
     {"steer", "steer to a pose by a shortest path or a control law, ignoring obstacles",
      declare_steer, true},
+    {"contract", "state what the vehicle keeps, from its numbers or its flight logs",
+     declare_contract, true},
     {"view", "serve the interactive page of a run on this machine", declare_view, false},
     {"info", "describe a map: its size, its free and connected parts, its largest clearance",
      declare_info, true},

@@ -82,7 +82,9 @@ double degrees_of(std::string_view text, const CsvColumn& column, const CsvPlace
 
 double value_of(std::string_view text, const CsvColumn& column, const CsvPlace& place) {
   const bool is_heading = column.quantity == CsvQuantity::heading;
-  if (!is_heading && column.quantity != CsvQuantity::metres) {
+  const bool is_plain =
+      column.quantity == CsvQuantity::metres || column.quantity == CsvQuantity::seconds;
+  if (!is_heading && !is_plain) {
     return degrees_of(text, column, place);
   }
   const bool degrees = is_heading && text.ends_with("deg");
@@ -90,7 +92,9 @@ double value_of(std::string_view text, const CsvColumn& column, const CsvPlace& 
   if (!value) {
     place.refuse(std::string(column.name) + " is " + quoted(text) +
                  (is_heading ? ": expected finite radians, or degrees with the suffix deg"
-                             : ": expected a finite number of metres"));
+                  : column.quantity == CsvQuantity::seconds
+                      ? ": expected a finite number of seconds"
+                      : ": expected a finite number of metres"));
   }
   if (!is_heading) return *value;
   if (!degrees && std::abs(*value) > most_heading_rad) {

@@ -21,7 +21,7 @@ inline constexpr double most_heading_rad = 7.0;
 
 /// Angles of a place on Earth and a course, degrees clockwise from north, are in degrees: latitudes
 /// from -90 to 90, longitudes from -180 to 180, courses from -360 to 360.
-enum class CsvQuantity : std::uint8_t { metres, heading, latitude, longitude, course };
+enum class CsvQuantity : std::uint8_t { metres, seconds, heading, latitude, longitude, course };
 
 struct CsvColumn {
   std::string_view name;

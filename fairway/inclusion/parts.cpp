@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <span>
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
@@ -26,57 +24,25 @@ HeadingArc smallest_arc(std::vector<double>& headings) {
   return {headings[after], whole_turn_rad - gap};
 }
 
+/// An arc that ends just beyond the direction of a side is made wider: flights that come over the
+/// side with the few headings beyond would not come out of the slack of its places.
+HeadingArc clear_of_axes(HeadingArc arc) {
+  constexpr double least_rad = 0x1p-9;
+  const auto beyond = [](double angle_rad) {
+    const double past = std::fmod(counted_from_zero(angle_rad), 0.5 * pi);
+    return past < least_rad ? least_rad - past : 0.0;
+  };
+  const double below = beyond(-arc.lo_rad);
+  const double above = beyond(arc.hi_rad());
+  return {arc.lo_rad - below, arc.width_rad + below + above};
+}
+
 /// How far two ranges of one coordinate lie apart.
 double apart(double lo, double hi, double other_lo, double other_hi) {
   return std::max({0.0, other_lo - hi, lo - other_hi});
 }
 
 }  // namespace
-
-std::vector<float> filled_commands(const Grid& grid, const float* heading_rad) {
-  // First the nearest cell with a command in the same column, then along each row.
-  constexpr int none = -1;
-  std::vector<int> nearest_row(grid.size(), none);
-  for (int ix = 0; ix < grid.nx; ++ix) {
-    int below = none;
-    for (int iy = 0; iy < grid.ny; ++iy) {
-      if (!std::isnan(heading_rad[grid.index({ix, iy})])) below = iy;
-      nearest_row[grid.index({ix, iy})] = below;
-    }
-    int above = none;
-    for (int iy = grid.ny; iy-- > 0;) {
-      if (!std::isnan(heading_rad[grid.index({ix, iy})])) above = iy;
-      int& row = nearest_row[grid.index({ix, iy})];
-      if (above != none && (row == none || above - iy < iy - row)) row = above;
-    }
-  }
-  std::vector<float> filled(heading_rad, heading_rad + grid.size());
-  for_ranges(static_cast<std::size_t>(grid.ny), 1, [&](std::size_t a, std::size_t b) {
-    for (int iy = static_cast<int>(a); iy < static_cast<int>(b); ++iy) {
-      for (int ix = 0; ix < grid.nx; ++ix) {
-        if (!std::isnan(filled[grid.index({ix, iy})])) continue;
-        std::int64_t best = std::numeric_limits<std::int64_t>::max();
-        std::size_t from = grid.size();
-        for (std::int64_t dx = 0; dx < grid.nx && dx * dx <= best; ++dx) {
-          for (const int x : {ix - static_cast<int>(dx), ix + static_cast<int>(dx)}) {
-            if (x < 0 || x >= grid.nx) continue;
-            const int row = nearest_row[grid.index({x, iy})];
-            if (row == none) continue;
-            const std::int64_t dy = row - iy;
-            const std::int64_t distance = dx * dx + dy * dy;
-            const std::size_t candidate = grid.index({x, row});
-            if (distance < best || (distance == best && candidate < from)) {
-              best = distance;
-              from = candidate;
-            }
-          }
-        }
-        if (from < grid.size()) filled[grid.index({ix, iy})] = heading_rad[from];
-      }
-    }
-  });
-  return filled;
-}
 
 Parts::Parts(const Flow& flow, const VehicleContract& contract, int per_cell)
     : nx_(flow.grid.nx * per_cell),
@@ -130,7 +96,7 @@ Parts::Parts(const Flow& flow, const VehicleContract& contract, int per_cell)
           kind_[at] = PartKind::wild;
           continue;
         }
-        arc_[at] = smallest_arc(headings).widened(band);
+        arc_[at] = clear_of_axes(smallest_arc(headings).widened(band));
         if (arc_[at].width_rad >= widest) kind_[at] = PartKind::wild;
       }
     }

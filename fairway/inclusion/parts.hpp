@@ -19,6 +19,7 @@
 
 #include "fairway/inclusion/heading_arc.hpp"
 #include "fairway/vehicle/contract.hpp"
+#include "fairway/vehicle/filled_commands.hpp"
 #include "fairway/verify/flow.hpp"
 
 namespace fairway {
@@ -73,10 +74,5 @@ class Parts {
   std::vector<PartKind> kind_;
   std::vector<HeadingArc> arc_;
 };
-
-/// The command of every cell, [iy][ix]: its own, else that of the nearest cell that has one, by
-/// distance between centres, of equally near ones the first in the array. NaN everywhere when no
-/// cell has a command.
-[[nodiscard]] std::vector<float> filled_commands(const Grid& grid, const float* heading_rad);
 
 }  // namespace fairway

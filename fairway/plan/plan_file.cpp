@@ -21,6 +21,7 @@
 #include "fairway/base/safetensors.hpp"
 #include "fairway/base/strict_json.hpp"
 #include "fairway/plan/plan_record_json.hpp"
+#include "fairway/vehicle/contract_defect.hpp"
 #include "fairway/vehicle/size_range.hpp"
 #include "fairway/vehicle/vehicle_json.hpp"
 
@@ -186,6 +187,11 @@ std::string plan_defect(const Plan& plan) {
   if (const std::string defect = geometry_defect(plan.grid, plan.vehicle); !defect.empty()) {
     return defect;
   }
+  if (plan.record.contract) {
+    if (const auto defect = contract_defect(*plan.record.contract, plan.vehicle)) {
+      return fmt::format("contract.{}: {}", defect->key, defect->what);
+    }
+  }
   const std::size_t n = plan.grid.size();
   if (plan.heading_rad.size() != n || plan.region.size() != n || plan.cost_m.size() != n) {
     return "an array does not have one entry per cell";
@@ -248,6 +254,9 @@ Plan plan_of_bytes(std::span<const std::byte> bytes, const std::string& where) {
   }
   for (const char* key : own_keys) record.erase(key);
   plan.record = plan_record_of(std::move(record), place);
+  if (plan.record.contract) {
+    require_contract(*plan.record.contract, plan.vehicle, place + ".contract");
+  }
   if (const auto goal = goal_pose_of(plan); goal && !is_on(plan.grid, goal->position_m)) {
     throw InputError(place + ".mission.goal_m", "expected [x, y] on the plan's grid");
   }

@@ -79,6 +79,31 @@ TEST(PlanFile, GivesBackWhatWasWrittenAndTheSameBytesAgain) {
   });
 }
 
+TEST(PlanFile, HoldsAContractThatSuitsItsVehicle) {
+  Plan plan = random_plan(7, 5, 11);
+  plan.record.contract = VehicleContract::of(plan.vehicle);
+  plan.record.contract->turn_radius_m = {4.5, 5.5};
+  plan.record.contract->heading_error_rad = 0.1;
+  const std::string bytes = bytes_of(plan);
+  const Plan back = read_bytes(bytes);
+  EXPECT_EQ(back.record.contract, plan.record.contract);
+  EXPECT_EQ(bytes_of(back), bytes);
+
+  std::string other = bytes;
+  const std::string range = "[4.5,5.5]";
+  other.replace(other.find(range), range.size(), "[5.1,5.5]");
+  try {
+    (void)read_bytes(other);
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "p: fairway.contract.turn_radius_m: is [5.1, 5.5] m and does not contain the plan's "
+              "5 m, expected a range that contains it, such as [5, 5.5]");
+  }
+  plan.record.contract->turn_radius_m = {5.1, 5.5};
+  EXPECT_THROW(bytes_of(plan), PreconditionViolation);
+}
+
 TEST(PlanFile, EdgesOfTheValueRangesPass) {
   Plan plan = random_plan(3, 2, 1);
   plan.heading_rad = {

@@ -4,6 +4,7 @@
 #include "fairway/base/frame_json.hpp"
 #include "fairway/base/strict_json.hpp"
 #include "fairway/plan/plan_record_json.hpp"
+#include "fairway/vehicle/contract_json.hpp"
 #include "fairway/vehicle/mission_json.hpp"
 
 namespace fairway {
@@ -31,7 +32,7 @@ std::vector<InputFile> inputs_of(const json& value, const std::string& where) {
 
 json json_of(const PlanRecord& record) {
   json value = object_of(record.more_json, "more_json is a JSON object");
-  for (const char* key : {"program", "mission", "options", "inputs", "frame"}) {
+  for (const char* key : {"program", "mission", "options", "inputs", "frame", "contract"}) {
     require(!value.contains(key), "more_json leaves out what the record holds");
   }
   if (record.program) value["program"] = *record.program;
@@ -46,6 +47,7 @@ json json_of(const PlanRecord& record) {
     }
   }
   if (record.frame) value["frame"] = json_of(*record.frame);
+  if (record.contract) value["contract"] = json_of(*record.contract);
   return value;
 }
 
@@ -73,6 +75,9 @@ PlanRecord plan_record_of(json value, const std::string& where) {
   });
   take("frame",
        [&](const json& found, const std::string& place) { record.frame = frame_of(found, place); });
+  take("contract", [&](const json& found, const std::string& place) {
+    record.contract = contract_of(found, place);
+  });
   if (!value.empty()) record.more_json = value.dump();
   return record;
 }

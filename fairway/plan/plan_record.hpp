@@ -1,7 +1,8 @@
 // How a plan was made: everything in its file except the arrays (docs/formats.md).
 //
-// A plan made by Fairway has every member. Other plans may lack any of them, and may have members
-// unknown to Fairway: these are kept, so that a file is written as it was read.
+// A plan made by Fairway has every member, and a contract if its scenario has one. Other plans may
+// lack any of them, and may have members unknown to Fairway: these are kept, so that a file is
+// written as it was read.
 #pragma once
 
 #include <optional>
@@ -10,6 +11,7 @@
 
 #include "fairway/base/frame.hpp"
 #include "fairway/map/obstacle_map.hpp"
+#include "fairway/vehicle/contract.hpp"
 #include "fairway/vehicle/mission.hpp"
 
 namespace fairway {
@@ -21,6 +23,7 @@ struct PlanRecord {
   std::optional<std::vector<InputFile>> inputs;
   std::string options_json;  ///< every effective option, one JSON object; empty: none
   std::string more_json;     ///< members of other programs, one JSON object; empty: none
+  std::optional<VehicleContract> contract = std::nullopt;  ///< none: the vehicle is exact
 };
 
 /// The record as one JSON object with sorted keys, as in the plan's file.

@@ -61,6 +61,17 @@ TEST(PlanRecord, AMemberThatIsAbsentStaysAbsent) {
   EXPECT_EQ(frame_in(read("{}")), Frame{});
 }
 
+TEST(PlanRecord, HoldsAContractOnlyIfThereIsOne) {
+  PlanRecord record = whole(GoalMission{{60.0, 50.0}, {}});
+  EXPECT_EQ(json_text(record).find("contract"), std::string::npos);
+  record.contract = VehicleContract::of({10.0, 20.0});
+  record.contract->command_error_m = 6.0;
+  const PlanRecord back = read(json_text(record));
+  EXPECT_EQ(back.contract, record.contract);
+  EXPECT_EQ(back.more_json, record.more_json);
+  EXPECT_EQ(json_text(back), json_text(record));
+}
+
 TEST(PlanRecord, NamesWhatIsDamaged) {
   const auto expect = [](const char* text, const char* where) {
     EXPECT_NE(complaint(text).find(where), std::string::npos) << complaint(text);
@@ -77,6 +88,9 @@ TEST(PlanRecord, NamesWhatIsDamaged) {
   expect(R"({"inputs":[{"path":"a"}]})", "sha256");
   expect(R"({"options":[]})", "p: fairway.options");
   expect(R"({"program":1})", "p: fairway.program");
+  expect(R"({"contract":1})", "p: fairway.contract: expected a JSON object");
+  expect(R"({"contract":{"wind_mps":1}})", "p: fairway.contract");
+  expect(R"({"contract":{"rho":1}})", "p: fairway.contract: has the unknown key \"rho\"");
 }
 
 }  // namespace

@@ -46,7 +46,8 @@ PlanRecord plan_record(const Scenario& scenario, const ObstacleMap& map, const M
                   {"plan", effective_values(scenario, "plan")}};
   options["map"].erase("file");  // it stands among the inputs
   if (!scenario.only_connected) options["map"].erase("only_connected");  // as records always were
-  return {program_version, mission, map.frame, inputs_of(scenario, map), text_of(options), {}};
+  return {program_version,  mission, map.frame,        inputs_of(scenario, map),
+          text_of(options), {},      scenario.contract};
 }
 
 PlanRecord plan_record(const ObstacleMap& map, const Mission& mission,

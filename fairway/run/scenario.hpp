@@ -20,6 +20,7 @@
 #include "fairway/run/bitmap_verification.hpp"
 #include "fairway/run/region_request.hpp"
 #include "fairway/run/verify_limits.hpp"
+#include "fairway/vehicle/contract.hpp"
 #include "fairway/vehicle/mission.hpp"
 #include "fairway/vehicle/vehicle.hpp"
 
@@ -65,6 +66,7 @@ struct Scenario {
   bool only_connected =
       false;  ///< map.only_connected: leave out free ground not joined to the mission
   Vehicle vehicle;
+  std::optional<VehicleContract> contract;  ///< [vehicle.contract], complete
   MissionRequest mission;
   FieldOptions plan;
   SimulateRequest simulate;

@@ -18,10 +18,10 @@ std::string suggestion(std::string_view wrong, const std::vector<std::string>& k
   const auto distance = [&](const std::string& name) {
     return edit_distance(wrong.substr(0, 64), name);
   };
-  const auto leaf = [](const std::string& name) { return name.substr(name.find('.') + 1); };
+  const auto leaf = [](const std::string& name) { return name.substr(name.rfind('.') + 1); };
   const std::string* best = nullptr;
   for (const std::string& name : known) {
-    if (leaf(name) == wrong.substr(wrong.find('.') + 1)) return "; did you mean " + name + "?";
+    if (leaf(name) == wrong.substr(wrong.rfind('.') + 1)) return "; did you mean " + name + "?";
     if (best == nullptr || distance(name) < distance(*best)) best = &name;
   }
   if (best != nullptr && distance(*best) <= 3) return "; did you mean " + *best + "?";
@@ -44,9 +44,15 @@ void refuse_unknown_key(const std::string& name, const std::string& place) {
   for (const ScenarioKey& key : scenario_keys()) {
     names.push_back(key.name);
     tables.insert(key.table());
+    if (key.table() == name) {
+      throw InputError(place, fmt::format("{}: is a table, expected one of its keys, such as {}",
+                                          name, key.name));
+    }
   }
   const bool is_table = name.find('.') == std::string::npos;
-  if (is_table) names.insert(names.begin(), tables.begin(), tables.end());
+  for (const std::string& table : tables) {
+    if (is_table || table.find('.') != std::string::npos) names.insert(names.begin(), table);
+  }
   throw InputError(place, fmt::format("{}: there is no such key{}", name, suggestion(name, names)));
 }
 

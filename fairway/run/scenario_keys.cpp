@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "fairway/run/contract_keys.hpp"
 #include "fairway/run/region_key.hpp"
 #include "fairway/run/scenario_values.hpp"
 
@@ -126,12 +127,17 @@ std::vector<ScenarioKey> map_keys() {
   };
 }
 
-std::vector<ScenarioKey> vehicle_and_mission_keys() {
+std::vector<ScenarioKey> vehicle_keys() {
   return {
       required(number("vehicle.speed_mps", positive, FAIRWAY_MEMBER(vehicle.speed_mps),
                       "constant speed, metres per second")),
       required(number("vehicle.turn_radius_m", positive, FAIRWAY_MEMBER(vehicle.turn_radius_m),
                       "smallest turning radius, metres; more than `map.cell_m`")),
+  };
+}
+
+std::vector<ScenarioKey> mission_keys() {
+  return {
       required(choice<MissionKind>(
           "mission.kind", {{"goal", MissionKind::goal}, {"path", MissionKind::path}},
           FAIRWAY_MEMBER(mission.kind), "reach a place, or follow a path")),
@@ -239,8 +245,8 @@ std::vector<ScenarioKey> simulate_and_verify_keys() {
 const std::vector<ScenarioKey>& scenario_keys() {
   static const std::vector<ScenarioKey> all = [] {
     std::vector<ScenarioKey> keys;
-    for (auto part :
-         {map_keys(), vehicle_and_mission_keys(), plan_keys(), simulate_and_verify_keys()}) {
+    for (auto part : {map_keys(), vehicle_keys(), contract_keys(), mission_keys(), plan_keys(),
+                      simulate_and_verify_keys()}) {
       for (ScenarioKey& one : part) keys.push_back(std::move(one));
     }
     return keys;
@@ -265,6 +271,9 @@ json effective_values(const Scenario& scenario, std::string_view table) {
   json values = json::object();
   for (const ScenarioKey& k : scenario_keys()) {
     if (k.table() == table) values[k.leaf()] = k.shown(scenario);
+  }
+  if (table == "vehicle" && scenario.contract) {
+    values["contract"] = effective_values(scenario, contract_table);
   }
   return values;
 }

@@ -23,8 +23,8 @@ struct ScenarioKey {
   std::function<void(const TomlValue&, Scenario&)> take;
   std::function<nlohmann::json(const Scenario&)> shown;  ///< null: not given
 
-  [[nodiscard]] std::string table() const { return name.substr(0, name.find('.')); }
-  [[nodiscard]] std::string leaf() const { return name.substr(name.find('.') + 1); }
+  [[nodiscard]] std::string table() const { return name.substr(0, name.rfind('.')); }
+  [[nodiscard]] std::string leaf() const { return name.substr(name.rfind('.') + 1); }
 };
 
 /// All keys, table by table, in the order of the documentation.
@@ -33,7 +33,8 @@ struct ScenarioKey {
 /// The documentation's table, Markdown.
 [[nodiscard]] std::string scenario_keys_markdown();
 
-/// Effective values of the keys of one table: {"alpha": 2.0, ...}.
+/// Effective values of the keys of one table: {"alpha": 2.0, ...}. Those of "vehicle" have a
+/// "contract" if the scenario has one.
 [[nodiscard]] nlohmann::json effective_values(const Scenario& scenario, std::string_view table);
 
 }  // namespace fairway

@@ -59,4 +59,24 @@ constexpr bool is_within(const VehicleContract& tight, const VehicleContract& wi
          tight.side_uncertain_rad <= wide.side_uncertain_rad && tight.wind_mps <= wide.wind_mps;
 }
 
+/// The same motions over ground, without look-ahead and wind: all that keeps `contract` keeps it,
+/// too, so what is proved of it holds for `contract`. wind_mps is less than the least speed.
+///
+/// A point ahead is within look_ahead_m of the vehicle. Of a circle of radius r flown through air
+/// that moves at W, the curvature over ground is v (s^2 + v^2 - W^2) / (2 r s^3) at speed s over
+/// ground: from 1 / (r (1 + w)^2) at s = v + W to 1 / (r (1 - w)^2) at s = v - W, with w = W / v.
+constexpr VehicleContract over_ground(const VehicleContract& contract) {
+  VehicleContract wider = contract;
+  wider.command_error_m += contract.look_ahead_m;
+  wider.look_ahead_m = 0.0;
+  if (contract.wind_mps == 0.0) return wider;
+  const double w = contract.wind_mps / contract.speed_mps.least;
+  wider.turn_radius_m.least *= (1.0 - w) * (1.0 - w);
+  wider.turn_radius_m.most *= (1.0 + w) * (1.0 + w);
+  wider.speed_mps.least -= contract.wind_mps;
+  wider.speed_mps.most += contract.wind_mps;
+  wider.wind_mps = 0.0;
+  return wider;
+}
+
 }  // namespace fairway

@@ -1,0 +1,36 @@
+// Whether a flight keeps a vehicle contract: whether some motion of the contract stays within the
+// tracking distance of the whole log. Motions are compared, not instants: a bank that rolls through
+// level turns nothing for a moment, and the vehicle is still near a motion that turns.
+//
+// "Kept" comes with a motion that shows it. "Not kept" means that the search found none
+// (nearest_motion.hpp).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fairway/identify/flown_track.hpp"
+#include "fairway/vehicle/contract.hpp"
+
+namespace fairway {
+
+struct KeptContract {
+  bool kept = false;
+  /// Some motion stays this near to the whole log, metres; infinite: beyond the farthest tried.
+  double needs_m = 0.0;
+  /// Where a tracking distance a little smaller than `needs_m` fails: the sample that decides.
+  std::size_t worst = 0;
+  /// The last sample with a motion within the tracking distance, when it is not kept.
+  std::size_t kept_until = 0;
+  /// A motion that stays within `needs_m`, one place a sample; where that is infinite, one within
+  /// the tracking distance for as long as there is one.
+  std::vector<Vec2> motion_m;
+};
+
+/// The farthest distance tried, in least turning radii of the contract.
+inline constexpr double farthest_tried_radii = 3.0;
+
+[[nodiscard]] KeptContract kept_contract(const FlownTrack& track, const VehicleContract& contract,
+                                         double tracking_m);
+
+}  // namespace fairway

@@ -1,0 +1,204 @@
+#include "fairway/identify/nearest_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "fairway/base/error.hpp"
+#include "fairway/identify/commands_in_force.hpp"
+#include "fairway/identify/turn_range.hpp"
+
+namespace fairway {
+namespace {
+
+/// A motion so far.
+struct Reached {
+  Vec2 place_m;
+  double course_rad = 0.0;
+  HeldSide side = HeldSide::none;
+  double farthest_m = 0.0;
+  std::uint32_t farthest = 0;  ///< sample
+  std::uint32_t parent = 0;
+  double score = 0.0;
+  std::int64_t alike = 0;  ///< equal: as good as one
+};
+
+struct Place {
+  Vec2 place_m;
+  std::uint32_t parent = 0;
+};
+
+class Beam {
+ public:
+  Beam(const FlownTrack& track, const VehicleContract& contract, const MotionSearch& search)
+      : track_(track), contract_(contract), search_(search), commands_(track, contract) {
+    begin();
+  }
+
+  NearestMotion run() {
+    for (std::size_t i = 0; i + 1 < track_.size(); ++i) {
+      step(i);
+      if (next_.empty()) return told(i, false);
+      now_.swap(next_);
+      remember();
+    }
+    return told(track_.size() - 1, true);
+  }
+
+ private:
+  void begin() {
+    constexpr std::array<double, 5> offsets{0.0, -0.5, 0.5, -1.0, 1.0};
+    const double aside_rad = 0.04;
+    const Vec2 left = left_of(unit(track_.course_rad[0]));
+    for (const double across : offsets) {
+      for (const double turned : offsets) {
+        Reached start;
+        start.place_m = track_.place_m[0] + (0.6 * search_.limit_m * across) * left;
+        start.course_rad = track_.course_rad[0] + aside_rad * turned;
+        start.farthest_m = 0.6 * search_.limit_m * std::abs(across);
+        now_.push_back(start);
+      }
+    }
+    remember();
+  }
+
+  static Vec2 unit(double course_rad) { return {std::cos(course_rad), std::sin(course_rad)}; }
+
+  void remember() {
+    if (!search_.wants_places) return;
+    std::vector<Place>& places = history_.emplace_back();
+    for (const Reached& r : now_) places.push_back({r.place_m, r.parent});
+  }
+
+  /// The track's speed, corrected for being ahead or behind, within the contract.
+  double step_m(const Reached& r, std::size_t i) const {
+    const double behind_m = dot(track_.place_m[i] - r.place_m, unit(track_.course_rad[i]));
+    const double wanted =
+        track_.speed_mps[i] * (1.0 + behind_m / contract_.turn_radius_m.least);
+    const SizeRange speed = contract_.speed_mps;
+    return std::clamp(wanted, speed.least, speed.most) * (track_.time_s[i + 1] - track_.time_s[i]);
+  }
+
+  void step(std::size_t i) {
+    next_.clear();
+    commands_.look_back_from(i, search_.limit_m);
+    for (std::uint32_t k = 0; k < now_.size(); ++k) {
+      const Reached& r = now_[k];
+      const double way_m = step_m(r, i);
+      commands_.near(r.place_m, r.course_rad);
+      const TurnChoices choices = turn_choices(commands_, TurnStep(contract_, way_m), contract_,
+                                               r.course_rad, r.side);
+      for (const TurnChoice& choice : choices) follow(r, k, choice, way_m, i + 1);
+    }
+    keep_best();
+  }
+
+  /// Extremes, straight on, and two turns that lead back to the track.
+  void follow(const Reached& from, std::uint32_t parent, const TurnChoice& choice, double way_m,
+              std::size_t to) {
+    if (choice.turn.is_empty()) return;
+    const double course_rad = track_.course_rad[to];
+    const double aside_m = cross(unit(course_rad), track_.place_m[to] - from.place_m);
+    const double radius_m = contract_.turn_radius_m.least;
+    const auto back = [&](double over_m) {
+      return std::remainder(course_rad + std::atan2(aside_m, over_m) - from.course_rad, two_pi);
+    };
+    const std::array<double, 5> turns{
+        choice.turn.least, choice.turn.most, choice.turn.nearest_to(0.0),
+        choice.turn.nearest_to(back(0.5 * radius_m)), choice.turn.nearest_to(back(1.5 * radius_m))};
+    for (std::size_t t = 0; t < turns.size(); ++t) {
+      if (std::find(turns.begin(), turns.begin() + t, turns[t]) != turns.begin() + t) continue;
+      add(from, parent, turns[t], choice.side, way_m, to);
+    }
+  }
+
+  void add(const Reached& from, std::uint32_t parent, double turn_rad, HeldSide side, double way_m,
+           std::size_t to) {
+    Reached next = from;
+    const double half = 0.5 * turn_rad;
+    const double chord_m = way_m * (std::abs(half) < 1e-4 ? 1.0 : std::sin(half) / half);
+    next.place_m = from.place_m + chord_m * unit(from.course_rad + half);
+    next.course_rad = from.course_rad + turn_rad;
+    next.side = side;
+    next.parent = parent;
+    const Vec2 off = next.place_m - track_.place_m[to];
+    const double distance_m = norm(off);
+    if (distance_m > search_.limit_m) return;
+    if (distance_m > next.farthest_m) {
+      next.farthest_m = distance_m;
+      next.farthest = static_cast<std::uint32_t>(to);
+    }
+    rate(next, off, distance_m, track_.course_rad[to]);
+    next_.push_back(next);
+  }
+
+  void rate(Reached& r, Vec2 off, double distance_m, double course_rad) const {
+    constexpr double cells_per_limit = 4.0;
+    constexpr double cells_per_rad = 40.0;
+    const double turned_rad = std::remainder(r.course_rad - course_rad, two_pi);
+    r.score = distance_m + 0.3 * contract_.turn_radius_m.least * std::abs(turned_rad);
+    const auto cell = [](double value) { return static_cast<std::int64_t>(std::lround(value)) & 0xffff; };
+    const double per_m = cells_per_limit / search_.limit_m;
+    r.alike = (cell(off.x * per_m) << 48) | (cell(off.y * per_m) << 32) |
+              (cell(turned_rad * cells_per_rad) << 16) | (static_cast<std::int64_t>(r.side) + 1);
+  }
+
+  /// One of those alike, and of these the best.
+  void keep_best() {
+    std::sort(next_.begin(), next_.end(), [](const Reached& a, const Reached& b) {
+      if (a.alike != b.alike) return a.alike < b.alike;
+      if (a.score != b.score) return a.score < b.score;
+      return a.parent < b.parent;
+    });
+    const auto end = std::unique(next_.begin(), next_.end(), [](const Reached& a, const Reached& b) {
+      return a.alike == b.alike;
+    });
+    next_.erase(end, next_.end());
+    if (next_.size() <= search_.most_states) return;
+    const auto better = [](const Reached& a, const Reached& b) {
+      return a.score != b.score ? a.score < b.score : a.alike < b.alike;
+    };
+    std::nth_element(next_.begin(), next_.begin() + search_.most_states, next_.end(), better);
+    next_.resize(search_.most_states);
+  }
+
+  NearestMotion told(std::size_t reached, bool stays) const {
+    NearestMotion motion;
+    const auto best = std::min_element(
+        now_.begin(), now_.end(),
+        [](const Reached& a, const Reached& b) { return a.farthest_m < b.farthest_m; });
+    motion.stays = stays;
+    motion.reached = reached;
+    motion.farthest_m = best->farthest_m;
+    motion.farthest = best->farthest;
+    if (!search_.wants_places) return motion;
+    motion.place_m.resize(history_.size());
+    auto at = static_cast<std::uint32_t>(best - now_.begin());
+    for (std::size_t i = history_.size(); i-- > 0;) {
+      motion.place_m[i] = history_[i][at].place_m;
+      at = history_[i][at].parent;
+    }
+    return motion;
+  }
+
+  const FlownTrack& track_;
+  const VehicleContract& contract_;
+  const MotionSearch& search_;
+  CommandsInForce commands_;
+  std::vector<Reached> now_;
+  std::vector<Reached> next_;
+  std::vector<std::vector<Place>> history_;
+};
+
+}  // namespace
+
+NearestMotion nearest_motion(const FlownTrack& track, const VehicleContract& contract,
+                             const MotionSearch& search) {
+  require(track.size() >= 2, "a track has at least two samples");
+  require(search.limit_m > 0.0, "the limit is above 0");
+  require(contract.turn_radius_m.least > 0.0, "a radius is above 0");
+  return Beam(track, contract, search).run();
+}
+
+}  // namespace fairway
