@@ -384,6 +384,9 @@ bool Behaviours::advance(Turning& set) {
     by = Displacements(set.turn, set.clock, step, least_radius_, most_radius_);
     swept = sum(set.at, by.partial);
   }
+  const Point middle = unit(set.turn * (set.clock + 0.5 * step));  // all are in its quadrant
+  (middle.x > 0.0 ? set.sure.x1 : set.sure.x0) = middle.x > 0.0 ? HUGE_VAL : -HUGE_VAL;
+  (middle.y > 0.0 ? set.sure.y1 : set.sure.y0) = middle.y > 0.0 ? HUGE_VAL : -HUGE_VAL;
   const double end = set.clock + step;
   const Past past = set.turn > 0 ? set.past.with(set.clock, end, most_radius_ * step, step)
                                  : set.past.with(-end, -set.clock, most_radius_ * step, step);
