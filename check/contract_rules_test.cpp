@@ -173,7 +173,7 @@ TEST(WaysOut, HoldEveryCurveWithHeadingsInTheCone) {
       const double place = side == 0 ? p.y : side == 1 ? 1.0 - p.x : side == 2 ? 1.0 - p.y : p.x;
       double low = 0.0;
       double high = 0.0;
-      ASSERT_TRUE(find_way_out(at, side, least, most, low, high)) << n;
+      ASSERT_TRUE(find_way_out(at, side, least, most, false, low, high)) << n;
       ASSERT_TRUE(low <= place + 1e-9 && place <= high + 1e-9) << n << " " << place;
       ++left;
     }

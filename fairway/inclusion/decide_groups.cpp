@@ -198,8 +198,8 @@ class Decider {
         hi = std::max(hi, on);
       }
     }
-    const double off = 0.5 * p.headings.width_rad + 1e-5;
-    return static_cast<float>((p.flown + (hi - lo + 1e-3) / std::cos(off)) * (1.0 + 1e-6));
+    const double off = 0.5 * p.headings.width_rad + 1e-3;  // who checks may find more
+    return static_cast<float>((p.flown + generous * (hi - lo + 0.1) / std::cos(off)) * (1.0 + 1e-6));
   }
 
   void tell_trouble(std::span<const Id> members, const Prospect& all, bool one) {

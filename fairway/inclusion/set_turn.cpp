@@ -86,6 +86,7 @@ void SetFlight::turn(const TurningSet& set) {
   const auto still_to = [&](double heading) { return sign * (last - heading); };
   ConvexSet here = from.set;
   Past past = from.past;
+  past.flown += parts_.turn_radius().most * options_.step_rad;  // who checks may begin a step sooner
   bool forgot = false;         // some may hold no side any more
   std::vector<Gathered> back;  // what turns back
   while (!image_.gave_up) {
