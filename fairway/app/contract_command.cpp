@@ -95,7 +95,7 @@ int hold_logs(const ContractArguments& a, const Session& session) {
   }
   session.tell(held_json(held, tracking_m), text.substr(0, text.size() - 1));
   for (const HeldLog& h : held) {
-    if (!h.kept.kept) return exit_no;
+    if (!h.kept) return exit_no;
   }
   return exit_done;
 }
@@ -131,29 +131,32 @@ void check_vehicle(ContractArguments& a, const CLI::App& options) {
   const double least_mps = (1.0 - v.speed_spread) * v.airspeed_mps;
   if (v.wind_mps >= least_mps) {
     throw CLI::ValidationError(
-        "--wind", fmt::format("expected less than the least airspeed, {:.3g} m/s: the wind carries a "
-                              "slower vehicle away",
-                              least_mps));
+        "--wind",
+        fmt::format("expected less than the least airspeed, {:.3g} m/s: the wind carries a "
+                    "slower vehicle away",
+                    least_mps));
   }
   v.holds = a.holds == "heading" ? HeldDirection::heading : HeldDirection::course;
   if (contract_of(v).contract.heading_error_rad >= 0.5 * pi) {
-    throw CLI::ValidationError("--heading-error, --wind, --holds",
-                               "the course may be off by a quarter turn or more: no contract can be "
-                               "proved with it; a course-hold autopilot needs no allowance for wind");
+    throw CLI::ValidationError(
+        "--heading-error, --wind, --holds",
+        "the course may be off by a quarter turn or more: no contract can be "
+        "proved with it; a course-hold autopilot needs no allowance for wind");
   }
 }
 
 void check_arguments(ContractArguments& a, const CLI::App& options) {
   if (a.logs.empty()) {
-    for (const char* name : {"--contract", "--columns", "--angles", "--tracking-m", "--picture", "--margin"}) {
+    for (const char* name :
+         {"--contract", "--columns", "--angles", "--tracking-m", "--picture", "--margin"}) {
       if (options.count(name) > 0) throw CLI::RequiresError(name, "--log");
     }
     check_vehicle(a, options);
     return;
   }
-  for (const char* name : {"--airspeed", "--bank-limit", "--turn-rate", "--turn-radius", "--bank-lag",
-                           "--wind", "--delay", "--control-period", "--heading-error", "--holds",
-                           "--radius-spread", "--speed-spread"}) {
+  for (const char* name : {"--airspeed", "--bank-limit", "--turn-rate", "--turn-radius",
+                           "--bank-lag", "--wind", "--delay", "--control-period", "--heading-error",
+                           "--holds", "--radius-spread", "--speed-spread"}) {
     if (options.count(name) > 0) throw CLI::ExcludesError(name, "--log");
   }
   if (!a.columns.empty()) {
@@ -194,8 +197,7 @@ void declare_turn(CLI::App& options, ContractArguments& a) {
       ->check(CLI::Range(0.0, 0.9))
       ->type_name("S")
       ->capture_default_str();
-  options
-      .add_option("--speed-spread", a.vehicle.speed_spread, "the same for the airspeed")
+  options.add_option("--speed-spread", a.vehicle.speed_spread, "the same for the airspeed")
       ->check(CLI::Range(0.0, 0.9))
       ->type_name("S")
       ->capture_default_str();
@@ -203,8 +205,9 @@ void declare_turn(CLI::App& options, ContractArguments& a) {
 
 void declare_errors(CLI::App& options, ContractArguments& a) {
   options
-      .add_option("--bank-lag", a.vehicle.bank_lag_s,
-                  "time constant of the roll, seconds; leave it out for a vehicle that does not bank")
+      .add_option(
+          "--bank-lag", a.vehicle.bank_lag_s,
+          "time constant of the roll, seconds; leave it out for a vehicle that does not bank")
       ->check(finite_from(0.0))
       ->type_name("S");
   options.add_option("--wind", a.vehicle.wind_mps, "strongest wind, m/s, from any direction")
@@ -215,7 +218,8 @@ void declare_errors(CLI::App& options, ContractArguments& a) {
                   "seconds from being at a place to obeying its command, at worst")
       ->check(finite_from(0.0))
       ->type_name("S");
-  options.add_option("--control-period", a.vehicle.control_period_s, "seconds between two commands")
+  options
+      .add_option("--control-period", a.vehicle.control_period_s, "seconds between two commands")
       ->check(finite_from(0.0))
       ->type_name("S");
   options
@@ -229,7 +233,9 @@ void declare_errors(CLI::App& options, ContractArguments& a) {
                   "(default: 1deg)")
       ->check(angle_argument())
       ->type_name("A");
-  options.add_option("--holds", a.holds, "what the autopilot holds: the course over ground, or the heading")
+  options
+      .add_option("--holds", a.holds,
+                  "what the autopilot holds: the course over ground, or the heading")
       ->check(CLI::IsMember({"course", "heading"}))
       ->capture_default_str();
 }
@@ -277,7 +283,8 @@ Action declare_contract(CLI::App& options) {
   declare_turn(options, a);
   declare_errors(options, a);
   declare_logs(options, a);
-  options.add_option("-o,--output", a.output, "write the contract to a file")->type_name("FILE.toml");
+  options.add_option("-o,--output", a.output, "write the contract to a file")
+      ->type_name("FILE.toml");
   options.final_callback([&a, &options] { check_arguments(a, options); });
   options.footer(
       "Prints a block [vehicle.contract] with a reason for each number: from --airspeed and what\n"

@@ -6,9 +6,7 @@
 namespace fairway {
 
 CommandsInForce::CommandsInForce(const FlownTrack& track, const VehicleContract& contract)
-    : track_(track),
-      error_m_(contract.command_error_m),
-      look_ahead_m_(contract.look_ahead_m) {}
+    : track_(track), error_m_(contract.command_error_m), look_ahead_m_(contract.look_ahead_m) {}
 
 Vec2 CommandsInForce::ahead_of(Vec2 place_m, double course_rad) const {
   return place_m + look_ahead_m_ * Vec2{std::cos(course_rad), std::sin(course_rad)};
@@ -25,7 +23,8 @@ void CommandsInForce::look_back_from(std::size_t sample, double aside_m) {
   for (std::size_t run = track_.run_of[sample] + 1; run-- > 0;) {
     const std::size_t s = std::min(sample, track_.runs[run].last);
     if (is_too_far(s)) return;
-    given_.push_back({ahead_of(track_.place_m[s], track_.course_rad[s]), track_.runs[run].command_rad});
+    given_.push_back(
+        {ahead_of(track_.place_m[s], track_.course_rad[s]), track_.runs[run].command_rad});
   }
   if (!is_too_far(0)) {
     given_.push_back({ahead_of(track_.place_m[0], track_.course_rad[0]), 0.0, true});

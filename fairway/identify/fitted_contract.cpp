@@ -45,7 +45,8 @@ class Fit {
     VehicleContract c;
     c.command_error_m = widest_error_radii * r * slack[0];
     c.heading_error_rad = widest_heading_rad * slack[1];
-    c.turn_radius_m = {r * std::pow(widest_radius, -slack[2]), r * std::pow(widest_radius, slack[3])};
+    c.turn_radius_m = {r * std::pow(widest_radius, -slack[2]),
+                       r * std::pow(widest_radius, slack[3])};
     // The side is chosen when the command is given, and the turn before goes on for that long.
     const double turned_rad = c.command_error_m / c.turn_radius_m.least;
     c.side_uncertain_rad = std::min(std::max(widest_side_rad * slack[4], turned_rad), 0.49 * pi);
@@ -58,7 +59,8 @@ class Fit {
     const VehicleContract tried = contract(slack);
     // The log that failed last is likely to fail again.
     for (const std::size_t k : order_) {
-      const NearestMotion motion = nearest_motion(tracks_[k], tried, {.limit_m = options_.tracking_m});
+      const NearestMotion motion =
+          nearest_motion(tracks_[k], tried, {.limit_m = options_.tracking_m});
       if (motion.stays) continue;
       std::rotate(order_.begin(), std::find(order_.begin(), order_.end(), k),
                   std::find(order_.begin(), order_.end(), k) + 1);

@@ -21,7 +21,13 @@
 namespace fairway {
 
 /// What was tightened.
-enum class ContractPart : std::uint8_t { command_error, heading_error, least_radius, most_radius, side };
+enum class ContractPart : std::uint8_t {
+  command_error,
+  heading_error,
+  least_radius,
+  most_radius,
+  side
+};
 inline constexpr std::size_t contract_parts = 5;
 
 /// The log and the sample that stop a number from being tightened further.
@@ -42,7 +48,7 @@ struct FittedContract {
 
 struct FitOptions {
   double tracking_m = 0.0;     ///< above 0
-  double turn_radius_m = 0.0; ///< flown at full bank
+  double turn_radius_m = 0.0;  ///< flown at full bank
 };
 
 /// Nothing when the logs keep no contract of the widest kind tried: then `broken` is set.

@@ -50,8 +50,7 @@ FlownTrack flown_track(const FlightLog& log, double smooth_m) {
   require(log.samples.size() >= 2, "a log has at least two samples");
   FlownTrack track;
   for (const LogSample& sample : log.samples) {
-    const double step_m =
-        track.place_m.empty() ? 0.0 : norm(sample.place_m - track.place_m.back());
+    const double step_m = track.place_m.empty() ? 0.0 : norm(sample.place_m - track.place_m.back());
     track.way_m.push_back(track.way_m.empty() ? 0.0 : track.way_m.back() + step_m);
     track.time_s.push_back(sample.time_s);
     track.place_m.push_back(sample.place_m);
@@ -76,7 +75,8 @@ double turn_radius_flown_m(const FlownTrack& track) {
   constexpr double never = std::numeric_limits<double>::infinity();
   if (turned_rad < least_turn_rad || rates.empty()) return never;
   std::sort(rates.begin(), rates.end());
-  const double top = rates[static_cast<std::size_t>(hardest * static_cast<double>(rates.size() - 1))];
+  const double top =
+      rates[static_cast<std::size_t>(hardest * static_cast<double>(rates.size() - 1))];
   const auto from = std::lower_bound(rates.begin(), rates.end(), share_of_hardest * top);
   const double median = *(from + (rates.end() - from) / 2);
   return median > 0.0 ? 1.0 / median : never;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "fairway/identify/flown_track.hpp"
@@ -15,13 +16,16 @@
 namespace fairway {
 
 struct KeptContract {
-  bool kept = false;
+  bool kept = false;  ///< in place; see wrong_speed
   /// Some motion stays this near to the whole log, metres; infinite: beyond the farthest tried.
   double needs_m = 0.0;
   /// Where a tracking distance a little smaller than `needs_m` fails: the sample that decides.
   std::size_t worst = 0;
   /// The last sample with a motion within the tracking distance, when it is not kept.
   std::size_t kept_until = 0;
+  /// The sample that flies too slowly or too fast for the contract by most, if one does. Places do
+  /// not depend on speed: only bounds of time fail.
+  std::optional<std::size_t> wrong_speed;
   /// A motion that stays within `needs_m`, one place a sample; where that is infinite, one within
   /// the tracking distance for as long as there is one.
   std::vector<Vec2> motion_m;

@@ -71,13 +71,11 @@ class Beam {
     for (const Reached& r : now_) places.push_back({r.place_m, r.parent});
   }
 
-  /// The track's speed, corrected for being ahead or behind, within the contract.
+  /// The track's speed, corrected for being ahead or behind.
   double step_m(const Reached& r, std::size_t i) const {
     const double behind_m = dot(track_.place_m[i] - r.place_m, unit(track_.course_rad[i]));
-    const double wanted =
-        track_.speed_mps[i] * (1.0 + behind_m / contract_.turn_radius_m.least);
-    const SizeRange speed = contract_.speed_mps;
-    return std::clamp(wanted, speed.least, speed.most) * (track_.time_s[i + 1] - track_.time_s[i]);
+    const double share = std::clamp(behind_m / contract_.turn_radius_m.least, -0.5, 0.5);
+    return (1.0 + share) * track_.speed_mps[i] * (track_.time_s[i + 1] - track_.time_s[i]);
   }
 
   void step(std::size_t i) {
@@ -87,8 +85,8 @@ class Beam {
       const Reached& r = now_[k];
       const double way_m = step_m(r, i);
       commands_.near(r.place_m, r.course_rad);
-      const TurnChoices choices = turn_choices(commands_, TurnStep(contract_, way_m), contract_,
-                                               r.course_rad, r.side);
+      const TurnChoices choices =
+          turn_choices(commands_, TurnStep(contract_, way_m), contract_, r.course_rad, r.side);
       for (const TurnChoice& choice : choices) follow(r, k, choice, way_m, i + 1);
     }
     keep_best();
@@ -138,7 +136,9 @@ class Beam {
     constexpr double cells_per_rad = 40.0;
     const double turned_rad = std::remainder(r.course_rad - course_rad, two_pi);
     r.score = distance_m + 0.3 * contract_.turn_radius_m.least * std::abs(turned_rad);
-    const auto cell = [](double value) { return static_cast<std::int64_t>(std::lround(value)) & 0xffff; };
+    const auto cell = [](double value) {
+      return static_cast<std::int64_t>(std::lround(value)) & 0xffff;
+    };
     const double per_m = cells_per_limit / search_.limit_m;
     r.alike = (cell(off.x * per_m) << 48) | (cell(off.y * per_m) << 32) |
               (cell(turned_rad * cells_per_rad) << 16) | (static_cast<std::int64_t>(r.side) + 1);
@@ -151,9 +151,9 @@ class Beam {
       if (a.score != b.score) return a.score < b.score;
       return a.parent < b.parent;
     });
-    const auto end = std::unique(next_.begin(), next_.end(), [](const Reached& a, const Reached& b) {
-      return a.alike == b.alike;
-    });
+    const auto end =
+        std::unique(next_.begin(), next_.end(),
+                    [](const Reached& a, const Reached& b) { return a.alike == b.alike; });
     next_.erase(end, next_.end());
     if (next_.size() <= search_.most_states) return;
     const auto better = [](const Reached& a, const Reached& b) {

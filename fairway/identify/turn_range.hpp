@@ -46,7 +46,8 @@ struct TurnStep {
   /// within the error; there anything that stays within.
   TurnRange towards(double off_rad) const {
     if (std::abs(off_rad) <= error_rad) {
-      return {std::max(-fastest_rad, off_rad - error_rad), std::min(fastest_rad, off_rad + error_rad)};
+      return {std::max(-fastest_rad, off_rad - error_rad),
+              std::min(fastest_rad, off_rad + error_rad)};
     }
     return around(std::abs(off_rad), off_rad > 0.0);
   }

@@ -28,7 +28,8 @@ inline constexpr double usual_tracking_radii = 0.1;
 /// A log held against a contract.
 struct HeldLog {
   std::string name;
-  KeptContract kept;
+  KeptContract place;
+  bool kept = false;  ///< in place and speed
   double kept_until_s = 0.0;
   double worst_s = 0.0;
   Vec2 worst_m;
