@@ -7,19 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "check/flight.hpp"
+#include "check/plan_arrays.hpp"
 
 namespace fairway_check {
-
-/// The array "geometry", number by number.
-struct Geometry {
-  double x0_m;
-  double y0_m;
-  double cell_m;
-  double turn_radius_m;
-  double speed_mps;
-  double units;  ///< in a side
-};
 
 struct Certificate {
   Geometry geometry;

@@ -1,5 +1,6 @@
 #include "check/claims.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -7,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "check/proof.hpp"
 #include "check/tensors.hpp"
 
 namespace fairway_check {
@@ -53,10 +53,11 @@ struct Measured {
   double slower_than_claimed = 0.0;  // states that reach, with a bound above worst_time_s
 };
 
-Measured measure(const Certificate& c, std::size_t samples, double worst_time_s) {
+Measured measure(const Loop& loop, const std::vector<std::int8_t>& region, std::size_t samples,
+                 double worst_time_s, const TellState& tell) {
   std::vector<std::size_t> cells;
-  for (std::size_t i = 0; i < c.loop.kind.size(); ++i) {
-    if (c.loop.kind[i] == ordinary) cells.push_back(i);
+  for (std::size_t i = 0; i < loop.kind.size(); ++i) {
+    if (loop.kind[i] == ordinary) cells.push_back(i);
   }
   Measured m;
   std::mt19937_64 random(1);
@@ -65,9 +66,9 @@ Measured measure(const Certificate& c, std::size_t samples, double worst_time_s)
     const std::size_t cell = cells[random() % cells.size()];
     const double x = unit() - 0.5;
     const double y = unit() - 0.5;
-    const Told told = told_of_state(c, cell, x, y, std::numbers::pi * (2.0 * unit() - 1.0));
+    const Told told = tell(cell, x, y, std::numbers::pi * (2.0 * unit() - 1.0));
     m.slower_than_claimed += told.verdict == reach && told.worst_s > worst_time_s ? 1.0 : 0.0;
-    for (const Portion portion : {all_cells, c.region[cell] == 0 ? free_cells : buffer_cells}) {
+    for (const Portion portion : {all_cells, region[cell] == 0 ? free_cells : buffer_cells}) {
       m.states[portion] += 1.0;
       m.shares[portion][told.verdict] += 1.0;
     }
@@ -80,10 +81,11 @@ Measured measure(const Certificate& c, std::size_t samples, double worst_time_s)
 
 }  // namespace
 
-std::string defect_of_claims(const Certificate& c, std::size_t samples,
-                             nlohmann::ordered_json& report) {
-  const Claims claims = claims_of(c.record);
-  const Measured m = measure(c, samples, claims.worst_time_s);
+std::string defect_of_claims(const nlohmann::json& record, const Loop& loop,
+                             const std::vector<std::int8_t>& region, std::size_t samples,
+                             const TellState& tell, nlohmann::ordered_json& report) {
+  const Claims claims = claims_of(record);
+  const Measured m = measure(loop, region, samples, claims.worst_time_s, tell);
   report["samples"] = m.states[all_cells];
   for (std::size_t v = 0; v < verdict_count; ++v) {
     report["measured_fraction"][verdict_name[v]] = m.shares[all_cells][v];

@@ -1,17 +1,31 @@
 // Compares the volumes a certificate claims with sampled states. No verdict depends on this.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
-#include "check/certificate.hpp"
+#include <nlohmann/json.hpp>
+
+#include "check/flight.hpp"
 
 namespace fairway_check {
+
+/// What the leaves say about a state.
+struct Told {
+  Verdict verdict;
+  double worst_s;  ///< no state takes longer
+};
+
+/// Of the state at (x, y), in cells from the centre of an ordinary cell.
+using TellState = std::function<Told(std::size_t cell, double x, double y, double heading_rad)>;
 
 /// "" when no claimed share of volume is farther than five standard errors (of both samples) from
 /// the one measured with `samples` states, and no more states reach later than chance allows. The
 /// findings go into `report`. Throws Defect 1, or nlohmann::json::exception, for impossible
 /// claims.
-std::string defect_of_claims(const Certificate& c, std::size_t samples,
-                             nlohmann::ordered_json& report);
+std::string defect_of_claims(const nlohmann::json& record, const Loop& loop,
+                             const std::vector<std::int8_t>& region, std::size_t samples,
+                             const TellState& tell, nlohmann::ordered_json& report);
 
 }  // namespace fairway_check

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include "check/claims.hpp"
+#include "check/contract_proof.hpp"
 #include "check/tensors.hpp"
 
 namespace fairway_check {
@@ -124,6 +124,7 @@ Told told_of_state(const Certificate& c, std::size_t cell, double x, double y, d
 
 std::string judge(const std::string& path, const std::string& plan, std::size_t samples,
                   nlohmann::ordered_json& report) try {
+  if (is_contract_certificate(path)) return judge_contract(path, plan, samples, report);
   const Certificate c = read_certificate(path, plan);
   for (std::size_t v = 0; v < verdict_count; ++v) {
     report["leaves"][verdict_name[v]] = std::count(c.verdict.begin(), c.verdict.end(), v);
@@ -139,7 +140,12 @@ std::string judge(const std::string& path, const std::string& plan, std::size_t 
                        report["leaves_not_reproved"].dump(), fails.size(), c.name_of(first),
                        verdict_name[c.verdict[first]], defect_of_leaf(c, section, first));
   }
-  return defect_of_claims(c, samples, report);
+  return defect_of_claims(
+      c.record, c.loop, c.region, samples,
+      [&c](std::size_t cell, double x, double y, double heading_rad) {
+        return told_of_state(c, cell, x, y, heading_rad);
+      },
+      report);
 } catch (const Defect& defect) {
   if (defect.code != 1) throw;
   return defect.what();

@@ -7,19 +7,16 @@
 #include <nlohmann/json.hpp>
 
 #include "check/certificate.hpp"
+#include "check/claims.hpp"
 
 namespace fairway_check {
 
 /// What the leaves say about the state at (x, y), in cells from the centre of an ordinary cell.
-struct Told {
-  Verdict verdict;
-  double worst_s;  ///< no state takes longer
-};
 Told told_of_state(const Certificate& c, std::size_t cell, double x, double y, double heading_rad);
 
-/// "" when the certificate is accepted, else why it is refused; the findings go into `report`.
-/// `plan` may be "": then it is not compared. The result does not depend on threads. Throws Defect
-/// 65 or nlohmann::json::exception when the file is not a certificate.
+/// For certificates of either kind: "" when it is accepted, else why it is refused; the findings go
+/// into `report`. `plan` may be "": then it is not compared. The result does not depend on threads.
+/// Throws Defect 65 or nlohmann::json::exception when the file is not a certificate.
 std::string judge(const std::string& path, const std::string& plan, std::size_t samples,
                   nlohmann::ordered_json& report);
 

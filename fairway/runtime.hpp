@@ -1,11 +1,18 @@
 // For the vehicle: what to steer, and what is proved, at any state. Reads a certificate file
 // mapped into memory (docs/formats.md).
 //
-// No heap, no exceptions, only the standard library; safe to call from several threads at once.
+// No exceptions, only the standard library; safe to call from several threads at once (a TurnSide
+// belongs to one). No heap, but for what a CommandField takes when it is made.
 //
 //     fairway::runtime::Certificate certificate;
 //     if (certificate.open(bytes, size) != fairway::runtime::Status::ok) ...
 //     const fairway::runtime::Answer answer = certificate.query(x_m, y_m, heading_rad);
+//
+// A vehicle under a contract takes its commands from a CommandField, ahead of itself by the
+// contract's look_ahead_m, and hands them on through a TurnSide (docs/howto/vehicle.md):
+//
+//     const fairway::runtime::CommandField commands(flow.grid, flow.heading_rad);
+//     fairway::runtime::TurnSide side;
 //
 // open() reads the header like every other reader, and checks that every array is present and
 // fits, so that no query can read out of bounds. It neither checks digests nor proves anything:
@@ -24,6 +31,8 @@
 
 #include "fairway/base/tensor_header.hpp"
 #include "fairway/vehicle/bang_bang.hpp"
+#include "fairway/vehicle/command_field.hpp"
+#include "fairway/vehicle/turn_side.hpp"
 #include "fairway/verify/flow.hpp"
 #include "fairway/verify/section_view.hpp"
 #include "fairway/verify/state_flight.hpp"
@@ -45,61 +54,98 @@ struct Answer {
 
 using Command = HeadingCommand;
 
-class Certificate {
+// For vehicles under a contract: the command for any place, and the side of a turn.
+using fairway::CommandField;
+using fairway::point_ahead;
+using fairway::TurnSide;
+
+/// What both kinds of certificate have, those of the exact vehicle and those under a contract: the
+/// arrays of a file, in place.
+class FileArrays {
  public:
   /// `bytes`: the whole file, aligned to 8 bytes, which must outlive this object.
   Status open(const void* bytes, std::size_t size) noexcept {
-    opened_ = false;
     if (bytes == nullptr || size < 8) return Status::too_short;
     const char* file = static_cast<const char*>(bytes);
     std::uint64_t length = 0;
     std::memcpy(&length, file, 8);
     if (length > size - 8) return Status::too_short;
-    const char* data = file + 8 + length;
-    TensorHeader header;
-    if (!header.read(file + 8, static_cast<std::size_t>(length), size - 8 - length) ||
-        !header.has_record() || header.size() != 9) {
-      return Status::not_certificate;
-    }
-    const HeaderEntry* heading = header.find("heading_rad");
-    const HeaderEntry* verdict = header.find("leaf_verdict");
-    if (heading == nullptr || heading->sizes != 2 || verdict == nullptr || verdict->sizes != 1) {
-      return Status::not_certificate;
-    }
+    begin_ = 8 + length;
+    data_ = file + begin_;
+    const bool read = header_.read(file + 8, static_cast<std::size_t>(length), size - begin_);
+    return read && header_.has_record() ? Status::ok : Status::not_certificate;
+  }
+
+  int count() const noexcept { return header_.size(); }
+  const HeaderEntry* find(const char* name) const noexcept { return header_.find(name); }
+
+  /// An array's bytes; null when it is missing or not as expected.
+  template <typename... Shape>
+  const char* place(const char* name, const char* dtype, std::uint64_t width,
+                    Shape... shape) const noexcept {
+    const HeaderEntry* entry = header_.find(name);
+    const bool fits = entry != nullptr && entry->dtype.is(dtype) && entry->has_shape(shape...) &&
+                      (begin_ + entry->begin) % width == 0;
+    return fits ? data_ + entry->begin : nullptr;
+  }
+
+  /// Grid, vehicle, commands and what the cells mean.
+  Status take_flow(Flow& flow) const noexcept {
+    const HeaderEntry* heading = find("heading_rad");
+    if (heading == nullptr || heading->sizes != 2) return Status::not_certificate;
     const std::uint64_t ny = heading->shape[0];
     const std::uint64_t nx = heading->shape[1];
     constexpr std::uint64_t most = 0x7fffffff;
     if (ny == 0 || nx == 0 || ny > most || nx > most) return Status::misfit;
-    const std::uint64_t cells = ny * nx;
-    const std::uint64_t leaves = verdict->shape[0];
-    // The arrays, in place; null when one is missing or not as expected.
-    const auto place = [&](const char* name, const char* dtype, std::uint64_t width,
-                           auto... shape) {
-      const HeaderEntry* entry = header.find(name);
-      const bool fits = entry != nullptr && entry->dtype.is(dtype) && entry->has_shape(shape...) &&
-                        (8 + length + entry->begin) % width == 0;
-      return fits ? data + entry->begin : nullptr;
-    };
     const char* numbers = place("geometry", "F64", 8, geometry_numbers);
     const char* commands = place("heading_rad", "F32", 4, ny, nx);
-    const char* first = place("section_first", "U32", 4, 4 * cells + 1);
-    const char* begin = place("leaf_begin", "U32", 4, leaves);
-    const char* time = place("leaf_time_s", "F32", 4, leaves);
     const char* kind = place("cell_kind", "U8", 1, ny, nx);
-    const char* verdicts = place("leaf_verdict", "U8", 1, leaves);
-    for (const char* array :
-         {numbers, commands, first, begin, time, kind, verdicts,
-          place("leaf_rank", "U32", 4, leaves), place("region", "I8", 1, ny, nx)}) {
-      if (array == nullptr) return Status::misfit;
-    }
+    if (numbers == nullptr || commands == nullptr || kind == nullptr) return Status::misfit;
     Geometry geometry;
     std::memcpy(&geometry, numbers, sizeof geometry);
     if (!geometry.is_valid()) return Status::misfit;
-    geometry.put_into(flow_.grid, flow_.vehicle);
-    flow_.grid.nx = static_cast<int>(nx);
-    flow_.grid.ny = static_cast<int>(ny);
-    flow_.heading_rad = reinterpret_cast<const float*>(commands);
-    flow_.kind = reinterpret_cast<const CellKind*>(kind);
+    geometry.put_into(flow.grid, flow.vehicle);
+    flow.grid.nx = static_cast<int>(nx);
+    flow.grid.ny = static_cast<int>(ny);
+    flow.heading_rad = reinterpret_cast<const float*>(commands);
+    flow.kind = reinterpret_cast<const CellKind*>(kind);
+    for (std::size_t c = 0; c < flow.grid.size(); ++c) {
+      if (static_cast<std::uint8_t>(flow.kind[c]) > 2) return Status::misfit;
+    }
+    return Status::ok;
+  }
+
+ private:
+  TensorHeader header_;
+  std::uint64_t begin_ = 0;
+  const char* data_ = nullptr;
+};
+
+class Certificate {
+ public:
+  /// `bytes`: the whole file, aligned to 8 bytes, which must outlive this object.
+  Status open(const void* bytes, std::size_t size) noexcept {
+    opened_ = false;
+    FileArrays arrays;
+    if (const Status status = arrays.open(bytes, size); status != Status::ok) return status;
+    const HeaderEntry* verdict = arrays.find("leaf_verdict");
+    if (arrays.count() != 9 || verdict == nullptr || verdict->sizes != 1) {
+      return Status::not_certificate;
+    }
+    if (const Status status = arrays.take_flow(flow_); status != Status::ok) return status;
+    const std::uint64_t cells = flow_.grid.size();
+    const std::uint64_t leaves = verdict->shape[0];
+    const std::uint64_t ny = static_cast<std::uint64_t>(flow_.grid.ny);
+    const std::uint64_t nx = static_cast<std::uint64_t>(flow_.grid.nx);
+    const char* first = arrays.place("section_first", "U32", 4, 4 * cells + 1);
+    const char* begin = arrays.place("leaf_begin", "U32", 4, leaves);
+    const char* time = arrays.place("leaf_time_s", "F32", 4, leaves);
+    const char* verdicts = arrays.place("leaf_verdict", "U8", 1, leaves);
+    for (const char* array :
+         {first, begin, time, verdicts, arrays.place("leaf_rank", "U32", 4, leaves),
+          arrays.place("region", "I8", 1, ny, nx)}) {
+      if (array == nullptr) return Status::misfit;
+    }
     sections_.first = reinterpret_cast<const std::uint32_t*>(first);
     sections_.begin = reinterpret_cast<const std::uint32_t*>(begin);
     sections_.time_s = reinterpret_cast<const float*>(time);
@@ -108,9 +154,6 @@ class Certificate {
       if (sections_.first[s] > sections_.first[s + 1]) return Status::misfit;
     }
     if (sections_.first[0] != 0 || sections_.first[4 * cells] != leaves) return Status::misfit;
-    for (std::size_t c = 0; c < cells; ++c) {
-      if (static_cast<std::uint8_t>(flow_.kind[c]) > 2) return Status::misfit;
-    }
     for (std::size_t k = 0; k < leaves; ++k) {
       if (sections_.verdict[k] >= verdict_count) return Status::misfit;
     }

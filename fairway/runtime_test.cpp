@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +15,7 @@
 
 #include "fairway/base/random.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/inclusion/parts.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/verify/certify.hpp"
 
@@ -156,6 +159,37 @@ TEST_F(RuntimeTest, StatesOffTheGridOrNotFiniteAreNotMisjudged) {
   EXPECT_EQ(certificate.query(0.0, INFINITY, 0.0).verdict, Verdict::undecided);
   EXPECT_EQ(certificate.query(0.0, 20.0, NAN).verdict, Verdict::undecided);
   EXPECT_EQ(certificate.query(1e300, 20.0, 0.0).verdict, Verdict::undecided);
+}
+
+TEST_F(RuntimeTest, CommandsForAnyPlaceAreThoseOfTheProofAndTouchNoHeapOnceMade) {
+  const auto words = aligned(bytes());
+  runtime::FileArrays arrays;
+  ASSERT_EQ(arrays.open(words.data(), bytes().size()), runtime::Status::ok);
+  Flow flow;
+  ASSERT_EQ(arrays.take_flow(flow), runtime::Status::ok);
+  Random random(6);
+  std::vector<float> commands(flow.heading_rad, flow.heading_rad + flow.grid.size());
+  for (int round = 0; round < 40; ++round) {
+    for (float& command : commands) {
+      if (random.below(4) == 0) command = std::numeric_limits<float>::quiet_NaN();
+    }
+    const std::vector<float> filled = filled_commands(flow.grid, commands.data());
+    const runtime::CommandField field(flow.grid, commands.data());
+    runtime::TurnSide side;
+    const std::size_t before = allocations;
+    for (int k = 0; k < 500; ++k) {
+      const Vec2 at{random.uniform(-60.0, 80.0), random.uniform(-40.0, 90.0)};
+      const Cell cell = flow.grid.cell_of(at);
+      const Cell on{std::clamp(cell.ix, 0, flow.grid.nx - 1),
+                    std::clamp(cell.iy, 0, flow.grid.ny - 1)};
+      const auto wanted = static_cast<double>(filled[flow.grid.index(on)]);
+      const double command = field.command_rad(at.x, at.y);
+      ASSERT_TRUE(command == wanted || (std::isnan(command) && std::isnan(wanted)));
+      static_cast<void>(side.keep(command, random.uniform(-pi, pi)));
+      static_cast<void>(runtime::point_ahead(at.x, at.y, 1.0, 2.0));
+    }
+    EXPECT_EQ(allocations, before);
+  }
 }
 
 /// The certificate with `is` put in for `was` in its header.

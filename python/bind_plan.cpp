@@ -10,6 +10,8 @@
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/exchange/plan_rasters.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/run/contract_file.hpp"
+#include "fairway/vehicle/contract_json.hpp"
 #include "fairway/vehicle/vehicle_json.hpp"
 
 namespace fairway::python {
@@ -61,6 +63,14 @@ void bind_plan(py::module_& m) {
           "vehicle",
           [](const HeldPlan& p) { return python_of_json(json_of(p.plan.vehicle).dump()); },
           "{\"speed_mps\": metres per second, \"turn_radius_m\": metres}.")
+      .def_property_readonly(
+          "contract",
+          [](const HeldPlan& p) -> py::object {
+            if (!p.plan.record.contract) return py::none();
+            return python_of_json(json_of(*p.plan.record.contract).dump());
+          },
+          "What the vehicle keeps, a dict as in docs/formats.md, or None: it is exact "
+          "(docs/model.md, \"Under a contract\").")
       .def_property_readonly(
           "record", [](const HeldPlan& p) { return python_of_json(json_text(p.plan.record)); },
           "How the plan was made, a dict: mission, every effective option, inputs, frame "
@@ -125,6 +135,20 @@ georeferenced.)")
       "path"_a,
       "Reads a plan file strictly. Raises InputError (a ValueError) naming the field that is "
       "wrong.");
+
+  m.def(
+      "read_contract",
+      [](const std::filesystem::path& path, double speed_mps, double turn_radius_m) {
+        return python_of_json(json_of(read_contract(path, {speed_mps, turn_radius_m})).dump());
+      },
+      "path"_a, py::kw_only(), "speed_mps"_a, "turn_radius_m"_a,
+      R"(Reads what a vehicle keeps from a TOML file with a table [vehicle.contract], alone or in a
+scenario (docs/scenario.md).
+
+speed_mps, turn_radius_m  the plan's vehicle: ranges that the file leaves out hold these alone, and
+                          all must hold them
+
+Returns a dict, as Plan.contract. Raises InputError naming file, line and key.)");
 }
 
 }  // namespace fairway::python

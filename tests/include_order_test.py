@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "verify", "inclusion", "certificate", "cellular",
+STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "verify", "behaviour", "inclusion", "certificate", "cellular",
           "bitmap", "steer", "identify", "exchange", "report", "run", "view", "app"]
 TOOLBOXES = {"base", "vehicle"}
 ON_TOOLBOXES_ALONE = {"cellular", "steer", "identify"}

@@ -121,6 +121,40 @@ void declare_laws(CLI::App& options, SimulateArguments& a) {
       ->check(positive);
 }
 
+void declare_behaviours(CLI::App& options, SimulateArguments& a) {
+  std::vector<std::string> adversaries{"all"};
+  for (const Adversary adversary : adversaries_in_order)
+    adversaries.emplace_back(name_of(adversary));
+  const auto option = [&](const char* name, auto& value, const char* does, const char* type) {
+    return options.add_option(name, value, does)->type_name(type)->group("Vehicle contract");
+  };
+  option("--contract", a.contract,
+         "fly behaviours of vehicles that keep the contract of this file ([vehicle.contract]); "
+         "flights and outcomes written are the worst of each start",
+         "TOML");
+  const auto given = [&a](const std::string&) { a.behaviours_given = true; };
+  option("--behaviours", a.behaviours,
+         "number of behaviours from each start (without --contract: within the plan's contract)",
+         "N")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000}))
+      ->capture_default_str()
+      ->each(given);
+  option("--adversary", a.adversary,
+         "random: whatever the contract allows; greedy: towards obstacles; circling: round one "
+         "side; guided: searches for a way to fail; all: by turns",
+         "WHICH")
+      ->check(CLI::IsMember(adversaries))
+      ->capture_default_str()
+      ->each(given);
+}
+
+void check_behaviours(const SimulateArguments& a) {
+  if (!a.wants_behaviours()) return;
+  if (a.law != exact_law) throw CLI::ExcludesError("--law", "--contract");
+  if (a.laps > 0.0 || a.follow_s > 0.0) throw CLI::ExcludesError("--laps, --follow", "--contract");
+  if (!a.qgc.empty()) throw CLI::ExcludesError("--qgc", "--contract");
+}
+
 void check(const SimulateArguments& a) {
   if (a.asked.empty() && a.random == 0) {
     throw CLI::RequiredError("--state, --state-deg, --states or --random");
@@ -132,6 +166,7 @@ void check(const SimulateArguments& a) {
   if (!a.qgc.empty() && !is_qgc_mission_name(a.qgc)) {
     throw CLI::ValidationError("--qgc", "expected a name that ends in .plan, .waypoints or .txt");
   }
+  check_behaviours(a);
   constexpr double most = 1e9;
   if (a.laps > 0.0 && a.follow_s > 0.0) throw CLI::ExcludesError("--laps", "--follow");
   if (a.laps > most || a.follow_s > most) {
@@ -174,12 +209,17 @@ void declare(CLI::App& options, SimulateArguments& a) {
   declare_outputs(options, a);
   declare_following(options, a);
   declare_laws(options, a);
+  declare_behaviours(options, a);
   options.final_callback([&a] { check(a); });
   options.footer(
       "Prints a summary of the outcomes unless one of the outputs goes to stdout.\n"
       "If the plan's goal has a heading, exact flights that reach it continue with a last leg to\n"
       "that heading. Flights of a path mission end where they reach the path, unless --laps or\n"
       "--follow is given; what happens afterwards is then reported separately.\n"
+      "With --contract, each start is flown by many behaviours of vehicles that keep the "
+      "contract;\n"
+      "one that fails is proved to be within it where the summary says so. Its wind is taken as\n"
+      "calm.\n"
       "Uploading an exported .plan replaces the vehicle's mission, fence and rally points.\n"
       "Example: fairway simulate demo.safetensors --state 100,100,90deg --random 1000 --outcomes "
       "out.csv");

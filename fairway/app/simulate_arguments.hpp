@@ -12,6 +12,7 @@
 #include "fairway/app/states_asked.hpp"
 #include "fairway/exchange/qgc_mission.hpp"
 #include "fairway/run/flight_engine.hpp"
+#include "fairway/run/fly_behaviours.hpp"
 #include "fairway/simulate/sampled_flight.hpp"
 #include "fairway/simulate/start_states.hpp"
 
@@ -37,7 +38,13 @@ struct SimulateArguments {
   std::string heading_noise;
   std::vector<double> wind_mps;
   bool sampled_only_given = false;
+  std::filesystem::path contract;  ///< empty: the plan's own, when behaviours are asked for
+  std::uint64_t behaviours = BehaviourRequest{}.behaviours;
+  std::string adversary = "all";
+  bool behaviours_given = false;
 
+  /// Flights within a vehicle contract instead of one flight from each start.
+  bool wants_behaviours() const { return !contract.empty() || behaviours_given; }
   bool wants_tracks() const { return !csv.empty() || !geojson.empty() || !qgc.empty(); }
   StartRegion start_region() const;
   /// None: flights end at the first goal cell.

@@ -20,8 +20,10 @@
 #include "fairway/map/degrees_from_frame.hpp"
 #include "fairway/map/earth_frame.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/run/contract_file.hpp"
 #include "fairway/run/flight_engine.hpp"
 #include "fairway/run/flight_summary.hpp"
+#include "fairway/run/fly_behaviours.hpp"
 #include "fairway/run/fly_many.hpp"
 #include "fairway/run/plan_record.hpp"
 #include "fairway/run/qgc_site.hpp"
@@ -64,6 +66,40 @@ ManyFlights flights_asked_for(const SimulateArguments& arguments, const Plan& pl
   return fly_many(engine, starts, options);
 }
 
+VehicleContract contract_asked_for(const SimulateArguments& arguments, const Plan& plan) {
+  if (!arguments.contract.empty()) return read_contract(arguments.contract, plan.vehicle);
+  if (plan.record.contract) return *plan.record.contract;
+  throw InputError(arguments.plan.string(),
+                   "has no vehicle contract, expected --contract FILE.toml with --behaviours or "
+                   "--adversary");
+}
+
+FlownBehaviours behaviours_asked_for(const SimulateArguments& arguments, const Plan& plan,
+                                     const std::vector<State>& starts, const StageClock& clock) {
+  BehaviourRequest request;
+  request.contract = contract_asked_for(arguments, plan);
+  request.behaviours = arguments.behaviours;
+  request.adversaries = adversaries_of(arguments.adversary);
+  request.seed = arguments.sampled.seed;
+  request.record = arguments.wants_tracks();
+  request.progress = [&](std::size_t flown) {
+    clock.tell(clock.seconds() / static_cast<double>(flown) *
+               static_cast<double>(starts.size() - flown));
+  };
+  return fly_behaviours(plan, starts, request);
+}
+
+/// The worst flight of each start, for the files that all flights are written to.
+ManyFlights worst_of(const FlownBehaviours& behaviours, bool recorded) {
+  ManyFlights flown;
+  for (const Flight& flight : behaviours.worst) {
+    flown.results.push_back(flight.result);
+    flown.measures.push_back({flight.turning, {}, {}});
+  }
+  if (recorded) flown.recorded = behaviours.worst;
+  return flown;
+}
+
 /// Where random starts were drawn from, and their number when there are other starts too.
 std::string drawn_words(const SimulateArguments& arguments, std::size_t starts) {
   if (arguments.random == 0) return {};
@@ -88,7 +124,8 @@ bool put(const fs::path& path, const Session& session, const std::string& text) 
 
 void check_places(const SimulateArguments& arguments, const Session& session) {
   require_places({arguments.csv, arguments.outcomes, arguments.geojson, arguments.qgc},
-                 {arguments.plan, arguments.asked.file, arguments.fence}, session.existing());
+                 {arguments.plan, arguments.asked.file, arguments.fence, arguments.contract},
+                 session.existing());
 }
 
 /// What the exported plan keeps in addition to the mission.
@@ -134,7 +171,11 @@ int simulate_command(const SimulateArguments& arguments, const Session& session)
        degree_warnings(std::span(starts).first(given), plan.grid, frame_in(plan.record)))
     session.warn(warning);
   clock.begin("flying", unknown_time);
-  const ManyFlights flown = flights_asked_for(arguments, plan, starts, clock);
+  std::optional<FlownBehaviours> behaviours;
+  if (arguments.wants_behaviours())
+    behaviours = behaviours_asked_for(arguments, plan, starts, clock);
+  const ManyFlights flown = behaviours ? worst_of(*behaviours, arguments.wants_tracks())
+                                       : flights_asked_for(arguments, plan, starts, clock);
   terminal.reset();
 
   const double step_m = arguments.step_m > 0.0 ? arguments.step_m : plan.grid.cell_m;
@@ -163,10 +204,12 @@ int simulate_command(const SimulateArguments& arguments, const Session& session)
     if (frame_in(plan.record).is_on_earth())
       earth.emplace(frame_in(plan.record), arguments.plan.string());
     const EarthFrame* degrees = earth ? &*earth : nullptr;
-    nlohmann::json report = flight_json(starts, flown, degrees);
+    nlohmann::json report =
+        behaviours ? behaviour_json(*behaviours, degrees) : flight_json(starts, flown, degrees);
     report["plan"] = arguments.plan.string();
-    session.tell(report,
-                 flight_words(starts, flown, drawn_words(arguments, starts.size()), degrees));
+    const std::string drawn = drawn_words(arguments, starts.size());
+    session.tell(report, behaviours ? behaviour_words(*behaviours, drawn)
+                                    : flight_words(starts, flown, drawn, degrees));
   }
   return exit_done;
 }

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "fairway/base/error.hpp"
-
 namespace fairway {
 namespace {
 
@@ -29,6 +27,8 @@ const std::array<Vec2, directions>& compass() {
 }
 
 }  // namespace
+
+ConvexSet sum_of_ordered(const ConvexSet& set, const ConvexSet& step);
 
 ConvexSet ConvexSet::of_directions(std::span<const Vec2> points) {
   const auto& toward = compass();
@@ -87,22 +87,103 @@ ConvexSet ConvexSet::below(double a, double b, double c) const {
   return made;
 }
 
-ConvexSet ConvexSet::within(Vec2 lowest, Vec2 highest) const {
-  ConvexSet made = below(-1.0, 0.0, -lowest.x);
-  if (!made.empty()) made = made.below(1.0, 0.0, highest.x);
-  if (!made.empty()) made = made.below(0.0, -1.0, -lowest.y);
-  if (!made.empty()) made = made.below(0.0, 1.0, highest.y);
+Box ConvexSet::box() const {
+  Box box{corner_[0], corner_[0]};
+  for (std::size_t i = 1; i < size_; ++i) {
+    const Vec2 p = corner_[i];
+    box.lowest = {std::min(box.lowest.x, p.x), std::min(box.lowest.y, p.y)};
+    box.highest = {std::max(box.highest.x, p.x), std::max(box.highest.y, p.y)};
+  }
+  return box;
+}
+
+ConvexSet ConvexSet::within(const Box& box) const {
+  const Box own = this->box();
+  ConvexSet made = *this;
+  if (own.lowest.x < box.lowest.x) made = made.below(-1.0, 0.0, -box.lowest.x);
+  if (own.highest.x > box.highest.x) made = made.below(1.0, 0.0, box.highest.x);
+  if (own.lowest.y < box.lowest.y) made = made.below(0.0, -1.0, -box.lowest.y);
+  if (own.highest.y > box.highest.y) made = made.below(0.0, 1.0, box.highest.y);
   return made;
 }
 
-ConvexSet sum(const ConvexSet& set, std::span<const Vec2> steps) {
-  require(steps.size() <= 16, "sum: at most 16 steps");
-  std::array<Vec2, most_points> all;
-  std::size_t n = 0;
-  for (const Vec2 p : set.corners()) {
-    for (const Vec2 step : steps) all[n++] = {p.x + step.x, p.y + step.y};
+std::size_t ConvexSet::lowest_corner() const {
+  std::size_t at = 0;
+  for (std::size_t i = 1; i < size_; ++i) {
+    const Vec2 p = corner_[i];
+    const Vec2 q = corner_[at];
+    if (p.y < q.y || (p.y == q.y && p.x < q.x)) at = i;
   }
-  return ConvexSet::hull({all.data(), n});
+  return at;
+}
+
+/// Whether every edge turns left of the one before. Rounding can move a corner inwards by its last
+/// bits; where corners lie close, directions are then far off.
+bool ConvexSet::turns_left() const {
+  if (size_ < 3) return true;
+  Vec2 before = corner_[0] - corner_[size_ - 1];
+  for (std::size_t i = 0; i < size_; ++i) {
+    const Vec2 edge = corner_[i + 1 < size_ ? i + 1 : 0] - corner_[i];
+    if (!(cross(before, edge) > 0.0)) return false;
+    before = edge;
+  }
+  return true;
+}
+
+/// From its lowest corner, a sum goes along the edges of both, in the order of their directions.
+ConvexSet sum(const ConvexSet& set, const ConvexSet& step) {
+  if (set.empty() || step.empty()) return {};
+  if (!set.turns_left() || !step.turns_left()) {
+    const auto ordered = [](ConvexSet s) { return ConvexSet::hull({s.corner_.data(), s.size_}); };
+    return sum_of_ordered(ordered(set), ordered(step));
+  }
+  return sum_of_ordered(set, step);
+}
+
+ConvexSet sum_of_ordered(const ConvexSet& set, const ConvexSet& step) {
+  const std::size_t n = set.size_;
+  const std::size_t m = step.size_;
+  const std::size_t a = set.lowest_corner();
+  const std::size_t b = step.lowest_corner();
+  const auto edge = [](const ConvexSet& s, std::size_t from) {
+    return s.corner_[(from + 1) % s.size_] - s.corner_[from % s.size_];
+  };
+  std::array<Vec2, 2 * ConvexSet::capacity> corner;
+  std::size_t count = 0;
+  Vec2 at = set.corner_[a] + step.corner_[b];
+  const std::size_t edges_a = n > 1 ? n : 0;
+  const std::size_t edges_b = m > 1 ? m : 0;
+  for (std::size_t i = 0, j = 0; i < edges_a || j < edges_b;) {
+    corner[count++] = at;
+    if (i == edges_a) {
+      at = at + edge(step, b + j++);
+    } else if (j == edges_b) {
+      at = at + edge(set, a + i++);
+    } else {
+      const Vec2 e = edge(set, a + i);
+      const Vec2 f = edge(step, b + j);
+      const double across = e.x * f.y - e.y * f.x;
+      // Both point upwards or both downwards when their turn decides.
+      const bool up_e = e.y > 0.0 || (e.y == 0.0 && e.x > 0.0);
+      const bool up_f = f.y > 0.0 || (f.y == 0.0 && f.x > 0.0);
+      if (up_e != up_f) {
+        at = at + (up_e ? e : f);
+        ++(up_e ? i : j);
+      } else if (std::abs(across) <= 1e-14 * (std::abs(e.x * f.y) + std::abs(e.y * f.x))) {
+        at = at + e + f;
+        ++i;
+        ++j;
+      } else {
+        at = at + (across > 0.0 ? e : f);
+        ++(across > 0.0 ? i : j);
+      }
+    }
+  }
+  if (count == 0) corner[count++] = at;
+  if (count > ConvexSet::simple) return ConvexSet::of_directions({corner.data(), count});
+  ConvexSet made;
+  for (std::size_t i = 0; i < count; ++i) made.add(corner[i]);
+  return made;
 }
 
 }  // namespace fairway

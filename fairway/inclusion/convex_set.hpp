@@ -13,6 +13,11 @@
 
 namespace fairway {
 
+struct Box {
+  Vec2 lowest;
+  Vec2 highest;
+};
+
 class ConvexSet {
  public:
   /// Beyond `simple` corners the hull is that of sixteen directions.
@@ -29,20 +34,26 @@ class ConvexSet {
   /// What lies at a x + b y <= c.
   ConvexSet below(double a, double b, double c) const;
   /// What lies in the box.
-  ConvexSet within(Vec2 lowest, Vec2 highest) const;
+  ConvexSet within(const Box& box) const;
+  /// The smallest box around it; it is not empty.
+  Box box() const;
 
   /// The hull of points; they are put in order.
   static ConvexSet hull(std::span<Vec2> points);
 
  private:
+  friend ConvexSet sum(const ConvexSet& set, const ConvexSet& step);
+  friend ConvexSet sum_of_ordered(const ConvexSet& set, const ConvexSet& step);
+  bool turns_left() const;
   void add(Vec2 corner) { corner_[size_++] = corner; }
   static ConvexSet of_directions(std::span<const Vec2> points);
+  std::size_t lowest_corner() const;
 
   std::array<Vec2, capacity> corner_;
   std::size_t size_ = 0;
 };
 
-/// All sums of a place of `set` and one of the hull of `steps` (at most 16).
-ConvexSet sum(const ConvexSet& set, std::span<const Vec2> steps);
+/// All sums of a place of `set` and one of `step`.
+ConvexSet sum(const ConvexSet& set, const ConvexSet& step);
 
 }  // namespace fairway

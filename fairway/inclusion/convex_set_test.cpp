@@ -53,7 +53,7 @@ TEST(ConvexSet, ABoxCutsOutWhatLiesInIt) {
   for (int round = 0; round < 2000; ++round) {
     std::vector<Vec2> points = some_points(random, 3 + random.below(20));
     const ConvexSet set = ConvexSet::hull(points);
-    const ConvexSet cut = set.within({-1.0, -1.0}, {1.0, 1.5});
+    const ConvexSet cut = set.within({{-1.0, -1.0}, {1.0, 1.5}});
     for (const Vec2 p : cut.corners()) {
       EXPECT_TRUE(holds(set, p, 1e-9));
       EXPECT_TRUE(p.x >= -1.0 - 1e-12 && p.x <= 1.0 + 1e-12 && p.y >= -1.0 - 1e-12 &&
@@ -75,7 +75,7 @@ TEST(ConvexSet, ASumHoldsAllSums) {
     std::vector<Vec2> points = some_points(random, 1 + random.below(20));
     std::vector<Vec2> steps = some_points(random, 1 + random.below(12));
     const ConvexSet set = ConvexSet::hull(points);
-    const ConvexSet all = sum(set, steps);
+    const ConvexSet all = sum(set, ConvexSet::hull(steps));
     for (const Vec2 p : points) {
       for (const Vec2 step : steps) EXPECT_TRUE(holds(all, p + step, 1e-12));
     }

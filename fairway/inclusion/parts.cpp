@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <span>
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
@@ -33,51 +31,6 @@ double apart(double lo, double hi, double other_lo, double other_hi) {
 
 }  // namespace
 
-std::vector<float> filled_commands(const Grid& grid, const float* heading_rad) {
-  // First the nearest cell with a command in the same column, then along each row.
-  constexpr int none = -1;
-  std::vector<int> nearest_row(grid.size(), none);
-  for (int ix = 0; ix < grid.nx; ++ix) {
-    int below = none;
-    for (int iy = 0; iy < grid.ny; ++iy) {
-      if (!std::isnan(heading_rad[grid.index({ix, iy})])) below = iy;
-      nearest_row[grid.index({ix, iy})] = below;
-    }
-    int above = none;
-    for (int iy = grid.ny; iy-- > 0;) {
-      if (!std::isnan(heading_rad[grid.index({ix, iy})])) above = iy;
-      int& row = nearest_row[grid.index({ix, iy})];
-      if (above != none && (row == none || above - iy < iy - row)) row = above;
-    }
-  }
-  std::vector<float> filled(heading_rad, heading_rad + grid.size());
-  for_ranges(static_cast<std::size_t>(grid.ny), 1, [&](std::size_t a, std::size_t b) {
-    for (int iy = static_cast<int>(a); iy < static_cast<int>(b); ++iy) {
-      for (int ix = 0; ix < grid.nx; ++ix) {
-        if (!std::isnan(filled[grid.index({ix, iy})])) continue;
-        std::int64_t best = std::numeric_limits<std::int64_t>::max();
-        std::size_t from = grid.size();
-        for (std::int64_t dx = 0; dx < grid.nx && dx * dx <= best; ++dx) {
-          for (const int x : {ix - static_cast<int>(dx), ix + static_cast<int>(dx)}) {
-            if (x < 0 || x >= grid.nx) continue;
-            const int row = nearest_row[grid.index({x, iy})];
-            if (row == none) continue;
-            const std::int64_t dy = row - iy;
-            const std::int64_t distance = dx * dx + dy * dy;
-            const std::size_t candidate = grid.index({x, row});
-            if (distance < best || (distance == best && candidate < from)) {
-              best = distance;
-              from = candidate;
-            }
-          }
-        }
-        if (from < grid.size()) filled[grid.index({ix, iy})] = heading_rad[from];
-      }
-    }
-  });
-  return filled;
-}
-
 Parts::Parts(const Flow& flow, const VehicleContract& contract, int per_cell)
     : nx_(flow.grid.nx * per_cell),
       ny_(flow.grid.ny * per_cell),
@@ -95,6 +48,10 @@ Parts::Parts(const Flow& flow, const VehicleContract& contract, int per_cell)
   const double side = per_cell;  // of a cell, in parts
   const double reach = contract.command_error_m / part_m_ + 4.0 * place_slack;
   const double band = contract.heading_error_rad + 4.0 * heading_slack_rad;
+  // Wider, and a command at one end may turn a heading at the other out of the arc: by the
+  // uncertain side, or by a side held for a command as far on the other side.
+  const double widest =
+      std::min(pi - side_uncertain_rad_, 2.0 * hold_side_rad_) - 8.0 * heading_slack_rad;
   const auto cells_within = [&](double lo, double hi, int count) {
     const double far = count;
     return std::pair{static_cast<int>(std::clamp(std::floor((lo - reach) / side), 0.0, far - 1.0)),
@@ -127,7 +84,7 @@ Parts::Parts(const Flow& flow, const VehicleContract& contract, int per_cell)
           continue;
         }
         arc_[at] = smallest_arc(headings).widened(band);
-        if (arc_[at].width_rad >= pi) kind_[at] = PartKind::wild;
+        if (arc_[at].width_rad >= widest) kind_[at] = PartKind::wild;
       }
     }
   });

@@ -8,8 +8,9 @@
 // Properties that always hold:
 //   1. The arc of an ordinary part holds every command that the contract allows to be in force at
 //      any position of the part, or within `place_slack` of it, with `heading_slack_rad` to spare.
-//   2. An arc is narrower than pi; a part whose arc would not be is `wild`, and nothing is claimed
-//      there.
+//   2. An arc is narrower than pi - side_uncertain_rad and than 2 hold_side_rad, so that a heading
+//   in
+//      it stays in it; a part whose arc would not be is `wild`, and nothing is claimed there.
 #pragma once
 
 #include <cstddef>
@@ -18,6 +19,7 @@
 
 #include "fairway/inclusion/heading_arc.hpp"
 #include "fairway/vehicle/contract.hpp"
+#include "fairway/vehicle/filled_commands.hpp"
 #include "fairway/verify/flow.hpp"
 
 namespace fairway {
@@ -72,10 +74,5 @@ class Parts {
   std::vector<PartKind> kind_;
   std::vector<HeadingArc> arc_;
 };
-
-/// The command of every cell, [iy][ix]: its own, else that of the nearest cell that has one, by
-/// distance between centres, of equally near ones the first in the array. NaN everywhere when no
-/// cell has a command.
-[[nodiscard]] std::vector<float> filled_commands(const Grid& grid, const float* heading_rad);
 
 }  // namespace fairway

@@ -97,8 +97,8 @@ TEST(PlanFile, HoldsAContractThatSuitsItsVehicle) {
     ADD_FAILURE() << "accepted";
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()),
-              "p: fairway.contract.turn_radius_m: is [5.1, 5.5] m and leaves out the plan's own 5 "
-              "m, expected a range that holds it, such as [5, 5.5]");
+              "p: fairway.contract.turn_radius_m: is [5.1, 5.5] m and does not contain the plan's "
+              "5 m, expected a range that contains it, such as [5, 5.5]");
   }
   plan.record.contract->turn_radius_m = {5.1, 5.5};
   EXPECT_THROW(bytes_of(plan), PreconditionViolation);

@@ -52,4 +52,19 @@ std::string contract_toml(const VehicleContract& contract) {
   return text;
 }
 
+std::string contract_words(const VehicleContract& c) {
+  const auto range = [](SizeRange r) {
+    return r.least == r.most ? fmt::format("{:g}", r.least)
+                             : fmt::format("{:g} to {:g}", r.least, r.most);
+  };
+  std::string words =
+      fmt::format("keeps a contract: the command of a place within {:g} m", c.command_error_m);
+  if (c.look_ahead_m > 0.0) words += fmt::format(" of the point {:g} m ahead", c.look_ahead_m);
+  words += fmt::format(", give or take {:g} rad; turns of {} m; {} m/s", c.heading_error_rad,
+                       range(c.turn_radius_m), range(c.speed_mps));
+  if (c.wind_mps > 0.0)
+    words += fmt::format(" through air that moves at up to {:g} m/s", c.wind_mps);
+  return words;
+}
+
 }  // namespace fairway

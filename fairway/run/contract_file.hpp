@@ -26,4 +26,8 @@ namespace fairway {
 /// A table [vehicle.contract] with every key, which read_contract() gives back exactly.
 [[nodiscard]] std::string contract_toml(const VehicleContract& contract);
 
+/// "keeps a contract: the command of a place within 6 m, give or take 0.035 rad; turns of 18 to 22
+/// m; 9 to 11 m/s".
+[[nodiscard]] std::string contract_words(const VehicleContract& contract);
+
 }  // namespace fairway

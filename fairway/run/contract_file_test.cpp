@@ -79,11 +79,11 @@ TEST(ContractsInScenarios, AreRefusedAtTheLineOfTheKey) {
     const char* message;
   } cases[] = {
       {"turn_radius_m = [22, 18]",
-       "s.toml:11: vehicle.contract.turn_radius_m: is [22, 18] m, expected the least first: [18, "
-       "22]"},
+       "s.toml:11: vehicle.contract.turn_radius_m: is [22, 18] m, expected the smaller number "
+       "first: [18, 22]"},
       {"speed_mps = [11, 12]",
-       "s.toml:11: vehicle.contract.speed_mps: is [11, 12] m/s and leaves out the plan's own 10 "
-       "m/s, expected a range that holds it, such as [10, 12]"},
+       "s.toml:11: vehicle.contract.speed_mps: is [11, 12] m/s and does not contain the plan's 10 "
+       "m/s, expected a range that contains it, such as [10, 12]"},
       {"command_error_m = -1",
        "s.toml:11: vehicle.contract.command_error_m: is -1 m, expected 0 to 1e15"},
       {"heading_error_rad = 2.0",
@@ -142,6 +142,9 @@ TEST(ContractsInScenarios, AreSetFromTheCommandLine) {
   EXPECT_EQ(refusal([&] { return with(scenario_with, "vehicle.contract.wind_mps=11"); }),
             "--set: vehicle.contract.wind_mps: is 11 m/s, expected less than the least speed, 10 "
             "m/s: the wind carries a slower vehicle away");
+  EXPECT_EQ(refusal([&] { return with(scenario_with, "vehicle.contract={}"); }),
+            "--set: vehicle.contract: is a table, expected one of its keys, such as "
+            "vehicle.contract.command_error_m");
   // A radius set beside a contract takes part, too.
   EXPECT_EQ(with(scenario_without + "[vehicle.contract]\n", "vehicle.turn_radius_m=30")
                 .contract->turn_radius_m,
@@ -151,6 +154,12 @@ TEST(ContractsInScenarios, AreSetFromTheCommandLine) {
 TEST(ContractsInScenarios, StandInThePlansRecordAndTheSummaryIfThereAreAny) {
   const Scenario with = scenario_of_text(scenario_with, "s.toml");
   const Scenario without = scenario_of_text(scenario_without, "s.toml");
+  const ObstacleMap map;
+  const Mission mission = GoalMission{};
+  EXPECT_EQ(plan_record(with, map, mission).contract, contract_with());
+  EXPECT_FALSE(plan_record(without, map, mission).contract);
+  EXPECT_EQ(plan_record(with, map, mission).options_json,
+            plan_record(without, map, mission).options_json);
   EXPECT_EQ(effective_values(with, "vehicle")["contract"]["turn_radius_m"],
             (nlohmann::json{18.0, 22.0}));
   EXPECT_EQ(effective_values(without, "vehicle"),
@@ -164,10 +173,9 @@ TEST(ContractFiles, AreAContractAloneOrAWholeScenario) {
   EXPECT_EQ(contract_of_text("[vehicle.contract]\n", "c.toml", vehicle),
             VehicleContract::of(vehicle));
   // Its own vehicle says what its ranges are.
-  EXPECT_EQ(
-      refusal_of_contract("[vehicle]\nturn_radius_m = 25\n[vehicle.contract]\n"),
-      "c.toml: vehicle.contract.turn_radius_m: is [25, 25] m and leaves out the plan's own 20 "
-      "m, expected a range that holds it, such as [20, 25]");
+  EXPECT_EQ(refusal_of_contract("[vehicle]\nturn_radius_m = 25\n[vehicle.contract]\n"),
+            "c.toml: vehicle.contract.turn_radius_m: is [25, 25] m and does not contain the plan's "
+            "20 m, expected a range that contains it, such as [20, 25]");
 }
 
 TEST(ContractFiles, WithoutAContractSaySo) {
@@ -181,8 +189,8 @@ TEST(ContractFiles, WithoutAContractSaySo) {
             "c.toml:1: command_error_m: there is no such key; did you mean "
             "vehicle.contract.command_error_m?");
   EXPECT_EQ(refusal_of_contract("[vehicle.contract]\n\nturn_radius_m = [22, 18]\n"),
-            "c.toml:3: vehicle.contract.turn_radius_m: is [22, 18] m, expected the least first: "
-            "[18, 22]");
+            "c.toml:3: vehicle.contract.turn_radius_m: is [22, 18] m, expected the smaller number "
+            "first: [18, 22]");
 }
 
 TEST(ContractFiles, GiveBackWhatWasWritten) {
@@ -204,6 +212,20 @@ TEST(ContractFiles, GiveBackWhatWasWritten) {
             "[vehicle.contract]\ncommand_error_m = 6.0\nlook_ahead_m = 0.0\nheading_error_rad = "
             "0.035\nturn_radius_m = [18.0, 22.0]\nspeed_mps = [10.0, 10.0]\nhold_side_rad = "
             "1.5707963267948966\nside_uncertain_rad = 0.0\nwind_mps = 0.0\n");
+}
+
+TEST(ContractFiles, AreToldInASentence) {
+  VehicleContract c = contract_with();
+  EXPECT_EQ(contract_words(c),
+            "keeps a contract: the command of a place within 6 m, give or take 0.035 rad; turns of "
+            "18 to 22 m; 10 m/s");
+  c.look_ahead_m = 3.0;
+  c.wind_mps = 2.5;
+  c.speed_mps = {9.0, 11.0};
+  EXPECT_EQ(
+      contract_words(c),
+      "keeps a contract: the command of a place within 6 m of the point 3 m ahead, give or take "
+      "0.035 rad; turns of 18 to 22 m; 9 to 11 m/s through air that moves at up to 2.5 m/s");
 }
 
 }  // namespace

@@ -44,6 +44,10 @@ void refuse_unknown_key(const std::string& name, const std::string& place) {
   for (const ScenarioKey& key : scenario_keys()) {
     names.push_back(key.name);
     tables.insert(key.table());
+    if (key.table() == name) {
+      throw InputError(place, fmt::format("{}: is a table, expected one of its keys, such as {}",
+                                          name, key.name));
+    }
   }
   const bool is_table = name.find('.') == std::string::npos;
   for (const std::string& table : tables) {

@@ -9,6 +9,7 @@
 #include <tbb/global_control.h>
 
 #include "fairway/base/share_text.hpp"
+#include "fairway/run/contract_file.hpp"
 #include "fairway/run/findings.hpp"
 #include "fairway/run/scenario_keys.hpp"
 #include "fairway/run/version.hpp"
@@ -121,10 +122,15 @@ json plan_summary(const Scenario& scenario, const Plan& plan) {
 std::string grid_words(const Plan& plan) {
   const RegionCells regions = count_regions(plan);
   const std::size_t n = plan.grid.size();
-  return fmt::format("A plan of {} x {} cells of {:g} m: {} free, {} buffer, {} obstacle, {}.",
-                     plan.grid.nx, plan.grid.ny, plan.grid.cell_m, percent_text(regions.free, n),
-                     percent_text(regions.buffer, n), percent_text(regions.obstacle, n),
-                     plural(regions.goal, "goal cell"));
+  std::string words =
+      fmt::format("A plan of {} x {} cells of {:g} m: {} free, {} buffer, {} obstacle, {}.",
+                  plan.grid.nx, plan.grid.ny, plan.grid.cell_m, percent_text(regions.free, n),
+                  percent_text(regions.buffer, n), percent_text(regions.obstacle, n),
+                  plural(regions.goal, "goal cell"));
+  if (plan.record.contract) {
+    words += fmt::format(" Its vehicle {}.", contract_words(*plan.record.contract));
+  }
+  return words;
 }
 
 std::string plan_words(const Plan& plan) {

@@ -5,9 +5,9 @@
 //   1. The command in force is that of some position within `command_error_m` of p (or of the point
 //      `look_ahead_m` ahead of p), give or take `heading_error_rad`; both errors change as they
 //      like. A cell without a command has that of the nearest cell with one (filled_commands).
-//   2. While h differs from the command in force by more than the heading error, the vehicle turns
-//      towards it, with a radius anywhere in `turn_radius_m`. Within the error it may do anything
-//      that stays within.
+//   2. While h differs from the command in force, the vehicle turns towards it, with a radius
+//      anywhere in `turn_radius_m`. Within the heading error of such a cell's command it may do
+//      anything that stays within, but never turn more sharply than the least radius.
 //   3. It turns through the smaller angle. When the command lies farther than `hold_side_rad` from
 //      the heading, the side first taken is kept for as long as it does. Within
 //      `side_uncertain_rad` of opposite either side may be taken.

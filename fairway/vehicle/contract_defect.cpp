@@ -39,25 +39,23 @@ Defect defect_of_range(const char* key, SizeRange range, const char* unit, doubl
         key, fmt::format("is {}, expected two numbers above 0 and at most 1e15", shown)};
   }
   if (range.least > range.most) {
-    return ContractDefect{key, fmt::format("is {}, expected the least first: [{}, {}]", shown,
-                                           range.most, range.least)};
+    return ContractDefect{key, fmt::format("is {}, expected the smaller number first: [{}, {}]",
+                                           shown, range.most, range.least)};
   }
   if (range.least > nominal || range.most < nominal) {
-    return ContractDefect{
-        key, fmt::format("is {} and leaves out the plan's own {} {}, expected a range that holds "
-                         "it, such as [{}, {}]",
-                         shown, nominal, unit, std::min(range.least, nominal),
-                         std::max(range.most, nominal))};
+    return ContractDefect{key, fmt::format("is {} and does not contain the plan's {} {}, expected "
+                                           "a range that contains it, such as [{}, {}]",
+                                           shown, nominal, unit, std::min(range.least, nominal),
+                                           std::max(range.most, nominal))};
   }
   return {};
 }
 
 Defect defect_of_wind(double wind_mps, double least_speed_mps) {
   if (wind_mps < least_speed_mps) return defect_of_amount("wind_mps", wind_mps, "m/s");
-  return ContractDefect{
-      "wind_mps", fmt::format("is {} m/s, expected less than the least speed, {} m/s: the wind "
-                              "carries a slower vehicle away",
-                              wind_mps, least_speed_mps)};
+  return ContractDefect{"wind_mps", fmt::format("is {} m/s, expected less than the least speed, {} "
+                                                "m/s: the wind carries a slower vehicle away",
+                                                wind_mps, least_speed_mps)};
 }
 
 }  // namespace

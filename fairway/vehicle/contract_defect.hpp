@@ -11,7 +11,7 @@ namespace fairway {
 
 struct ContractDefect {
   std::string key;   ///< "turn_radius_m"
-  std::string what;  ///< "is [22, 18] m, expected the least first: [18, 22]"
+  std::string what;  ///< "is [22, 18] m, expected the smaller number first: [18, 22]"
 };
 
 /// The first defect of `contract` for the plan's vehicle, in one sentence with its cure; none when

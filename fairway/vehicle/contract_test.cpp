@@ -140,12 +140,12 @@ TEST(Contracts, ThatNoVehicleKeepsAreRefusedInASentenceWithTheCure) {
        "p.heading_error_rad: is -0.1 rad, expected at least 0 and less than a quarter turn, "
        "1.5708"},
       {[](auto& c) { c.heading_error_rad = 2; },
-       "p.heading_error_rad: is 2 rad, expected at least 0 and less than a quarter turn, 1.5708; "
-       "2 degrees are 0.034907 rad"},
+       "p.heading_error_rad: is 2 rad, expected at least 0 and less than a quarter turn, 1.5708; 2 "
+       "degrees are 0.034907 rad"},
       {[](auto& c) {
          c.turn_radius_m = {22, 18};
        },
-       "p.turn_radius_m: is [22, 18] m, expected the least first: [18, 22]"},
+       "p.turn_radius_m: is [22, 18] m, expected the smaller number first: [18, 22]"},
       {[](auto& c) {
          c.turn_radius_m = {0, 22};
        },
@@ -157,22 +157,22 @@ TEST(Contracts, ThatNoVehicleKeepsAreRefusedInASentenceWithTheCure) {
       {[](auto& c) {
          c.turn_radius_m = {21, 22};
        },
-       "p.turn_radius_m: is [21, 22] m and leaves out the plan's own 20 m, expected a range that "
-       "holds it, such as [20, 22]"},
+       "p.turn_radius_m: is [21, 22] m and does not contain the plan's 20 m, expected a range that "
+       "contains it, such as [20, 22]"},
       {[](auto& c) {
          c.turn_radius_m = {18, 19};
        },
-       "p.turn_radius_m: is [18, 19] m and leaves out the plan's own 20 m, expected a range that "
-       "holds it, such as [18, 20]"},
+       "p.turn_radius_m: is [18, 19] m and does not contain the plan's 20 m, expected a range that "
+       "contains it, such as [18, 20]"},
       {[](auto& c) {
          c.speed_mps = {11, 9};
        },
-       "p.speed_mps: is [11, 9] m/s, expected the least first: [9, 11]"},
+       "p.speed_mps: is [11, 9] m/s, expected the smaller number first: [9, 11]"},
       {[](auto& c) {
          c.speed_mps = {11, 12};
        },
-       "p.speed_mps: is [11, 12] m/s and leaves out the plan's own 10 m/s, expected a range that "
-       "holds it, such as [10, 12]"},
+       "p.speed_mps: is [11, 12] m/s and does not contain the plan's 10 m/s, expected a range that "
+       "contains it, such as [10, 12]"},
       {[](auto& c) { c.hold_side_rad = 0; },
        "p.hold_side_rad: is 0 rad, expected more than 0 and at most half a turn, 3.14159265"},
       {[](auto& c) { c.hold_side_rad = 90; },

@@ -97,6 +97,8 @@ class Plan:
     @property
     def vehicle(self) -> Dict[str, float]: ...
     @property
+    def contract(self) -> Optional[Dict[str, Any]]: ...
+    @property
     def record(self) -> Dict[str, Any]: ...
     def command(
         self, x_m: float, y_m: float, heading_rad: float
@@ -382,6 +384,9 @@ class RunResult:
     @property
     def warnings(self) -> List[str]: ...
 
+def read_contract(
+    path: _Path, *, speed_mps: float, turn_radius_m: float
+) -> Dict[str, Any]: ...
 def read_map(
     file: _Path,
     cell_m: float,

@@ -198,3 +198,26 @@ def test_a_command_is_that_of_the_cell_and_a_turn_through_the_smaller_angle(plan
     for x, y, h in [(-1e9, 0, 0), (1e300, 0, 0), (float("nan"), 0, 0), (0, 0, float("inf"))]:
         heading, turn = plan.command(x, y, h)
         assert np.isnan(heading) and turn == 0
+
+
+CONTRACT = {"command_error_m": 6.0, "look_ahead_m": 0.0, "heading_error_rad": 0.035,
+            "turn_radius_m": [18.0, 22.0], "speed_mps": [10.0, 10.0],
+            "hold_side_rad": np.pi / 2, "side_uncertain_rad": 0.0, "wind_mps": 0.0}
+
+
+def test_a_contract_of_the_scenario_stands_in_the_plan(tmp_path, source, command):
+    file = tmp_path / "contract.toml"
+    file.write_text("[vehicle.contract]\ncommand_error_m = 6\nheading_error_rad = 0.035\n"
+                    "turn_radius_m = [18, 22]\n")
+    assert fairway.read_contract(file, speed_mps=10.0, turn_radius_m=20.0) == CONTRACT
+    with pytest.raises(fairway.InputError, match="contract.toml:4: vehicle.contract.turn_radius_m"):
+        fairway.read_contract(file, speed_mps=10.0, turn_radius_m=30.0)
+    plans = {}
+    for name, more in {"with": ["--set", "vehicle.contract.command_error_m=6"], "without": []}.items():
+        out = tmp_path / f"{name}.safetensors"
+        command("plan", source / "demo/demo.toml", "-o", out, "--quiet", *more)
+        plans[name] = fairway.load_plan(out)
+    assert plans["without"].contract is None and "contract" not in plans["without"].record
+    assert plans["with"].contract["command_error_m"] == 6.0
+    assert plans["with"].record["contract"] == plans["with"].contract
+    assert np.array_equal(plans["with"].heading_rad, plans["without"].heading_rad, equal_nan=True)

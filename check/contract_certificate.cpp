@@ -1,0 +1,124 @@
+#include "check/contract_certificate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "check/tensors.hpp"
+
+namespace fairway_check {
+namespace {
+
+constexpr const char* contract_format = "fairway-contract-certificate";
+
+/// A part this close to half a turn may be called wild, although its arc is narrower by the slack
+/// that the certificate's author allows for.
+constexpr double almost_wild = std::numbers::pi - 1e-3;
+
+void take_arrays(const TensorFile& file, ContractCertificate& c) {
+  require(file.tensors.size() == 10, "does not have the arrays of a contract certificate",
+          unreadable);
+  take_plan_arrays(file, c.geometry, c.loop, c.region);
+  const nlohmann::json& k = file.record.at("parts_per_cell");
+  require(k.is_number_unsigned() && k >= 1U && k <= 16U, "parts_per_cell: expected 1 to 16");
+  c.parts.per_cell = k.get<int>();
+  const std::uint64_t parts =
+      c.loop.kind.size() * static_cast<std::uint64_t>(c.parts.per_cell * c.parts.per_cell);
+  require(parts < 1U << 29, "parts_per_cell: makes too many parts");
+  c.first = values<std::uint32_t>(file, "section_first", "U32", {4 * parts + 1});
+  const std::vector<std::uint64_t> leaves{c.first.back()};
+  c.begin = values<std::uint32_t>(file, "leaf_begin", "U32", leaves);
+  c.group = values<std::uint32_t>(file, "leaf_group", "U32", leaves);
+  c.verdict = values<std::uint8_t>(file, "leaf_verdict", "U8", leaves);
+  require(file.tensors.contains("group_time_s"), "group_time_s: is missing", unreadable);
+  const std::vector<std::uint64_t> groups = file.tensors.at("group_time_s").shape;
+  require(groups.size() == 1 && groups[0] >= 1, "group_time_s: is not a list", unreadable);
+  c.group_time_s = values<float>(file, "group_time_s", "F32", groups);
+  c.group_heading_rad = values<float>(file, "group_heading_rad", "F32", groups);
+}
+
+void require_groups(const ContractCertificate& c) {
+  require(std::isnan(c.group_heading_rad[0]) && c.group_time_s[0] > 0.0F &&
+              std::isinf(c.group_time_s[0]),
+          "group 0: expected no direction and no bound");
+  for (std::size_t g = 1; g < c.group_time_s.size(); ++g) {
+    const float u = c.group_heading_rad[g];
+    require((std::isnan(u) || std::abs(u) <= 3.2F) && c.group_time_s[g] >= 0.0F &&
+                std::isfinite(c.group_time_s[g]),
+            fmt::format("group {}: has an invalid direction or time", g));
+  }
+}
+
+void require_leaves(ContractCertificate& c) {
+  require(c.first.front() == 0 && std::is_sorted(c.first.begin(), c.first.end()),
+          "section_first: does not ascend from 0");
+  for (std::size_t part = 0; part < c.parts.kind.size(); ++part) {
+    Arc& arc = c.parts.arc[part];
+    const bool is_ordinary = c.parts.kind[part] == ordinary && arc.width < std::numbers::pi;
+    const bool has_leaves = c.first[4 * part] < c.first[4 * part + 1];
+    if (is_ordinary && !has_leaves && arc.width > almost_wild) arc = {};
+    const bool expected = is_ordinary && arc.width < std::numbers::pi;
+    for (std::size_t s = 4 * part; s < 4 * part + 4; ++s) {
+      require((c.first[s] < c.first[s + 1]) == expected,
+              "a section has leaves where it cannot have any, or none where it must");
+      for (std::size_t leaf = c.first[s]; leaf < c.first[s + 1]; ++leaf) {
+        const bool in_order =
+            leaf == c.first[s] ? c.begin[leaf] == 0 : c.begin[leaf - 1] < c.begin[leaf];
+        const std::uint8_t v = c.verdict[leaf];
+        const bool has_group = v == reach || v == collide || v == leave;
+        if (in_order && v < verdict_count && c.group[leaf] < c.group_time_s.size() &&
+            (c.group[leaf] > 0) == has_group) {
+          continue;
+        }
+        require(false, c.name_of(leaf) + (in_order ? ": has an invalid verdict or group"
+                                                   : ": leaves do not ascend from the side's "
+                                                     "start"));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::size_t ContractCertificate::section_of(std::size_t leaf) const {
+  const auto next = std::upper_bound(first.begin(), first.end(), leaf);
+  return static_cast<std::size_t>(next - first.begin()) - 1;
+}
+
+std::string ContractCertificate::name_of(std::size_t leaf) const {
+  const std::size_t s = section_of(leaf);
+  const Cell part = parts.part_at(s / 4);
+  return fmt::format("leaf {} ({} on side {} of part ({}, {}))", leaf, leaf - first[s], s % 4,
+                     part.x, part.y);
+}
+
+bool is_contract_certificate(const std::string& path) {
+  const TensorFile file = read_tensors(path);
+  return file.record.at("format") == contract_format;
+}
+
+ContractCertificate read_contract_certificate(const std::string& path, const std::string& plan) {
+  const TensorFile file = read_tensors(path);
+  ContractCertificate c;
+  c.record = file.record;
+  require(file.record.at("format") == contract_format &&
+              file.record.at("format_version").is_number_unsigned() &&
+              file.record.at("format_version") == 1 && file.record.at("method") == "contract",
+          "is not a contract certificate of format_version 1 and method \"contract\"", unreadable);
+  require_digests(file);
+  take_arrays(file, c);
+  if (!plan.empty()) require_plan(file, c.geometry, plan);
+  require_cells(c.geometry, c.loop, c.region, file.record.at("region_of_interest"));
+  c.contract = contract_of(file.record.at("contract"));
+  const auto radius = file.record.at("contract").at("turn_radius_m").get<std::vector<double>>();
+  require(radius[0] <= c.geometry.turn_radius_m && c.geometry.turn_radius_m <= radius[1],
+          "contract: turn_radius_m: does not hold the plan's turning radius");
+  c.parts = parts_of(c.loop, c.geometry.cell_m, c.parts.per_cell, c.contract);
+  require_groups(c);
+  require_leaves(c);
+  return c;
+}
+
+}  // namespace fairway_check

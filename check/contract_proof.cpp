@@ -1,0 +1,250 @@
+#include "check/contract_proof.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "check/contract_flight.hpp"
+#include "check/tensors.hpp"
+
+namespace fairway_check {
+namespace {
+
+/// Progress is claimed only by headings that are this much less than 90 degrees from its direction.
+constexpr double least_margin = 1e-3;
+/// Above all rounding in sums of a few hundred times.
+constexpr double time_margin = 1.0 + 1e-9;
+
+/// What is claimed about all places where the behaviours of a set cross or end.
+class Outcome : public Sightings {
+ public:
+  /// `group`: that of the leaf that the set is; `verdict`: what is claimed of it.
+  explicit Outcome(const ContractCertificate& c, std::uint32_t group = 0,
+                   std::uint8_t verdict = verdict_count)
+      : c_(c),
+        group_(group),
+        verdict_(verdict),
+        seconds_(c.parts.side_m / c.contract.least_speed * time_margin) {}
+
+  void cross(std::size_t part, int side, double low, double high, const Past& past) override {
+    const std::size_t section = 4 * part + static_cast<std::size_t>(side);
+    const auto from = c_.begin.begin() + c_.first[section];
+    const auto to = c_.begin.begin() + c_.first[section + 1];
+    if (from == to) tell(undecided);
+    auto at = std::lower_bound(from, to, low * 0x1p32);
+    if (at != from) --at;  // reaches up to `low`, or ends there
+    for (; at != to && !(*at > high * 0x1p32); ++at) {
+      const auto leaf = static_cast<std::size_t>(at - c_.begin.begin());
+      const std::uint32_t group = c_.group[leaf];
+      tell(c_.verdict[leaf]);
+      most_group = std::max(most_group, group);
+      if (group_ != 0 && group == group_) {
+        stray(past);
+      } else {
+        onwards_s = std::max(onwards_s,
+                             past.length * seconds_ + static_cast<double>(c_.group_time_s[group]));
+      }
+    }
+  }
+  void end(Verdict verdict, const Past& past) override {
+    tell(verdict);
+    onwards_s = std::max(onwards_s, past.length * seconds_);
+  }
+  void give_up() override { gave_up = true; }
+  /// Once it is clear that they have several outcomes, or another one than is claimed.
+  bool has_enough() const override {
+    const unsigned good = verdict_ < verdict_count ? told & 1U << verdict_ : told;
+    return gave_up || told != good || std::popcount(told) > 1;
+  }
+
+  /// The verdict of all; undecided when there are several, or nothing was reported.
+  Verdict verdict() const {
+    return !gave_up && std::has_single_bit(told) ? static_cast<Verdict>(std::countr_zero(told))
+                                                 : undecided;
+  }
+
+  unsigned told = 0;  ///< a bit for every verdict
+  bool gave_up = false;
+  std::uint32_t most_group = 0;
+  double onwards_s = 0.0;    ///< until an end, or to the end of what a lower group claims
+  double astray_rad = -1.0;  ///< farthest from the group's direction, on a link inside it
+
+ private:
+  void tell(std::uint8_t verdict) { told |= 1U << verdict; }
+  /// A link inside the group: all headings on the way count.
+  void stray(const Past& past) {
+    const double u = c_.group_heading_rad[group_];
+    const double middle = 0.5 * (past.least_rad + past.most_rad);
+    const double off = std::abs(std::remainder(middle - u, 2.0 * std::numbers::pi)) +
+                       0.5 * (past.most_rad - past.least_rad);
+    astray_rad = std::isnan(off) ? HUGE_VAL : std::max(astray_rad, off);
+  }
+
+  const ContractCertificate& c_;
+  std::uint32_t group_;
+  std::uint8_t verdict_;
+  double seconds_;
+};
+
+/// What a leaf adds to the bound of its group.
+struct Share {
+  double onwards_s = 0.0;
+  double astray_rad = -1.0;
+};
+
+/// The rule for one leaf: "" when it holds, else why not.
+std::string defect_of_leaf(const ContractCertificate& c, Behaviours& behaviours,
+                           std::size_t section, std::size_t leaf, Share& share) {
+  const std::uint8_t verdict = c.verdict[leaf];
+  const std::uint32_t group = c.group[leaf];
+  Outcome outcome(c, group, verdict);
+  behaviours.follow_leaf(section / 4, static_cast<int>(section % 4), c.begin_of(leaf),
+                         c.end_of(section, leaf), outcome);
+  share = {outcome.onwards_s, outcome.astray_rad};
+  if (outcome.gave_up) return "its behaviours cannot be followed";
+  if (outcome.verdict() != verdict) {
+    std::string told = "re-proved outcomes:";
+    for (unsigned v = 0; v < verdict_count; ++v)
+      told += (outcome.told >> v & 1U) != 0 ? fmt::format(" {}", verdict_name[v]) : "";
+    return told;
+  }
+  if (verdict == trapped) return {};
+  if (outcome.most_group > group) {
+    return fmt::format("its group is {}, but its behaviours come to a leaf of group {}", group,
+                       outcome.most_group);
+  }
+  if (outcome.astray_rad >= 0.0 && std::isnan(c.group_heading_rad[group])) {
+    return fmt::format("its group {} has no direction, but its behaviours come back to it", group);
+  }
+  if (outcome.astray_rad > 0.5 * std::numbers::pi - least_margin + angle_slack) {
+    return fmt::format(
+        "behaviours come back to its group {} with headings {:.6f} rad from the "
+        "direction of progress",
+        group, outcome.astray_rad);
+  }
+  return {};
+}
+
+/// Which leaves are decided and fail, 1 or 0.
+std::vector<std::uint8_t> failing_leaves(const ContractCertificate& c, std::vector<Share>& shares) {
+  std::vector<std::uint8_t> fails(c.verdict.size());
+  shares.resize(c.verdict.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, c.parts.kind.size(), 16),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      Behaviours behaviours(c.parts, c.contract);
+                      for (std::size_t s = 4 * range.begin(); s < 4 * range.end(); ++s) {
+                        for (std::size_t leaf = c.first[s]; leaf < c.first[s + 1]; ++leaf) {
+                          if (c.verdict[leaf] == undecided) continue;
+                          const std::string why =
+                              defect_of_leaf(c, behaviours, s, leaf, shares[leaf]);
+                          fails[leaf] = why.empty() ? 0 : 1;
+                        }
+                      }
+                    });
+  return fails;
+}
+
+/// Inside a group every behaviour gains at least cos(astray) of its way along u, so it is among its
+/// leaves for no longer than their extent along u takes; then it goes on from one of them.
+struct GroupBound {
+  double onwards_s = 0.0;
+  double astray_rad = -1.0;
+  double least_m = HUGE_VAL;
+  double most_m = -HUGE_VAL;
+};
+
+std::string defect_of_groups(const ContractCertificate& c, const std::vector<Share>& shares) {
+  std::vector<GroupBound> groups(c.group_time_s.size());
+  for (std::size_t s = 0; s + 1 < c.first.size(); ++s) {
+    for (std::size_t leaf = c.first[s]; leaf < c.first[s + 1]; ++leaf) {
+      if (c.group[leaf] == 0) continue;
+      GroupBound& g = groups[c.group[leaf]];
+      g.onwards_s = std::max(g.onwards_s, shares[leaf].onwards_s);
+      g.astray_rad = std::max(g.astray_rad, shares[leaf].astray_rad);
+      const double u = c.group_heading_rad[c.group[leaf]];
+      if (std::isnan(u)) continue;
+      const Cell part = c.parts.part_at(s / 4);
+      const Shape ends = places_on(static_cast<int>(s % 4), c.begin_of(leaf), c.end_of(s, leaf));
+      for (const Point p : ends.corners()) {
+        const double along =
+            c.parts.side_m * ((part.x + p.x) * std::cos(u) + (part.y + p.y) * std::sin(u));
+        g.least_m = std::min(g.least_m, along);
+        g.most_m = std::max(g.most_m, along);
+      }
+    }
+  }
+  for (std::size_t i = 1; i < groups.size(); ++i) {
+    const GroupBound& g = groups[i];
+    const bool inside = g.astray_rad >= 0.0;
+    const double inside_s = inside ? (g.most_m - g.least_m + touch * c.parts.side_m) /
+                                         (c.contract.least_speed * std::cos(g.astray_rad))
+                                   : 0.0;
+    const double worst_s = (inside_s + g.onwards_s) * time_margin;
+    if (worst_s <= static_cast<double>(c.group_time_s[i])) continue;
+    return fmt::format("group {} takes up to {:.9g} s, but {:.9g} s is claimed", i, worst_s,
+                       c.group_time_s[i]);
+  }
+  return "";
+}
+
+}  // namespace
+
+Told told_of_state(const ContractCertificate& c, std::size_t cell, double x, double y,
+                   double heading_rad) {
+  const int k = c.parts.per_cell;
+  const Cell in = c.loop.cell_at(cell);
+  const auto split = [k](double at, int& part) {
+    const double from_corner = (at + 0.5) * k;
+    part = std::clamp(static_cast<int>(from_corner), 0, k - 1);
+    return from_corner - part;
+  };
+  Cell part;
+  const double place_x = split(x, part.x);
+  const double place_y = split(y, part.y);
+  Outcome outcome(c);
+  Behaviours(c.parts, c.contract)
+      .follow_state(c.parts.index({in.x * k + part.x, in.y * k + part.y}), place_x, place_y,
+                    heading_rad, outcome);
+  return {outcome.verdict(), outcome.onwards_s};
+}
+
+std::string judge_contract(const std::string& path, const std::string& plan, std::size_t samples,
+                           nlohmann::ordered_json& report) try {
+  const ContractCertificate c = read_contract_certificate(path, plan);
+  for (std::size_t v = 0; v < verdict_count; ++v) {
+    report["leaves"][verdict_name[v]] = std::count(c.verdict.begin(), c.verdict.end(), v);
+  }
+  std::vector<Share> shares;
+  const std::vector<std::uint8_t> fails = failing_leaves(c, shares);
+  const auto first =
+      static_cast<std::size_t>(std::find(fails.begin(), fails.end(), 1) - fails.begin());
+  report["leaves_not_reproved"] = std::count(fails.begin(), fails.end(), 1);
+  if (first < fails.size()) {
+    Behaviours behaviours(c.parts, c.contract);
+    return fmt::format("{} of {} leaves could not be re-proved, the first is {}, claimed to {}: {}",
+                       report["leaves_not_reproved"].dump(), fails.size(), c.name_of(first),
+                       verdict_name[c.verdict[first]],
+                       defect_of_leaf(c, behaviours, c.section_of(first), first, shares[first]));
+  }
+  const std::string late = defect_of_groups(c, shares);
+  if (!late.empty()) return late;
+  if (!c.record.contains("volume_fraction")) return "";
+  return defect_of_claims(
+      c.record, c.loop, c.region, samples,
+      [&c](std::size_t cell, double x, double y, double heading_rad) {
+        return told_of_state(c, cell, x, y, heading_rad);
+      },
+      report);
+} catch (const Defect& defect) {
+  if (defect.code != 1) throw;
+  return defect.what();
+}
+
+}  // namespace fairway_check

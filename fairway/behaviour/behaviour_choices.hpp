@@ -1,0 +1,71 @@
+// What a vehicle within a contract may do next: the steps that the contract allows it at a state,
+// each admissible for its whole length.
+//
+// Sharper turns and wider ones, to either side, straight on, and a side held or not: of each kind
+// one, for some command that may be in force. Steps keep a margin from all thresholds, so that
+// proved_ends accepts them. Where the contract allows nothing by a margin (without any error, at a
+// border between commands), a step is offered that follows the command of the vehicle's own cell:
+// evidence, not proof.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fairway/base/short_list.hpp"
+#include "fairway/behaviour/behaviour_flight.hpp"
+#include "fairway/vehicle/contract.hpp"
+#include "fairway/verify/flow.hpp"
+
+namespace fairway {
+
+/// A vehicle on its way.
+struct BehaviourState {
+  Vec2 place;
+  Vec2 unit{1.0, 0.0};
+  double heading_rad = 0.0;  ///< in (-pi, pi]
+  int held = 0;              ///< the side of a turn that it keeps: +1 left, -1 right, 0 none
+
+  static BehaviourState of(const State& s) {
+    return {s.position_m, s.heading.unit(), s.heading.rad(), 0};
+  }
+};
+
+struct BehaviourChoice {
+  BehaviourStep step;
+  BehaviourState end;
+  bool proved = true;  ///< admissible by a margin
+};
+
+using BehaviourChoiceList = ShortList<BehaviourChoice, 9>;
+
+class BehaviourChoices {
+ public:
+  /// `step_m`: the length of whole steps; 0: a share of the cell and of the radius. Wind is taken
+  /// as calm, which the contract allows. Keeps references to the arrays that `flow` points to.
+  BehaviourChoices(const Flow& flow, const VehicleContract& contract, double step_m = 0.0);
+
+  /// At least one.
+  void list(const BehaviourState& state, BehaviourChoiceList& choices) const;
+
+  /// What a step meets: target when any position of it may be in one, else the kind of the cell
+  /// that its end lies in by a margin, else ordinary.
+  CellKind met(Vec2 from, Vec2 to) const;
+
+  const Flow& flow() const { return flow_; }
+  const VehicleContract& contract() const { return contract_; }
+  const std::vector<float>& commands() const { return commands_; }  ///< filled_commands
+  double step_m() const { return step_m_; }
+
+ private:
+  friend class ChoicesAt;
+
+  Flow flow_;
+  VehicleContract contract_;
+  std::vector<float> commands_;
+  std::vector<bool> near_goal_;  ///< a target is among the nine cells around
+  double step_m_;
+  double margin_m_;
+  std::vector<double> radii_m_;  ///< the range's ends
+};
+
+}  // namespace fairway

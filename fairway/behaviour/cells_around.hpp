@@ -1,0 +1,23 @@
+// The cells, of the grid or not, that meet the box around two points, grown.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "fairway/base/grid.hpp"
+
+namespace fairway {
+
+struct CellRange {
+  int x0, x1, y0, y1;
+  bool is_one() const { return x0 == x1 && y0 == y1; }
+};
+
+inline CellRange cells_around(const Grid& grid, Vec2 a, Vec2 b, double by_m) {
+  const auto number = [&](double at) { return static_cast<int>(std::floor(at / grid.cell_m)); };
+  return {
+      number(std::min(a.x, b.x) - grid.x0_m - by_m), number(std::max(a.x, b.x) - grid.x0_m + by_m),
+      number(std::min(a.y, b.y) - grid.y0_m - by_m), number(std::max(a.y, b.y) - grid.y0_m + by_m)};
+}
+
+}  // namespace fairway

@@ -1,0 +1,29 @@
+// What is proved of single states under a contract.
+#pragma once
+
+#include "fairway/base/vec2.hpp"
+#include "fairway/inclusion/behaviour_flight.hpp"
+#include "fairway/inclusion/contract_verdicts.hpp"
+#include "fairway/inclusion/parts.hpp"
+#include "fairway/verify/verdict.hpp"
+
+namespace fairway {
+
+struct ContractAnswer {
+  Verdict verdict = Verdict::undecided;
+  double worst_time_s = 0.0;  ///< no behaviour takes longer; +inf when trapped or undecided
+  /// When undecided: bit v, some behaviour may come to Verdict v; and a section it may cross that
+  /// is undecided, or none.
+  std::uint8_t possible = 0;
+  std::size_t undecided_section = no_section;
+  double undecided_place = 0.0;  ///< along it, 0 to 1
+
+  static constexpr std::size_t no_section = ~std::size_t{0};
+};
+
+/// `place`: in parts; no side is held. What holds for every behaviour within the contract.
+[[nodiscard]] ContractAnswer contract_answer(const Parts& parts, const ContractVerdicts& verdicts,
+                                             double speed_least_mps, Vec2 place, double heading_rad,
+                                             const BehaviourOptions& options = {});
+
+}  // namespace fairway

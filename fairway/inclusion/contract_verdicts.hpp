@@ -1,0 +1,41 @@
+// The product of a proof under a vehicle contract: a verdict for every leaf of every section.
+//
+// A section is the side of a part: all behaviours that leave the part over it aligned with the
+// part; a leaf is a range of its places. Sections are numbered 4 part + PartSide. Leaves belong to
+// groups, which are numbered from the ends backwards.
+//
+// Properties that always hold:
+//   1. A section has leaves exactly when its part is ordinary. They cover it: they start from 0, in
+//      ascending order.
+//   2. All ends in the image of a leaf with verdict reach, collide or leave have that verdict; all
+//      its crossings lie in leaves of that verdict, whose groups have no higher number.
+//   3. When a crossing lies in the group itself, all headings on the way there lie within
+//      `most_off_progress_rad` of group_heading_rad: the behaviour moves on along that heading, and
+//      so it leaves the group.
+//   4. A leaf with verdict trapped has no end; all its crossings lie in leaves with verdict
+//   trapped.
+//   5. No behaviour from a leaf of a group takes longer than group_time_s.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fairway/base/heading.hpp"
+
+namespace fairway {
+
+inline constexpr double most_off_progress_rad = 0.5 * pi - 2e-3;
+
+struct ContractVerdicts {
+  std::vector<std::uint32_t> first;      ///< [4 parts + 1]
+  std::vector<std::uint32_t> begin;      ///< [leaves], units of a side / 2^32, from its right end
+  std::vector<std::uint32_t> group;      ///< [leaves]; 0 when undecided or trapped
+  std::vector<std::uint8_t> verdict;     ///< [leaves], Verdict
+  std::vector<float> group_heading_rad;  ///< [groups]; NaN: no behaviour comes back to the group
+  std::vector<float> group_time_s;       ///< [groups]; +inf for group 0
+
+  std::size_t leaves() const { return begin.size(); }
+};
+
+}  // namespace fairway

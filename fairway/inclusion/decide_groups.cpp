@@ -1,0 +1,255 @@
+#include "fairway/inclusion/decide_groups.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "fairway/inclusion/contract_verdicts.hpp"
+#include "fairway/inclusion/set_flight.hpp"
+
+namespace fairway {
+namespace {
+
+using Id = CrossingGraph::Id;
+
+constexpr unsigned bit(Verdict v) { return 1U << static_cast<unsigned>(v); }
+
+/// Tarjan's algorithm, without recursion: calls body(members) for every strongly connected
+/// component of the open leaves, those that others lead to first.
+class Components {
+ public:
+  explicit Components(const CrossingGraph& graph)
+      : graph_(graph), number_(graph.leaves(), 0), low_(graph.leaves(), 0) {}
+
+  template <typename Body>
+  void for_each(const Body& body) {
+    for (Id root = 0; root < graph_.leaves(); ++root) {
+      if (number_[root] != 0 || graph_.leaf(root).state != LeafState::open) continue;
+      enter(root);
+      while (!way_.empty()) {
+        Visit& visit = way_.back();
+        if (next_target(visit)) {
+          const Id to = visit.target++;
+          if (graph_.leaf(to).state != LeafState::open) continue;
+          if (number_[to] == 0) {
+            enter(to);
+          } else if (number_[to] != done) {
+            low_[visit.leaf] = std::min(low_[visit.leaf], number_[to]);
+          }
+          continue;
+        }
+        const Id left = visit.leaf;
+        way_.pop_back();
+        if (!way_.empty()) low_[way_.back().leaf] = std::min(low_[way_.back().leaf], low_[left]);
+        if (low_[left] != number_[left]) continue;
+        auto first = stack_.end();
+        while (*--first != left) {
+        }
+        const std::span<const Id> members(first, stack_.end());
+        body(members);
+        for (const Id id : members) number_[id] = done;
+        stack_.erase(first, stack_.end());
+      }
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t done = ~std::uint32_t{0};
+  struct Visit {
+    Id leaf;
+    Id target;
+    Id last;
+    std::uint32_t link;  // the next one
+  };
+
+  void enter(Id id) {
+    number_[id] = low_[id] = ++count_;
+    stack_.push_back(id);
+    way_.push_back({id, 0, 0, 0});
+  }
+  bool next_target(Visit& visit) const {
+    const auto links = graph_.links(visit.leaf);
+    while (visit.target >= visit.last) {
+      if (visit.link >= links.size()) return false;
+      const CrossingGraph::Range range = graph_.leaves_of(links[visit.link++]);
+      visit.target = range.first;
+      visit.last = range.last;
+    }
+    return true;
+  }
+
+  const CrossingGraph& graph_;
+  std::vector<std::uint32_t> number_;
+  std::vector<std::uint32_t> low_;
+  std::vector<Id> stack_;
+  std::vector<Visit> way_;
+  std::uint32_t count_ = 0;
+};
+
+/// What is known of one group before it is decided.
+struct Prospect {
+  unsigned verdicts = 0;  ///< bits of what comes after it
+  bool gave_up = false;
+  bool comes_back = false;
+  HeadingArc headings;  ///< of what comes back
+  double flown = 0.0;   ///< by what does not
+  Id waits_for = ~Id{0};
+  bool meets_decided = false;
+};
+
+class Decider {
+ public:
+  Decider(const Parts& parts, CrossingGraph& graph, GroupRecord& groups)
+      : parts_(parts), graph_(graph), groups_(groups), member_of_(graph.leaves(), 0) {
+    result_.worth_cutting.assign(graph.leaves(), false);
+    result_.cause.assign(graph.leaves(), ~Id{0});
+    result_.trouble.assign(graph.leaves(), Trouble::none);
+    if (groups.heading_rad.empty()) {
+      groups.heading_rad.push_back(std::numeric_limits<float>::quiet_NaN());
+      groups.flown.push_back(std::numeric_limits<float>::infinity());
+    }
+  }
+
+  Deciding run() {
+    Components(graph_).for_each([&](std::span<const Id> members) { decide(members); });
+    return std::move(result_);
+  }
+
+ private:
+  void look(Id id, Prospect& p) const {
+    const Leaf& leaf = graph_.leaf(id);
+    p.gave_up |= leaf.gave_up;
+    p.verdicts |= leaf.ends;
+    p.meets_decided |= leaf.ends != 0;
+    for (const CrossingLink& link : graph_.links(id)) {
+      const CrossingGraph::Range range = graph_.leaves_of(link);
+      for (Id to = range.first; to < range.last; ++to) {
+        const Leaf& target = graph_.leaf(to);
+        const double flown = static_cast<double>(link.flown);
+        if (member_of_[to] == current_) {
+          p.headings = p.comes_back ? p.headings.with(link.headings()) : link.headings();
+          p.comes_back = true;
+        } else if (target.state == LeafState::closed) {
+          p.verdicts |= bit(target.verdict);
+          p.meets_decided = true;
+          p.flown = std::max(p.flown, flown + static_cast<double>(groups_.flown[target.group]));
+        } else if (p.waits_for == ~Id{0}) {
+          p.waits_for = to;
+        }
+      }
+    }
+    if (leaf.ends != 0) p.flown = std::max(p.flown, static_cast<double>(leaf.end_flown));
+  }
+
+  void decide(std::span<const Id> members) {
+    ++current_;
+    for (const Id id : members) member_of_[id] = current_;
+    Prospect all;
+    for (const Id id : members) look(id, all);
+    const bool progress =
+        !all.comes_back || all.headings.width_rad < 2.0 * most_off_progress_rad - 1e-3;
+    const bool known = !all.gave_up && all.waits_for == ~Id{0};
+    // Without an end or exit, behaviours that move on would have to come to one: there are none.
+    if (known && all.verdicts == 0 && progress) all.verdicts = bit(Verdict::reach);
+    const bool one = known && std::has_single_bit(all.verdicts);
+    const bool trapped = known && (all.verdicts == 0 || all.verdicts == bit(Verdict::trapped));
+    if (trapped) return close(members, Verdict::trapped, 0);
+    if (one && progress) {
+      const auto verdict = static_cast<Verdict>(std::countr_zero(all.verdicts));
+      groups_.heading_rad.push_back(heading_of(all));
+      groups_.flown.push_back(flown_of(members, all));
+      return close(members, verdict, static_cast<std::uint32_t>(groups_.flown.size() - 1));
+    }
+    tell_trouble(members, all, one);
+  }
+
+  void close(std::span<const Id> members, Verdict verdict, std::uint32_t group) {
+    for (const Id id : members) {
+      Leaf& leaf = graph_.leaf(id);
+      leaf.state = LeafState::closed;
+      leaf.verdict = verdict;
+      leaf.group = group;
+    }
+    result_.decided += members.size();
+  }
+
+  static float heading_of(const Prospect& p) {
+    if (!p.comes_back) return std::numeric_limits<float>::quiet_NaN();
+    return static_cast<float>(
+        std::remainder(p.headings.lo_rad + 0.5 * p.headings.width_rad, whole_turn_rad));
+  }
+
+  /// While it comes back, a behaviour moves along the group's heading by the cosine of the angle to
+  /// it, at most through all its leaves.
+  float flown_of(std::span<const Id> members, const Prospect& p) const {
+    if (!p.comes_back) return static_cast<float>(p.flown * (1.0 + 1e-6));
+    const double heading = static_cast<double>(heading_of(p));
+    const Vec2 along{std::cos(heading), std::sin(heading)};
+    double lo = std::numeric_limits<double>::infinity();
+    double hi = -lo;
+    for (const Id id : members) {
+      const std::size_t s = graph_.section_of(id);
+      const PartPlace part = parts_.place(s / sections_per_part);
+      for (const Vec2 corner : {Vec2{0.0, 0.0}, Vec2{1.0, 0.0}, Vec2{0.0, 1.0}, Vec2{1.0, 1.0}}) {
+        const double on = dot(along, Vec2{part.ix + corner.x, part.iy + corner.y});
+        lo = std::min(lo, on);
+        hi = std::max(hi, on);
+      }
+    }
+    const double off = 0.5 * p.headings.width_rad + 1e-5;
+    return static_cast<float>((p.flown + (hi - lo + 1e-3) / std::cos(off)) * (1.0 + 1e-6));
+  }
+
+  void tell_trouble(std::span<const Id> members, const Prospect& all, bool one) {
+    // A group that waits is cut only where a leaf meets something decided, or itself.
+    const Trouble of_group = one ? Trouble::no_progress : Trouble::waits;
+    Id cause = ~Id{0};
+    Trouble reason = Trouble::none;
+    for (const Id id : members) {
+      Prospect own;
+      look(id, own);
+      const bool several = !std::has_single_bit(own.verdicts) && own.verdicts != 0;
+      const Trouble trouble = own.gave_up ? Trouble::gave_up
+                              : several   ? Trouble::mixed
+                                          : Trouble::none;
+      result_.worth_cutting[id] = own.gave_up || own.meets_decided || own.comes_back;
+      if (trouble != Trouble::none && reason == Trouble::none) {
+        cause = id;
+        reason = trouble;
+      }
+    }
+    if (reason == Trouble::none && of_group == Trouble::no_progress) {
+      cause = members.front();
+      reason = of_group;
+    }
+    if (reason == Trouble::none && all.waits_for != ~Id{0}) {
+      cause = result_.cause[all.waits_for];
+      reason = Trouble::waits;
+    }
+    if (reason == Trouble::none) {  // its leaves have one verdict each, but not the same
+      cause = members.front();
+      reason = Trouble::mixed;
+    }
+    for (const Id id : members) {
+      result_.cause[id] = cause;
+      result_.trouble[id] = id == cause ? reason : Trouble::waits;
+    }
+  }
+
+  const Parts& parts_;
+  CrossingGraph& graph_;
+  GroupRecord& groups_;
+  std::vector<std::uint32_t> member_of_;
+  std::uint32_t current_ = 0;
+  Deciding result_;
+};
+
+}  // namespace
+
+Deciding decide_groups(const Parts& parts, CrossingGraph& graph, GroupRecord& groups) {
+  return Decider(parts, graph, groups).run();
+}
+
+}  // namespace fairway

@@ -1,0 +1,99 @@
+#include "fairway/inclusion/inclusion_prover.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace fairway {
+
+InclusionProver::InclusionProver(const Parts& parts, const InclusionLimits& limits)
+    : parts_(parts),
+      limits_(limits),
+      graph_(parts, 1U << static_cast<unsigned>(limits.first_level)) {}
+
+InclusionLevel InclusionProver::level_now(int level) const {
+  InclusionLevel now{.level = level, .leaves = graph_.leaves()};
+  double all = 0.0;
+  double open = 0.0;
+  for (std::size_t s = 0; s < graph_.sections(); ++s) {
+    for (auto id = graph_.first(s); id < graph_.first(s + 1); ++id) {
+      const Leaf& leaf = graph_.leaf(id);
+      if (leaf.state == LeafState::idle) continue;
+      const double length = graph_.end_of(id, s) - leaf.begin;
+      all += length;
+      if (leaf.verdict != Verdict::undecided) continue;
+      open += length;
+      ++now.undecided;
+    }
+  }
+  now.undecided_share = all > 0.0 ? open / all : 0.0;
+  return now;
+}
+
+std::vector<bool> InclusionProver::to_cut(int level) const {
+  std::vector<bool> which(graph_.leaves(), false);
+  const std::uint32_t least = side_units >> static_cast<unsigned>(level);
+  for (std::size_t s = 0; s < graph_.sections(); ++s) {
+    for (auto id = graph_.first(s); id < graph_.first(s + 1); ++id) {
+      which[id] = graph_.leaf(id).state == LeafState::open && last_.worth_cutting[id] &&
+                  graph_.end_of(id, s) - graph_.leaf(id).begin >= 2 * least;
+    }
+  }
+  return which;
+}
+
+bool InclusionProver::run(const std::function<void(const InclusionLevel&)>& progress) {
+  double before = 1.0;
+  for (int level = limits_.first_level; level <= limits_.last_level; ++level) {
+    // Within a level, until it decides next to nothing more.
+    while (true) {
+      graph_.fly(parts_, limits_.flight);
+      last_ = decide_groups(parts_, graph_, groups_);
+      const InclusionLevel now = level_now(level);
+      progress(now);
+      const double gain = before - now.undecided_share;
+      before = now.undecided_share;
+      if (!limits_.go_on()) return false;
+      if (limits_.memory_bytes > 0 && graph_.bytes() > limits_.memory_bytes) return false;
+      const std::vector<bool> which = to_cut(level);
+      if (std::abs(gain) < limits_.least_gain ||
+          std::find(which.begin(), which.end(), true) == which.end()) {
+        break;
+      }
+      graph_.cut(which);
+    }
+    if (level == limits_.last_level) break;
+    graph_.cut(to_cut(level + 1));
+  }
+  return true;
+}
+
+ContractVerdicts InclusionProver::verdicts(double speed_least_mps) const {
+  ContractVerdicts made;
+  made.first.resize(graph_.sections() + 1);
+  for (std::size_t s = 0; s < graph_.sections(); ++s) {
+    made.first[s] = static_cast<std::uint32_t>(made.begin.size());
+    for (auto id = graph_.first(s); id < graph_.first(s + 1); ++id) {
+      const Leaf& leaf = graph_.leaf(id);
+      // Neighbours about which the same is known are one leaf.
+      const bool same = made.first[s] < made.begin.size() && leaf.group == 0 &&
+                        made.group.back() == 0 &&
+                        made.verdict.back() == static_cast<std::uint8_t>(leaf.verdict) &&
+                        leaf.verdict == Verdict::undecided;
+      if (same) continue;
+      made.begin.push_back(leaf.begin * static_cast<std::uint32_t>(0x100000000U / side_units));
+      made.group.push_back(leaf.group);
+      made.verdict.push_back(static_cast<std::uint8_t>(leaf.verdict));
+    }
+  }
+  made.first.back() = static_cast<std::uint32_t>(made.begin.size());
+  made.group_heading_rad = groups_.heading_rad;
+  made.group_time_s.reserve(groups_.flown.size());
+  for (const float flown : groups_.flown) {
+    const double s = static_cast<double>(flown) * parts_.part_m() / speed_least_mps;
+    made.group_time_s.push_back(
+        std::nextafter(static_cast<float>(s), std::numeric_limits<float>::infinity()));
+  }
+  return made;
+}
+
+}  // namespace fairway

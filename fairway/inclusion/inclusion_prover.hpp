@@ -1,0 +1,64 @@
+// Plan and contract -> a verdict for every leaf (contract_verdicts.hpp).
+//
+// Round by round: fresh leaves are flown, groups are decided from the ends backwards
+// (decide_groups.hpp), and of what is left, leaves are cut in halves where that may help: where
+// their image meets something decided, or themselves, or is unknown.
+//
+// Properties that always hold: every verdict is proved (docs/trust.md); more work only turns
+// undecided into proved; the result depends on the plan, the contract and the options alone, not on
+// threads, unless a limit of time stopped the work.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "fairway/inclusion/behaviour_flight.hpp"
+#include "fairway/inclusion/contract_verdicts.hpp"
+#include "fairway/inclusion/crossing_graph.hpp"
+#include "fairway/inclusion/decide_groups.hpp"
+#include "fairway/inclusion/parts.hpp"
+
+namespace fairway {
+
+struct InclusionLimits {
+  int first_level = 1;           ///< a side starts as 2^first_level leaves
+  int last_level = 6;            ///< no leaf is shorter than a side / 2^last_level
+  std::size_t memory_bytes = 0;  ///< 0: none
+  /// A level that decides less than this share of all sides is the last.
+  double least_gain = 0.0005;
+  std::function<bool()> go_on = [] { return true; };
+  BehaviourOptions flight;
+};
+
+struct InclusionLevel {
+  int level = 0;
+  std::size_t leaves = 0;
+  std::size_t undecided = 0;
+  double undecided_share = 0.0;  ///< of the length of all sides that are crossed
+};
+
+class InclusionProver {
+ public:
+  /// Keeps a reference to `parts`.
+  InclusionProver(const Parts& parts, const InclusionLimits& limits);
+
+  /// False: a limit stopped it.
+  bool run(const std::function<void(const InclusionLevel&)>& progress);
+
+  const CrossingGraph& graph() const { return graph_; }
+  const Deciding& last() const { return last_; }  ///< why leaves are undecided
+  [[nodiscard]] ContractVerdicts verdicts(double speed_least_mps) const;
+
+ private:
+  InclusionLevel level_now(int level) const;
+  std::vector<bool> to_cut(int level) const;
+
+  const Parts& parts_;
+  InclusionLimits limits_;
+  CrossingGraph graph_;
+  GroupRecord groups_;
+  Deciding last_;
+};
+
+}  // namespace fairway

@@ -1,0 +1,81 @@
+// How a convex set lies over parts.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "fairway/inclusion/convex_set.hpp"
+#include "fairway/inclusion/parts.hpp"
+
+namespace fairway {
+
+inline bool is_flown_over(PartKind kind) {
+  return kind == PartKind::ordinary || kind == PartKind::wild;
+}
+
+/// The part with what lies within the slack of it.
+inline Box grown_box(PartPlace p, double by = place_slack) {
+  return {{p.ix - by, p.iy - by}, {p.ix + 1 + by, p.iy + 1 + by}};
+}
+
+/// Calls body(part, kind, piece) for parts that together hold the set. A part over which behaviours
+/// fly is left out when the set only touches it, and lies within the slack of others there: a set
+/// that came out of a part must not count as being in it.
+template <typename Body>
+void for_parts(const Parts& parts, const ConvexSet& set, const Body& body) {
+  const auto [lowest, highest] = set.box();
+  const auto below = [](double v) { return static_cast<int>(std::floor(v - place_slack)); };
+  const auto above = [](double v) { return static_cast<int>(std::floor(v + place_slack)); };
+  const int x0 = below(lowest.x);
+  const int y0 = below(lowest.y);
+  const int x1 = above(highest.x);
+  const int y1 = above(highest.y);
+  if (x0 == x1 && y0 == y1) {
+    body(PartPlace{x0, y0}, parts.kind({x0, y0}), set);
+    return;
+  }
+  const auto piece = [&](PartPlace p, double by) { return set.within(grown_box(p, by)); };
+  constexpr std::size_t most = 64;
+  const bool many = static_cast<std::size_t>(x1 - x0 + 1) * static_cast<std::size_t>(y1 - y0 + 1) >
+                    most;  // then none is left out
+  std::array<PartPlace, most> chosen;
+  std::array<PartPlace, most> touched;
+  std::size_t chosen_count = 0;
+  std::size_t touched_count = 0;
+  const auto choose = [&](PartPlace p, PartKind kind, const ConvexSet& grown) {
+    body(p, kind, grown);
+    if (!many && is_flown_over(kind)) chosen[chosen_count++] = p;
+  };
+  for (int iy = y0; iy <= y1; ++iy) {
+    for (int ix = x0; ix <= x1; ++ix) {
+      const PartPlace p{ix, iy};
+      const ConvexSet grown = piece(p, place_slack);
+      if (grown.empty()) continue;
+      const PartKind kind = parts.kind(p);
+      if (many || !is_flown_over(kind) || !piece(p, -place_slack).empty()) {
+        choose(p, kind, grown);
+      } else {
+        touched[touched_count++] = p;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < touched_count; ++k) {
+    const PartPlace p = touched[k];
+    const ConvexSet sliver = piece(p, 0.0);
+    const auto holds_it = [&](PartPlace q) {
+      return std::all_of(sliver.corners().begin(), sliver.corners().end(), [&](Vec2 c) {
+        return c.x >= q.ix - place_slack && c.x <= q.ix + 1 + place_slack &&
+               c.y >= q.iy - place_slack && c.y <= q.iy + 1 + place_slack;
+      });
+    };
+    if (!sliver.empty() &&
+        std::none_of(chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(chosen_count),
+                     holds_it)) {
+      choose(p, parts.kind(p), piece(p, place_slack));
+    }
+  }
+}
+
+}  // namespace fairway

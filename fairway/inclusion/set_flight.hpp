@@ -1,0 +1,103 @@
+// The flight of one set of behaviours to its image: what behaviour_flight.hpp promises, step by
+// step. It never looks back: every set it is left with starts in a part with a range of headings.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fairway/inclusion/behaviour_flight.hpp"
+
+namespace fairway {
+
+// Headings so near an arc count as aligned, one tolerance inside the next: what is left out of a
+// turn must have been told as aligned, whatever rounding did.
+inline constexpr double align_slack_rad = heading_slack_rad;
+inline constexpr double drop_slack_rad = 0.5 * heading_slack_rad;
+inline constexpr double start_slack_rad = 0.25 * heading_slack_rad;
+
+struct SideAxis {
+  Vec2 outward;
+  double heading_rad;
+};
+inline constexpr std::array<SideAxis, 4> side_axes{
+    {{{1.0, 0.0}, 0.0}, {{0.0, 1.0}, 0.5 * pi}, {{-1.0, 0.0}, pi}, {{0.0, -1.0}, 1.5 * pi}}};
+
+/// The segment of a side of a part over places [lo, hi].
+ConvexSet segment_of_side(PartPlace part, PartSide side, double lo, double hi);
+/// The part beyond it.
+PartPlace part_beyond(PartPlace part, PartSide side);
+
+/// What behaviours did since they started.
+struct Past {
+  HeadingArc headings;
+  double flown = 0.0;  ///< at most, in parts
+};
+
+/// Behaviours at a place of `set` with a heading of [lo, hi].
+struct ArrivingSet {
+  ConvexSet set;
+  double lo_rad = 0.0;
+  double hi_rad = 0.0;
+  Past past;
+};
+
+class SetFlight {
+ public:
+  SetFlight(const Parts& parts, const BehaviourOptions& options, BehaviourImage& image)
+      : parts_(parts), options_(options), image_(image) {}
+
+  /// `from`: the arc of commands before, null when no side can be held.
+  void start(PartPlace part, const ArrivingSet& arriving, const HeadingArc* from);
+  void finish();
+  /// Ends what touches an obstacle or the outside at the start.
+  void touch(const ConvexSet& set);
+
+ private:
+  enum class Turn : int { left = 1, right = -1 };
+  static Turn other(Turn side) { return side == Turn::left ? Turn::right : Turn::left; }
+
+  struct TurningSet {
+    ArrivingSet from;
+    Turn turn = Turn::left;
+  };
+  /// One step of a turning set.
+  struct Step {
+    double begin_rad;
+    double size_rad;
+    ConvexSet ends;   ///< from its beginning to its end
+    ConvexSet swept;  ///< on the way
+  };
+  struct PartPiece {
+    PartPlace part;
+    PartKind kind;
+    ConvexSet piece;
+  };
+  /// What of a turning set goes another way in a part, over successive steps.
+  struct Gathered {
+    PartPlace part;
+    ArrivingSet arriving;
+  };
+
+  static double beyond(const HeadingArc& arc, double heading_rad, Turn turn);
+  bool ends_there(PartKind kind);
+  template <typename Body>
+  void exits(PartPlace part, const ConvexSet& set, const HeadingArc& arc, double slack,
+             const Body& body) const;
+  /// `slack`: how far the set may be off.
+  void align(PartPlace part, const ConvexSet& set, const Past& past, double slack);
+  static void gather(std::vector<Gathered>& sets, PartPlace part, const ConvexSet& piece,
+                     const HeadingArc& headings, const Past& past);
+  void add_turning(const ArrivingSet& arriving, HeadingArc wanted, Turn turn);
+  void turn(const TurningSet& set);
+  Step step_from(const ConvexSet& set, double begin_rad, double size_rad, Turn turn) const;
+  double first_edge(const Step& step, Turn turn);
+
+  const Parts& parts_;
+  const BehaviourOptions& options_;
+  BehaviourImage& image_;
+  std::vector<TurningSet> turning_;
+  std::vector<PartPiece> pieces_;  ///< of the present step
+  int steps_ = 0;
+};
+
+}  // namespace fairway

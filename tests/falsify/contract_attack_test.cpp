@@ -1,0 +1,53 @@
+#include "tests/falsify/contract_attack.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fairway/behaviour/testing/contract_trial.hpp"
+
+namespace fairway {
+namespace {
+
+TEST(ContractAttack, ContradictsWhatIsFalse) {
+  int contradicted = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const ContractTrial trial = contract_trial(seed);
+    const PlanFlow held(trial.plan);
+    ContractAttackOptions options;
+    options.flights = 2000;
+    for (const Verdict claim : {Verdict::reach, Verdict::collide, Verdict::trapped}) {
+      const auto claims = [&](const State&) { return ContractAnswer{claim, 1e9}; };
+      const auto totals = attack("all", held.flow(), trial.contract, claims, options);
+      EXPECT_GE(totals.flights, options.flights);
+      contradicted += totals.contradictions > 0 ? 1 : 0;
+      EXPECT_EQ(totals.stories.empty(), totals.contradictions + totals.late == 0);
+    }
+  }
+  EXPECT_GE(contradicted, 15);
+}
+
+TEST(ContractAttack, FindsBoundsOfTimeThatAreTooShort) {
+  Plan plan = empty_plan(20, 9, 2.0, 5.0);
+  for (int iy = 0; iy < 9; ++iy) plan.region[plan.grid.index({19, iy})] = Region::goal;
+  const PlanFlow held(plan);
+  VehicleContract contract = VehicleContract::of(plan.vehicle);
+  contract.command_error_m = 1.0;
+  contract.heading_error_rad = 0.01;
+  ContractAttackOptions options;
+  options.flights = 2000;
+  const auto claims = [&](const State&) { return ContractAnswer{Verdict::reach, 0.5}; };
+  EXPECT_GT(attack("late", held.flow(), contract, claims, options).late, 100U);
+}
+
+TEST(ContractAttack, ContradictsNothingWhereNothingIsClaimed) {
+  const ContractTrial trial = contract_trial(1);
+  const PlanFlow held(trial.plan);
+  ContractAttackOptions options;
+  options.flights = 500;
+  const auto claims = [](const State&) { return ContractAnswer{}; };
+  const auto totals = attack("none", held.flow(), trial.contract, claims, options);
+  EXPECT_EQ(totals.flights, 0U);
+  EXPECT_EQ(totals.contradictions + totals.late, 0U);
+}
+
+}  // namespace
+}  // namespace fairway
