@@ -18,25 +18,25 @@ class CommandsInForce {
   /// The commands given up to this sample that may be in force within `aside_m` of the track.
   void look_back_from(std::size_t sample, double aside_m);
   /// Of these, the ones in force for a motion at a place on a course.
-  void near(Vec2 place_m, double course_rad);
+  void near(Vec2 place_m, Heading course);
 
-  const std::vector<double>& commands_rad() const { return commands_rad_; }
+  const std::vector<Heading>& commands() const { return commands_; }
   /// A command given before the log began may be in force, too.
   bool any_command() const { return any_command_; }
 
  private:
   struct Given {
     Vec2 place_m;  ///< that the command was asked for
-    double command_rad = 0.0;
+    Heading command;
     bool is_first = false;  ///< of the log
   };
-  Vec2 ahead_of(Vec2 place_m, double course_rad) const;
+  Vec2 ahead_of(Vec2 place_m, Heading course) const;
 
   const FlownTrack& track_;
   double error_m_;
   double look_ahead_m_;
   std::vector<Given> given_;
-  std::vector<double> commands_rad_;
+  std::vector<Heading> commands_;
   bool any_command_ = false;
 };
 
@@ -47,9 +47,9 @@ struct TurnChoice {
 
 using TurnChoices = std::vector<TurnChoice>;
 
-/// What a motion may do over a step: one choice for each side that may be held.
-[[nodiscard]] TurnChoices turn_choices(const CommandsInForce& commands, const TurnStep& step,
-                                       const VehicleContract& contract, double course_rad,
-                                       HeldSide held);
+/// Fills `choices` with what a motion may do over a step: one for each side that may be held.
+void find_turn_choices(const CommandsInForce& commands, const TurnStep& step,
+                       const VehicleContract& contract, Heading course, HeldSide held,
+                       TurnChoices& choices);
 
 }  // namespace fairway
