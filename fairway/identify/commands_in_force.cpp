@@ -23,7 +23,8 @@ void CommandsInForce::look_back_from(std::size_t sample, double aside_m) {
   for (std::size_t run = track_.run_of[sample] + 1; run-- > 0;) {
     const std::size_t s = std::min(sample, track_.runs[run].last);
     if (is_too_far(s)) return;
-    given_.push_back({ahead_of(track_.place_m[s], track_.course[s]), track_.runs[run].command});
+    given_.push_back({ahead_of(track_.place_m[s], track_.course[s]),
+                      {track_.runs[run].command, static_cast<std::uint32_t>(run)}});
   }
   if (!is_too_far(0)) {
     given_.push_back({ahead_of(track_.place_m[0], track_.course[0]), {}, true});
@@ -38,52 +39,58 @@ void CommandsInForce::near(Vec2 place_m, Heading course) {
   for (const Given& given : given_) {
     if (norm2(given.place_m - ahead) > error2) continue;
     any_command_ = any_command_ || given.is_first;
-    if (std::find(commands_.begin(), commands_.end(), given.command) == commands_.end()) {
-      commands_.push_back(given.command);
-    }
+    const auto is_same = [&](const CommandInForce& c) { return c.command == given.order.command; };
+    if (std::any_of(commands_.begin(), commands_.end(), is_same)) continue;
+    commands_.push_back(given.order);
   }
 }
 
+namespace {
+
+/// Whether a turn to a command that lies `off_rad` behind may go to this side.
+bool may_turn(TurnSide side, const CommandInForce& c, double off_rad, SideRule rule, HeldSide held,
+              double side_uncertain_rad) {
+  if (held.side == side) return true;
+  const bool is_held =
+      held.side != TurnSide::none && (rule == SideRule::contract || held.run == c.run);
+  if (is_held) return false;
+  if (std::abs(off_rad) >= pi - side_uncertain_rad) return true;
+  return (off_rad > 0.0) == (side == TurnSide::left);
+}
+
+}  // namespace
+
 void find_turn_choices(const CommandsInForce& commands, const TurnStep& step,
-                       const VehicleContract& contract, Heading course, HeldSide held,
-                       TurnChoices& choices) {
+                       const VehicleContract& contract, SideRule rule, Heading course,
+                       HeldSide held, TurnChoices& choices) {
   choices.clear();
   if (commands.any_command()) {
-    choices.push_back({step.free(), HeldSide::none});
+    choices.push_back({step.free(), {}});
     return;
   }
   TurnRange ahead;
-  bool any_behind = false;
-  bool left_is_possible = held == HeldSide::left;
-  bool right_is_possible = held == HeldSide::right;
-  for (const Heading command : commands.commands()) {
-    const double off_rad = course.turn_to(command);
-    if (std::abs(off_rad) <= contract.hold_side_rad) {
-      ahead.hold(step.towards(off_rad));
-      continue;
-    }
-    any_behind = true;
-    const bool either = std::abs(off_rad) >= pi - contract.side_uncertain_rad;
-    left_is_possible = left_is_possible || (held == HeldSide::none && (either || off_rad > 0.0));
-    right_is_possible = right_is_possible || (held == HeldSide::none && (either || off_rad < 0.0));
-  }
-  if (!any_behind) {
-    if (!ahead.is_empty()) choices.push_back({ahead, HeldSide::none});
-    return;
+  for (const CommandInForce& c : commands.commands()) {
+    const double off_rad = course.turn_to(c.command);
+    if (std::abs(off_rad) <= contract.hold_side_rad) ahead.hold(step.towards(off_rad));
   }
   TurnRange forgetting =
       ahead;  // a command ahead, in force for an instant, makes the side forgotten
-  for (const HeldSide side : {HeldSide::left, HeldSide::right}) {
-    if (side == HeldSide::left ? !left_is_possible : !right_is_possible) continue;
-    TurnRange turn = ahead;
-    for (const Heading command : commands.commands()) {
-      const double off_rad = course.turn_to(command);
-      if (std::abs(off_rad) > contract.hold_side_rad) turn.hold(step.to_side(off_rad, side));
+  for (const TurnSide side : {TurnSide::left, TurnSide::right}) {
+    TurnChoice choice{ahead, {}};
+    for (const CommandInForce& c : commands.commands()) {
+      const double off_rad = course.turn_to(c.command);
+      if (std::abs(off_rad) <= contract.hold_side_rad ||
+          !may_turn(side, c, off_rad, rule, held, contract.side_uncertain_rad)) {
+        continue;
+      }
+      choice.turn.hold(step.to_side(off_rad, side));
+      choice.held = {side, c.run};  // the oldest: what comes later may be turned to anew
     }
-    choices.push_back({turn, side});
-    forgetting.hold(turn);
+    if (choice.held.side == TurnSide::none) continue;
+    choices.push_back(choice);
+    forgetting.hold(choice.turn);
   }
-  if (!ahead.is_empty()) choices.push_back({forgetting, HeldSide::none});
+  if (!ahead.is_empty()) choices.push_back({forgetting, {}});
 }
 
 }  // namespace fairway

@@ -15,6 +15,7 @@
 #include <optional>
 #include <vector>
 
+#include "fairway/identify/commands_in_force.hpp"
 #include "fairway/identify/flown_track.hpp"
 #include "fairway/vehicle/contract.hpp"
 
@@ -49,6 +50,7 @@ struct FittedContract {
 struct FitOptions {
   double tracking_m = 0.0;     ///< above 0
   double turn_radius_m = 0.0;  ///< flown at full bank
+  SideRule sides = SideRule::each_command;
 };
 
 /// Nothing when the logs keep no contract of the widest kind tried: then `broken` is set.

@@ -26,7 +26,7 @@ std::optional<std::size_t> wrong_speed_of(const FlownTrack& track, SizeRange ran
 }  // namespace
 
 KeptContract kept_contract(const FlownTrack& track, const VehicleContract& contract,
-                           double tracking_m) {
+                           double tracking_m, SideRule sides) {
   constexpr double growth = 1.5;
   constexpr double precise = 1.03;      // needs_m is found to three percent
   constexpr double least_share = 0.02;  // of the tracking distance
@@ -37,7 +37,8 @@ KeptContract kept_contract(const FlownTrack& track, const VehicleContract& contr
   double fails_m = least_share * tracking_m;
   double shown_m = tracking_m;  // the limit of the search whose motion is shown
   const auto try_within = [&](double limit_m) {
-    const NearestMotion tried = nearest_motion(track, contract, {.limit_m = limit_m});
+    const NearestMotion tried =
+        nearest_motion(track, contract, {.limit_m = limit_m, .sides = sides});
     result.worst = tried.stays ? tried.farthest : tried.reached;
     if (tried.stays) {
       result.needs_m = tried.farthest_m;
@@ -61,7 +62,8 @@ KeptContract kept_contract(const FlownTrack& track, const VehicleContract& contr
   }
   result.wrong_speed = wrong_speed_of(track, contract.speed_mps);
   result.motion_m =
-      nearest_motion(track, contract, {.limit_m = shown_m, .wants_places = true}).place_m;
+      nearest_motion(track, contract, {.limit_m = shown_m, .sides = sides, .wants_places = true})
+          .place_m;
   return result;
 }
 

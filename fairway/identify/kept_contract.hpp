@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "fairway/identify/commands_in_force.hpp"
 #include "fairway/identify/flown_track.hpp"
 #include "fairway/vehicle/contract.hpp"
 
@@ -35,6 +36,7 @@ struct KeptContract {
 inline constexpr double farthest_tried_radii = 3.0;
 
 [[nodiscard]] KeptContract kept_contract(const FlownTrack& track, const VehicleContract& contract,
-                                         double tracking_m);
+                                         double tracking_m,
+                                         SideRule sides = SideRule::each_command);
 
 }  // namespace fairway

@@ -127,6 +127,31 @@ TEST(KeptContract, AWiderContractIsKeptWhereATighterOneIs) {
   }
 }
 
+TEST(KeptContract, TheContractsRuleOfSidesAllowsNoMoreThanASideForEachCommand) {
+  for (std::uint64_t seed = 40; seed < 46; ++seed) {
+    MadeVehicle v;
+    v.most_turn_rad = 3.1;
+    v.longest_s = 6.0;
+    const FlownTrack track = track_of(made_log(v, 100.0, seed), v);
+    const VehicleContract contract = contract_of(v, 2.0);
+    const bool held = kept_contract(track, contract, 2.0, SideRule::contract).kept;
+    EXPECT_TRUE(held) << seed;
+    EXPECT_GE(kept_contract(track, contract, 2.0, SideRule::each_command).kept, held) << seed;
+  }
+}
+
+TEST(KeptContract, AShorterSideTakenAtEachCommandBreaksTheContractsRuleAlone) {
+  // A turn to the left to a command behind, and before it is there, one behind to the right.
+  MadeVehicle v;
+  v.forgets_sides = true;
+  v.most_turn_rad = 3.1;
+  v.longest_s = 6.0;
+  const FlownTrack track = track_of(made_log(v, 200.0, 47), v);
+  const VehicleContract contract = contract_of(v, 2.0);
+  EXPECT_TRUE(kept_contract(track, contract, 2.0, SideRule::each_command).kept);
+  EXPECT_FALSE(kept_contract(track, contract, 2.0, SideRule::contract).kept);
+}
+
 TEST(KeptContract, AFlightFasterThanTheContractIsReportedBesideItsPlaces) {
   const MadeVehicle v;
   const FlownTrack track = track_of(made_log(v, 120.0, 3), v);
@@ -164,9 +189,10 @@ TEST(FittedContract, TheVehiclesOwnNumbersAreRecoveredWithinBounds) {
 
 TEST(FittedContract, OfAVehicleThatFliesElsewhereThereIsNone) {
   MadeVehicle v;
+  v.longest_s = 80.0;
   v.ignores_from_s = 20.0;
   v.ignores_to_s = 1000.0;
-  const FlownTrack track = track_of(made_log(v, 200.0, 4), v);
+  const FlownTrack track = track_of(made_log(v, 400.0, 4), v);
   Decider broken;
   EXPECT_FALSE(fitted_contract({track}, {2.0, 60.0}, broken));
   EXPECT_GT(track.time_s[broken.sample], 20.0);

@@ -18,7 +18,7 @@ namespace {
 struct Reached {
   Vec2 place_m;
   Heading course;
-  HeldSide side = HeldSide::none;
+  HeldSide held;
   double farthest_m = 0.0;
   std::uint32_t farthest = 0;  ///< sample
   std::uint32_t parent = 0;
@@ -129,8 +129,8 @@ class Beam {
       const Reached& r = now_[k];
       const double way_m = step_m(r, i);
       commands_.near(r.place_m, r.course);
-      find_turn_choices(commands_, TurnStep(contract_, way_m), contract_, r.course, r.side,
-                        choices_);
+      find_turn_choices(commands_, TurnStep(contract_, way_m), contract_, search_.sides, r.course,
+                        r.held, choices_);
       if (!choices_.empty()) follow(r, k, way_m, i + 1);
     }
     keep_best();
@@ -150,12 +150,12 @@ class Beam {
                                         turn.nearest_to(soon_rad), turn.nearest_to(late_rad)};
       for (std::size_t t = 0; t < turns.size(); ++t) {
         if (std::find(turns.begin(), turns.begin() + t, turns[t]) != turns.begin() + t) continue;
-        add(from, parent, turns[t], choice.side, way_m, to);
+        add(from, parent, turns[t], choice.held, way_m, to);
       }
     }
   }
 
-  void add(const Reached& from, std::uint32_t parent, double turn_rad, HeldSide side, double way_m,
+  void add(const Reached& from, std::uint32_t parent, double turn_rad, HeldSide held, double way_m,
            std::size_t to) {
     Reached next = from;
     const double half = 0.5 * turn_rad;
@@ -165,7 +165,7 @@ class Beam {
     const double distance_m = norm(off);
     if (distance_m > search_.limit_m) return;
     next.course = Heading::from_rad(from.course.rad() + turn_rad);
-    next.side = side;
+    next.held = held;
     next.parent = parent;
     if (distance_m > next.farthest_m) {
       next.farthest_m = distance_m;
@@ -192,8 +192,8 @@ class Beam {
     };
     const double per_m = cells_per_limit / search_.limit_m;
     r.alike = (cell(off.x * per_m) << 48) | (cell(off.y * per_m) << 32) |
-              (cell(turned_rad * cells_per_rad) << 16) |
-              static_cast<std::uint64_t>(static_cast<int>(r.side) + 1);
+              (cell(turned_rad * cells_per_rad) << 16) | ((r.held.run & 0x3fffU) << 2) |
+              static_cast<std::uint64_t>(static_cast<int>(r.held.side) + 1);
   }
 
   void keep_best() {

@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "fairway/identify/commands_in_force.hpp"
 #include "fairway/identify/flown_track.hpp"
 #include "fairway/vehicle/contract.hpp"
 
@@ -32,6 +33,7 @@ struct NearestMotion {
 
 struct MotionSearch {
   double limit_m = 1.0;  ///< distance from the track, above 0
+  SideRule sides = SideRule::each_command;
   bool wants_places = false;
   std::size_t most_states = 96;
 };

@@ -67,14 +67,15 @@ std::string place_words(const FlightLog& log, const HeldLog& held, double tracki
 }  // namespace
 
 ExplainedContract contract_of_logs(const std::vector<FlightLog>& logs,
-                                   std::optional<double> tracking_m, const FitMargins& margins) {
+                                   std::optional<double> tracking_m, const FitMargins& margins,
+                                   SideRule sides) {
   const double radius_m = turn_radius_of(logs);
   std::vector<FlownTrack> tracks;
   for (const FlightLog& log : logs) {
     require_fine(log, radius_m);
     tracks.push_back(flown_track(log, smoothing_radii * radius_m));
   }
-  const FitOptions options{tracking_m.value_or(usual_tracking_radii * radius_m), radius_m};
+  const FitOptions options{tracking_m.value_or(usual_tracking_radii * radius_m), radius_m, sides};
   Decider broken;
   const auto fit = fitted_contract(tracks, options, broken);
   if (fit) return explained(*fit, logs, margins);
@@ -88,12 +89,13 @@ ExplainedContract contract_of_logs(const std::vector<FlightLog>& logs,
                   time_text(at.time_s), place_text(at.place_m), length_text(options.tracking_m)));
 }
 
-HeldLog held_against(const FlightLog& log, const VehicleContract& contract, double tracking_m) {
+HeldLog held_against(const FlightLog& log, const VehicleContract& contract, double tracking_m,
+                     SideRule sides) {
   require_fine(log, contract.turn_radius_m.least);
   const FlownTrack track = flown_track(log, smoothing_radii * contract.turn_radius_m.least);
   HeldLog held;
   held.name = log.name;
-  held.place = kept_contract(track, contract, tracking_m);
+  held.place = kept_contract(track, contract, tracking_m, sides);
   held.kept = held.place.kept && !held.place.wrong_speed;
   held.kept_until_s = log.samples[held.place.kept_until].time_s;
   held.worst_s = log.samples[held.place.worst].time_s;

@@ -66,6 +66,7 @@ FlightLog made_log(const MadeVehicle& v, double length_s, std::uint64_t seed) {
         asked_s = v.ignores_from_s - 1e-9;
       const double obeyed_rad = command_at(orders, std::max(0.0, asked_s));
       if (obeyed_rad != last_obeyed_rad) radius_m = draw.uniform(v.radius_least_m, v.radius_most_m);
+      if (obeyed_rad != last_obeyed_rad && v.forgets_sides) side = 0.0;
       last_obeyed_rad = obeyed_rad;
       const double error_rad = 0.9 * v.heading_error_rad * std::sin(0.7 * (time_s + k * step_s));
       const double left_rad =

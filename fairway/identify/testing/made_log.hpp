@@ -17,6 +17,7 @@ struct MadeVehicle {
   double period_s = 0.1;       ///< between samples
   double longest_s = 12.0;     ///< between commands; the shortest is a quarter of it
   double most_turn_rad = 2.5;  ///< of a change of command
+  bool forgets_sides = false;  ///< takes the shorter side at each command
   // One command that the vehicle does not obey, given between these times; none: both 0.
   double ignores_from_s = 0.0;
   double ignores_to_s = 0.0;
