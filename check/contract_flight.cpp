@@ -10,9 +10,9 @@ namespace {
 using std::numbers::pi;
 
 constexpr double most_step = 2.5 * pi / 180.0;
-constexpr double most_joining = 10.0 * pi / 180.0;  ///< headings of a set that begins
+constexpr double most_joining = 5.0 * pi / 180.0;  ///< headings of a set that begins
 constexpr double most_turned = 8.0 * pi;
-constexpr int most_work = 1 << 16;
+constexpr int most_work = 1 << 14;
 constexpr std::size_t most_waiting = 4096;
 constexpr std::size_t few_waiting = 64;
 constexpr double most_parts_met = 4096.0;
@@ -135,11 +135,24 @@ void Behaviours::follow_leaf(std::size_t part, int side, double low, double high
   double most = arc.right + arc.width;
   if (parts_.kind[part] != ordinary || is_loose(arc, contract_)) return lose();
   if (!point_outwards(side, least, most)) return;
-  // With all commands near, no side is held.
-  const bool may_hold = arc.width > contract_.hold_side - 2.0 * angle_slack;
-  const Memory memory{.nothing = true, .side = may_hold};
-  begin(Cell{0, 0}.beyond(side), places_on(side, low, high), least, most, memory, memory,
-        Past{}.with(least, most, 0.0, 0.0));
+  // A side is held only for a command that is far: at the other end of the arc.
+  const double near_right = arc.right + arc.width - contract_.hold_side + 2.0 * angle_slack;
+  const double near_left = arc.right + contract_.hold_side - 2.0 * angle_slack;
+  const Shape line = places_on(side, low, high);
+  const auto leave = [&](double from, double to, bool holds_left, bool holds_right) {
+    from = std::max(from, least);
+    to = std::min(to, most);
+    if (from > to) return;
+    begin(Cell{0, 0}.beyond(side), line, from, to, Memory{.nothing = true, .side = holds_left},
+          Memory{.nothing = true, .side = holds_right}, true, Past{}.with(from, to, 0.0, 0.0));
+  };
+  if (near_right < arc.right) {
+    leave(least, most, false, false);
+  } else {  // narrower than twice that far, so that these do not overlap, but for slack
+    leave(least, near_right, true, false);
+    leave(near_right, near_left, false, false);
+    leave(near_left, most, false, true);
+  }
   run(sightings);
 }
 
@@ -150,7 +163,7 @@ void Behaviours::follow_state(std::size_t part, double x, double y, double headi
   work_ = 0;
   origin_ = parts_.part_at(part);
   const Memory memory{.nothing = true, .side = false};
-  begin({0, 0}, Shape{{x, y}}, heading_rad, heading_rad, memory, memory,
+  begin({0, 0}, Shape{{x, y}}, heading_rad, heading_rad, memory, memory, false,
         Past{}.with(heading_rad, heading_rad, 0.0, 0.0));
   run(sightings);
 }
@@ -162,13 +175,16 @@ void Behaviours::run(Sightings& sightings) {
     waiting_.pop_back();
     while (!lost_ && !sightings.has_enough() && advance(set)) {
     }
+    if (returns_.size() + waiting_.size() > most_waiting) lose();
+    for (const Return& one : returns_) waiting_.push_back(one.set);
+    returns_.clear();
   }
   waiting_.clear();
 }
 
 /// States in a part (or on its border, about to enter) with headings in [least, most].
 void Behaviours::begin(Cell part, const Shape& at, double least, double most, Memory left,
-                       Memory right, const Past& past) {
+                       Memory right, bool exact, const Past& past) {
   touch_ends(at, past);
   if (kind_of(part) != ordinary || lost_ || sightings_->has_enough()) return;
   if (++work_ > most_work) return lose();
@@ -200,7 +216,7 @@ void Behaviours::begin(Cell part, const Shape& at, double least, double most, Me
     const std::array<Choices, 2> choices{
         choices_in(arc.right, arc.width, low, step, left, contract_),
         choices_in(-end, arc.width, -low - step, step, right, contract_)};
-    if (choices[0].aligns && !aligns) align(part, at, low + 0.5 * step, past);
+    if (choices[0].aligns && !aligns) align(part, at, exact, low + 0.5 * step, past);
     aligns = aligns || choices[0].aligns;
     const bool alternates = choices[0].alternates || choices[1].alternates;
     if (alternates) roam(part, at, low, low + step, past);
@@ -234,9 +250,37 @@ void Behaviours::turn_from(const Shape& at, int turn, double least, double most,
   }
 }
 
+/// Those that turn back in one part in adjacent steps make one set: the last step is its first.
+void Behaviours::turn_back(const Turning& set, double end, Cell part, const Shape& there,
+                           Memory memory, const Past& past) {
+  for (Return& one : returns_) {
+    Turning& back = one.set;
+    if (one.part.x != part.x || one.part.y != part.y || back.clock != -set.clock ||
+        back.memory.nothing != memory.nothing || back.memory.side != memory.side ||
+        back.joined + end > most_joining) {
+      continue;
+    }
+    back.clock = -end;
+    back.at = back.joining = hull(back.at, there);
+    back.past.least_rad = std::min(back.past.least_rad, past.least_rad);
+    back.past.most_rad = std::max(back.past.most_rad, past.most_rad);
+    back.past.length = std::max(back.past.length, past.length);
+    back.past.turned = std::max(back.past.turned, past.turned);
+    return;
+  }
+  returns_.push_back({part,
+                      {.at = there,
+                       .joining = there,
+                       .turn = -set.turn,
+                       .clock = -end,
+                       .joined = -set.clock,
+                       .memory = memory,
+                       .past = past}});
+}
+
 /// Aligned in a part, `heading` among the headings. The way in the cone of its arc is shorter than
 /// what it gains along the middle of the cone, divided by the cosine of half its width.
-void Behaviours::align(Cell part, const Shape& at, double heading, const Past& past) {
+void Behaviours::align(Cell part, const Shape& at, bool exact, double heading, const Past& past) {
   const Arc arc = arc_of(part);
   const double right = heading - around_from(heading - arc.right);
   const Point middle = unit(right + 0.5 * arc.width);
@@ -247,7 +291,7 @@ void Behaviours::align(Cell part, const Shape& at, double heading, const Past& p
   for (int side = 0; side < 4; ++side) {
     double low = 0.0;
     double high = 0.0;
-    if (find_way_out(inside, side, right, right + arc.width, low, high)) {
+    if (find_way_out(inside, side, right, right + arc.width, exact, low, high)) {
       sightings_->cross(parts_.index(global(part)), side, low, high, then);
     }
   }
@@ -265,31 +309,35 @@ void Behaviours::roam(Cell part, const Shape& at, double least, double most, con
   for (int side = 0; side < 4; ++side) {
     double low = 0.0;
     double high = 0.0;
-    if (!find_way_out(inside, side, low_rad, high_rad, low, high)) continue;
+    if (!find_way_out(inside, side, low_rad, high_rad, false, low, high)) continue;
     double from = low_rad;
     double to = high_rad;
     if (!point_outwards(side, from, to)) continue;
     const Memory any{.nothing = true, .side = true};
     begin(part.beyond(side), moved(places_on(side, low, high), corner_of(part)), from, to, any, any,
-          then);
+          false, then);
   }
 }
 
-/// The step to the next heading at which the choices change in any of the parts that are met.
-double Behaviours::step_before_changes(const Turning& set, const Shape& swept, double step) const {
+/// The step to the next heading at which an arc begins or ends in any part that might be met.
+double Behaviours::step_before_changes(const Turning& set, const Box& swept, double step) const {
   double least = step;
-  for_parts(swept, skin, [&](Cell part, const Shape&) {
-    if (kind_of(part) != ordinary) return;
-    const Arc arc = arc_of(part);
-    if (is_loose(arc, contract_)) return;
-    double points[turning_points];
-    find_turning_points(set.turn > 0 ? arc.right : -(arc.right + arc.width), arc.width, contract_,
-                        points);
-    for (const double point : points) {
-      const double until = around_from(point - set.clock);
-      if (until > angle_slack) least = std::min(least, until);
+  const int last_x = static_cast<int>(std::floor(swept.x1 + skin));
+  const int last_y = static_cast<int>(std::floor(swept.y1 + skin));
+  for (int y = static_cast<int>(std::floor(swept.y0 - skin)); y <= last_y; ++y) {
+    for (int x = static_cast<int>(std::floor(swept.x0 - skin)); x <= last_x; ++x) {
+      if (kind_of({x, y}) != ordinary) continue;
+      const Arc arc = arc_of({x, y});
+      if (is_loose(arc, contract_)) continue;
+      double points[turning_points];
+      find_turning_points(set.turn > 0 ? arc.right : -(arc.right + arc.width), arc.width, contract_,
+                          points);
+      for (const double point : points) {
+        const double until = around_from(point - set.clock);
+        if (until > angle_slack) least = std::min(least, until);
+      }
     }
-  });
+  }
   return least;
 }
 
@@ -309,7 +357,7 @@ bool Behaviours::advance(Turning& set) {
     lose();
     return false;
   }
-  const double sooner = step_before_changes(set, swept, step);
+  const double sooner = step_before_changes(set, all, step);
   if (sooner < step) {
     step = sooner;
     by = Displacements(set.turn, set.clock, step, least_radius_, most_radius_);
@@ -373,12 +421,12 @@ void Behaviours::meet_part(const Turning& set, double step, Cell part, const Sha
   }
   const Choices c = choices_in(set.turn > 0 ? arc.right : -(arc.right + arc.width), arc.width,
                                set.clock, step, set.memory, contract_);
-  if (c.aligns) align(part, there, least + 0.5 * step, past);
+  if (c.aligns) align(part, there, false, least + 0.5 * step, past);
   if (c.alternates) {
     met_.push_back({part, false});
     return roam(part, there, least, least + step, past);
   }
-  if (c.turns_back) turn_from(there, -set.turn, least, least + step, c.back, past);
+  if (c.turns_back) turn_back(set, end, part, there, c.back, past);
   met_.push_back({part, c.goes_on});
   if (!c.goes_on) return;
   memory.nothing = memory.nothing || c.on.nothing;

@@ -67,19 +67,26 @@ class Behaviours {
     Cell part{};
     bool stays = false;  ///< the set may turn on in it
   };
+  /// Those that turn back in a part.
+  struct Return {
+    Cell part{};
+    Turning set{};
+  };
   struct Run;
 
   void begin(Cell part, const Shape& at, double least, double most, Memory left, Memory right,
-             const Past& past);
+             bool exact, const Past& past);
   void turn_from(const Shape& at, int turn, double least, double most, Memory memory,
                  const Past& past);
-  void align(Cell part, const Shape& at, double heading, const Past& past);
+  void turn_back(const Turning& set, double end, Cell part, const Shape& there, Memory memory,
+                 const Past& past);
+  void align(Cell part, const Shape& at, bool exact, double heading, const Past& past);
   void roam(Cell part, const Shape& at, double least, double most, const Past& past);
   void touch_ends(const Shape& at, const Past& past);
 
   void run(Sightings& sightings);
   bool advance(Turning& set);
-  double step_before_changes(const Turning& set, const Shape& swept, double step) const;
+  double step_before_changes(const Turning& set, const Box& swept, double step) const;
   void meet(const Turning& set, double step, const Shape& swept, const Past& past, Memory& memory);
   void meet_part(const Turning& set, double step, Cell part, const Shape& there, const Past& past,
                  Memory& memory);
@@ -102,6 +109,7 @@ class Behaviours {
   int work_ = 0;
   bool lost_ = false;
   std::vector<Turning> waiting_;
+  std::vector<Return> returns_;
   std::vector<Met> met_;
 };
 

@@ -74,6 +74,7 @@ SmallWorld random_world(std::uint64_t seed) {
     }
   }
   w.command[0] = 1.0F;
+  w.fill();
   w.rho = w.k * (unit() < 0.4 ? 0.02 : 0.8 * unit());
   w.eps = unit() < 0.3 ? 0.002 : 0.15 * unit();
   const double r = w.k * (1.2 + 3.0 * unit());
@@ -286,13 +287,17 @@ void attack(std::uint64_t from, std::uint64_t to, bool leaves, Count& count) {
 TEST(ContractFlight, TellsOfAllThatFlightsFromALeafMeet) {
   Count count;
   attack(1, 101, true, count);
-  std::cout << count.told << " told, " << count.images << " images, " << count.lost << " lost\n";
+  RecordProperty("told", count.told);
+  EXPECT_GT(count.told, 8000);
+  EXPECT_LT(count.lost, count.images / 4);
 }
 
 TEST(ContractFlight, TellsOfAllThatFlightsFromAStateMeet) {
   Count count;
   attack(1000, 1100, false, count);
-  std::cout << count.told << " told, " << count.images << " images, " << count.lost << " lost\n";
+  RecordProperty("told", count.told);
+  EXPECT_GT(count.told, 8000);
+  EXPECT_LT(count.lost, count.images / 4);
 }
 
 }  // namespace

@@ -38,9 +38,11 @@ class Outcome : public Sightings {
     const auto from = c_.begin.begin() + c_.first[section];
     const auto to = c_.begin.begin() + c_.first[section + 1];
     if (from == to) tell(undecided);
+    // Leaves that it shares more than an end with; all that meet at a single place.
+    const bool single = low == high;
     auto at = std::lower_bound(from, to, low * 0x1p32);
-    if (at != from) --at;  // reaches up to `low`, or ends there
-    for (; at != to && !(*at > high * 0x1p32); ++at) {
+    if (at != from && (single || at == to || *at > low * 0x1p32)) --at;
+    for (; at != to && (single ? *at <= high * 0x1p32 : *at < high * 0x1p32); ++at) {
       const auto leaf = static_cast<std::size_t>(at - c_.begin.begin());
       const std::uint32_t group = c_.group[leaf];
       tell(c_.verdict[leaf]);
@@ -109,7 +111,8 @@ std::string defect_of_leaf(const ContractCertificate& c, Behaviours& behaviours,
                          c.end_of(section, leaf), outcome);
   share = {outcome.onwards_s, outcome.astray_rad};
   if (outcome.gave_up) return "its behaviours cannot be followed";
-  if (outcome.verdict() != verdict) {
+  const bool nobody = outcome.told == 0;  // of nobody, every verdict but trapped holds
+  if (nobody ? verdict == trapped : outcome.verdict() != verdict) {
     std::string told = "re-proved outcomes:";
     for (unsigned v = 0; v < verdict_count; ++v)
       told += (outcome.told >> v & 1U) != 0 ? fmt::format(" {}", verdict_name[v]) : "";

@@ -100,7 +100,8 @@ Shape places_on(int side, double low, double high) {
   }
 }
 
-bool find_way_out(const Shape& at, int side, double least, double most, double& low, double& high) {
+bool find_way_out(const Shape& at, int side, double least, double most, bool exact, double& low,
+                  double& high) {
   const double half = 0.5 * (most - least);
   const double from_side = std::remainder(0.5 * (least + most) - side * (0.5 * pi), 2.0 * pi);
   const double right = from_side - half;  // bounds of the cone, from the direction outwards
@@ -114,17 +115,21 @@ bool find_way_out(const Shape& at, int side, double least, double most, double& 
   for (const Point p : at.corners()) {
     const double place = side == 0 ? p.y : side == 1 ? 1.0 - p.x : side == 2 ? 1.0 - p.y : p.x;
     const double away = side == 0 ? 1.0 - p.x : side == 1 ? 1.0 - p.y : side == 2 ? p.x : p.y;
+    if (exact && away == 0.0) {
+      low = std::min(low, place);
+      high = std::max(high, place);
+      continue;
+    }
     const double nearest = std::max(0.0, away - depth_slack);
     const double farthest = std::max(0.0, away) + depth_slack;
-    low = std::min(low, place + (to_right > 0.0 ? nearest : farthest) * to_right);
-    high = std::max(high, place + (to_left < 0.0 ? nearest : farthest) * to_left);
+    low = std::min(low, place + (to_right > 0.0 ? nearest : farthest) * to_right - touch);
+    high = std::max(high, place + (to_left < 0.0 ? nearest : farthest) * to_left + touch);
   }
   // A cone that reaches back beyond the line of the side reaches all of the line.
   if (right <= -along) low = -HUGE_VAL;
   if (left >= along) high = HUGE_VAL;
-  if (low > 1.0 + touch || high < -touch) return false;
-  low = std::max(0.0, low - touch);
-  high = std::min(1.0, high + touch);
+  low = std::max(0.0, low);
+  high = std::min(1.0, high);
   return low <= high;
 }
 

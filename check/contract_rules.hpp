@@ -45,7 +45,8 @@ bool point_outwards(int side, double& least, double& most);
 /// Where those at `at`, in a part at [0, 1]^2 or just beside it, may leave over a side with
 /// headings in [least, most] on the way: a range from 0, at the right of one who looks outwards,
 /// to 1.
-bool find_way_out(const Shape& at, int side, double least, double most, double& low, double& high);
+bool find_way_out(const Shape& at, int side, double least, double most, bool exact, double& low,
+                  double& high);
 
 /// The places from `low` to `high` of a side of the part at [0, 1]^2.
 Shape places_on(int side, double low, double high);

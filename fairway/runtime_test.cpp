@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
@@ -15,6 +16,9 @@
 
 #include "fairway/base/random.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/certificate/contract_certificate_file.hpp"
+#include "fairway/inclusion/contract_lookup.hpp"
+#include "fairway/inclusion/inclusion_prover.hpp"
 #include "fairway/inclusion/parts.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/verify/certify.hpp"
@@ -28,8 +32,9 @@ void* operator new(std::size_t size) {
   if (void* place = std::malloc(size == 0 ? 1 : size)) return place;
   throw std::bad_alloc();
 }
-void operator delete(void* place) noexcept { std::free(place); }
-void operator delete(void* place, std::size_t) noexcept { std::free(place); }
+// Not inlined: where only one of the pair is, GCC takes them for a mismatch.
+[[gnu::noinline]] void operator delete(void* place) noexcept { std::free(place); }
+[[gnu::noinline]] void operator delete(void* place, std::size_t) noexcept { std::free(place); }
 
 namespace fairway {
 namespace {
@@ -205,6 +210,64 @@ std::string with_header(const std::string& file, const std::string& was, const s
   return all + header + file.substr(8 + length);
 }
 
+/// Of a certificate under a contract that decides nothing.
+std::string contract_file(const Plan& plan, const std::vector<CellKind>& kinds) {
+  ContractCertificate c;
+  c.grid = plan.grid;
+  c.vehicle = plan.vehicle;
+  c.contract = VehicleContract::of(plan.vehicle);
+  c.heading_rad = plan.heading_rad;
+  c.region = plan.region;
+  c.kind = kinds;
+  c.verdicts.first.assign(4 * plan.grid.size() + 1, 0);
+  c.verdicts.group_heading_rad = {std::numeric_limits<float>::quiet_NaN()};
+  c.verdicts.group_time_s = {std::numeric_limits<float>::infinity()};
+  const auto path = std::filesystem::temp_directory_path() / "fairway_runtime_contract.safetensors";
+  write_contract_certificate(c, path, Existing::replace);
+  std::ifstream in(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::filesystem::remove(path);
+  return text;
+}
+
+TEST_F(RuntimeTest, CommandsAreReadFromCertificatesOfBothKindsAndOfNoOtherFile) {
+  const Plan plan = plan_towards_the_middle();
+  const auto kinds = cell_kinds(plan.grid, plan.region, {});
+  const auto status = [](const std::string& text, Flow& flow) {
+    static std::vector<std::uint64_t> words;  // outlives the flow
+    words = aligned(text);
+    runtime::FileArrays arrays;
+    const auto opened = arrays.open(words.data(), text.size());
+    return opened == runtime::Status::ok ? arrays.take_flow(flow) : opened;
+  };
+  const std::string whole = contract_file(plan, kinds);
+  for (const std::string& text : {bytes(), whole}) {
+    Flow flow;
+    ASSERT_EQ(status(text, flow), runtime::Status::ok);
+    EXPECT_EQ(flow.grid, plan.grid);
+    EXPECT_EQ(flow.vehicle, plan.vehicle);
+    for (std::size_t i = 0; i < plan.grid.size(); ++i) {
+      ASSERT_EQ(flow.heading_rad[i], plan.heading_rad[i]);
+      ASSERT_EQ(flow.kind[i], kinds[i]);
+    }
+  }
+  Flow flow;
+  Plan flat = plan;
+  flat.grid.cell_m = 0.0;
+  EXPECT_EQ(status(contract_file(flat, kinds), flow), runtime::Status::misfit);
+  auto odd = kinds;
+  odd[7] = static_cast<CellKind>(3);
+  EXPECT_EQ(status(contract_file(plan, odd), flow), runtime::Status::misfit);
+  EXPECT_EQ(status(with_header(whole, R"("cell_kind":{)", R"("cell_king":{)"), flow),
+            runtime::Status::misfit);
+  EXPECT_EQ(status(with_header(whole, R"("heading_rad":{)", R"("heading_deg":{)"), flow),
+            runtime::Status::not_certificate);
+  EXPECT_EQ(status(whole.substr(0, whole.size() - 1), flow), runtime::Status::not_certificate);
+  runtime::Certificate exact;
+  const auto words = aligned(whole);
+  EXPECT_EQ(exact.open(words.data(), whole.size()), runtime::Status::not_certificate);
+}
+
 TEST_F(RuntimeTest, HeadersThatOthersReadOtherwiseAreNotOpened) {
   runtime::Certificate certificate;
   const auto opens = [&](const std::string& was, const std::string& is) {
@@ -239,6 +302,110 @@ TEST_F(RuntimeTest, NoDamagedFileMakesItReadBesideTheBytes) {
     if (certificate.open(words.data(), text.size()) != runtime::Status::ok) continue;
     static_cast<void>(certificate.query(0.0, 20.0, 1.0));  // under the sanitizers: nothing beside
   }
+}
+
+/// A vehicle as on board: it sees its place and course with errors, asks for a command now and
+/// then, and has an autopilot that turns to the shorter side of what it is handed.
+class FlownOnBoard {
+ public:
+  static constexpr double period_m = 0.5;
+  static constexpr double place_error_m = 0.4;
+  static constexpr double course_error_rad = 0.03;
+
+  /// What it keeps: between two questions it flies on by the period, with the command of before.
+  static VehicleContract contract(const Vehicle& vehicle) {
+    VehicleContract c = VehicleContract::of(vehicle);
+    c.command_error_m = period_m + place_error_m;
+    c.heading_error_rad = course_error_rad;
+    c.turn_radius_m = {0.93 * vehicle.turn_radius_m, 1.07 * vehicle.turn_radius_m};
+    return c;
+  }
+
+  FlownOnBoard(const runtime::CommandField& commands, const VehicleContract& contract, Vec2 at,
+               double course_rad, std::uint64_t seed)
+      : commands_(commands),
+        contract_(contract),
+        at_(at),
+        course_rad_(course_rad),
+        side_(contract.hold_side_rad),
+        random_(seed) {}
+
+  Vec2 at() const { return at_; }
+
+  void fly(double length_m) {
+    until_m_ -= length_m;
+    if (until_m_ <= 0.0) ask();
+    const double most = length_m / radius_m_;
+    const double wanted = std::remainder(handed_rad_ - (course_rad_ + course_seen_off_), 2.0 * pi);
+    const double turn = std::clamp(wanted, -most, most);
+    at_ = at_ + length_m * Heading::from_rad(course_rad_ + 0.5 * turn).unit();
+    course_rad_ += turn;
+  }
+
+ private:
+  void ask() {
+    until_m_ = period_m;
+    const double angle = random_.uniform(-pi, pi);
+    const Vec2 seen = at_ + place_error_m * random_.unit() * Heading::from_rad(angle).unit();
+    course_seen_off_ = random_.uniform(-course_error_rad, course_error_rad);
+    radius_m_ = random_.uniform(contract_.turn_radius_m.least, contract_.turn_radius_m.most);
+    handed_rad_ = side_.keep(commands_.command_rad(seen.x, seen.y), course_rad_ + course_seen_off_);
+  }
+
+  const runtime::CommandField& commands_;
+  const VehicleContract& contract_;
+  Vec2 at_;
+  double course_rad_;
+  runtime::TurnSide side_;
+  Random random_;
+  double until_m_ = 0.0;
+  double handed_rad_ = 0.0;
+  double course_seen_off_ = 0.0;
+  double radius_m_ = 0.0;
+};
+
+TEST(RuntimeUnderAContract, TheLoopOfTheDocsDoesWhatIsProvedOfItsContract) {
+  Plan plan = plan_towards_the_middle();
+  for (const std::size_t lost : {3U, 14U, 40U, 95U}) {
+    plan.heading_rad[lost] = std::numeric_limits<float>::quiet_NaN();
+  }
+  const auto kinds = cell_kinds(plan.grid, plan.region, {});
+  const Flow flow{plan.grid, plan.vehicle, plan.heading_rad.data(), kinds.data()};
+  const VehicleContract contract = FlownOnBoard::contract(plan.vehicle);
+  const Parts parts(flow, contract, 2);
+  InclusionProver prover(parts, {});
+  ASSERT_TRUE(prover.run([](const InclusionLevel&) {}));
+  const ContractVerdicts verdicts = prover.verdicts(contract.speed_mps.least);
+  const runtime::CommandField commands(flow.grid, flow.heading_rad);
+  Random random(8);
+  std::array<int, verdict_count> seen{};
+  for (int k = 0; k < 1500; ++k) {
+    const Vec2 start{plan.grid.x0_m + random.unit() * plan.grid.width_m(),
+                     plan.grid.y0_m + random.unit() * plan.grid.height_m()};
+    const double course_rad = random.uniform(-pi, pi);
+    const Vec2 in_parts = (1.0 / parts.part_m()) * (start - plan.grid.corner({0, 0}));
+    const ContractAnswer answer =
+        contract_answer(parts, verdicts, contract.speed_mps.least, in_parts, course_rad);
+    ++seen[static_cast<std::size_t>(answer.verdict)];
+    if (answer.verdict == Verdict::undecided || answer.verdict == Verdict::trapped) continue;
+    for (int flight = 0; flight < 3; ++flight) {
+      FlownOnBoard vehicle(commands, contract, start, course_rad, random.bits());
+      constexpr double step_m = 0.05;
+      Verdict end = Verdict::undecided;
+      const double most_m = answer.worst_time_s * contract.speed_mps.least + 1.0;
+      for (double way = 0.0; way < most_m && end == Verdict::undecided; way += step_m) {
+        const CellKind kind = flow.kind_at(flow.grid.cell_of(vehicle.at()));
+        end = kind == CellKind::obstacle  ? Verdict::collide
+              : kind == CellKind::target  ? Verdict::reach
+              : kind == CellKind::outside ? Verdict::leave
+                                          : Verdict::undecided;
+        vehicle.fly(step_m);
+      }
+      ASSERT_EQ(end, answer.verdict) << start.x << "," << start.y << "," << course_rad;
+    }
+  }
+  EXPECT_GT(seen[static_cast<std::size_t>(Verdict::reach)], 700);
+  EXPECT_GT(seen[static_cast<std::size_t>(Verdict::leave)], 20);
 }
 
 }  // namespace

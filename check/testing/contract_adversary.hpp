@@ -16,8 +16,9 @@ inline double wrapped(double angle) { return std::remainder(angle, 2.0 * std::nu
 struct SmallWorld {
   int nx = 0;  // cells
   int ny = 0;
-  int k = 1;                       // parts in a cell
-  std::vector<float> command;      // [iy][ix] of cells
+  int k = 1;                   // parts in a cell
+  std::vector<float> command;  // [iy][ix] of cells
+  std::vector<double> filled;
   std::vector<std::uint8_t> kind;  // 0 ordinary, 1 obstacle, 2 goal
   double rho = 0.0;
   double eps = 0.0;
@@ -27,7 +28,12 @@ struct SmallWorld {
   double uncertain = 0.0;
 
   std::size_t at(int x, int y) const { return static_cast<std::size_t>(y * nx + x); }
-  /// Of a cell, or of the nearest with one.
+  /// Of a cell, or of the nearest with one; once for all.
+  void fill() {
+    for (int y = 0; y < ny; ++y) {
+      for (int x = 0; x < nx; ++x) filled.push_back(command_of(x, y));
+    }
+  }
   double command_of(int x, int y) const {
     if (!std::isnan(command[at(x, y)])) return static_cast<double>(command[at(x, y)]);
     double best = HUGE_VAL;
@@ -51,9 +57,15 @@ struct SmallWorld {
   std::vector<double> commands_near(double x0, double y0, double x1, double y1,
                                     double reach) const {
     std::vector<double> all;
-    for (int y = 0; y < ny; ++y) {
-      for (int x = 0; x < nx; ++x) {
-        if (away(x, y, x0, y0, x1, y1) <= reach) all.push_back(command_of(x, y));
+    const auto from = [this, reach](double low) {
+      return std::max(0, static_cast<int>((low - reach) / k) - 1);
+    };
+    const auto to = [this, reach](double high, int n) {
+      return std::min(n - 1, static_cast<int>((high + reach) / k) + 1);
+    };
+    for (int y = from(y0); y <= to(y1, ny); ++y) {
+      for (int x = from(x0); x <= to(x1, nx); ++x) {
+        if (away(x, y, x0, y0, x1, y1) <= reach) all.push_back(filled[at(x, y)]);
       }
     }
     return all;

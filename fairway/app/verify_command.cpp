@@ -14,9 +14,12 @@
 #include "fairway/base/error.hpp"
 #include "fairway/bitmap/bitmap_file.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/certificate/contract_certificate_file.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/run/bitmap_pictures.hpp"
 #include "fairway/run/bitmap_verification.hpp"
+#include "fairway/run/contract_file.hpp"
+#include "fairway/run/contract_verification.hpp"
 #include "fairway/run/failing_flights.hpp"
 #include "fairway/run/failing_states.hpp"
 #include "fairway/run/findings.hpp"
@@ -43,7 +46,9 @@ struct VerifyArguments {
   fs::path failures;
   fs::path pictures;
   fs::path summary;
-  std::string method = "certified";
+  std::string method;  // empty: contract if there is one, else certified
+  fs::path contract;
+  int parts_per_cell = 0;
   std::string region = "goal";
   VerifyLimits limits;
   std::size_t volume_samples = CertifyOptions{}.samples;
@@ -78,10 +83,30 @@ void open_pictures(const VerifyArguments& a, const Places& inputs, const Session
   folder.emplace(a.pictures, session.existing(), drawn ? "sampled.png" : "proved.png", files);
 }
 
+/// The contract to verify under: the one given, or the plan's own.
+std::optional<VehicleContract> contract_for(const VerifyArguments& a, const Plan& plan) {
+  if (!a.contract.empty()) return read_contract(a.contract, plan.vehicle);
+  if (a.method == "contract" && !plan.record.contract) {
+    throw InputError(a.plan.string(),
+                     "carries no contract: name one with --contract FILE.toml, or plan from a "
+                     "scenario with [vehicle.contract]");
+  }
+  return a.method.empty() || a.method == "contract" ? plan.record.contract : std::nullopt;
+}
+
+ContractVerifyOptions contract_options(const VerifyArguments& a) {
+  ContractVerifyOptions options;
+  options.parts_per_cell = a.parts_per_cell;
+  options.limits = a.limits;
+  if (a.volume_samples != CertifyOptions{}.samples) options.samples = a.volume_samples;
+  options.seed = a.seed;
+  return options;
+}
+
 int verify_command(const VerifyArguments& a, const Session& session) {
   const fs::path summary_file = summary_place(a);
   const RegionRequest asked = region_request_of(a.region).value_or(RegionRequest{});
-  const Places inputs = files_of({a.plan, a.resume, asked.file});
+  const Places inputs = files_of({a.plan, a.resume, a.contract, asked.file});
   require_places({a.output, summary_file, a.failures}, inputs, session.existing());
   std::optional<AtomicFolder> pictures;
   open_pictures(a, inputs, session, pictures);
@@ -98,7 +123,22 @@ int verify_command(const VerifyArguments& a, const Session& session) {
   std::vector<Finding> found;
   std::vector<std::string> warnings;
   std::string notes;
-  if (a.method == "bitmap") {
+  const char* product = a.method == "bitmap" ? "bitmap" : "certificate";
+  if (const auto contract = contract_for(a, plan)) {
+    if (!a.resume.empty() || !a.failures.empty() || pictures) {
+      throw InputError("--resume, --failures and --pictures",
+                       "go with the exact vehicle: add --method certified");
+    }
+    const ContractVerification made =
+        verify_contract(plan, a.plan.string(), region, *contract, contract_options(a),
+                        [&](const std::string& doing) { clock.begin(doing, unknown_time); });
+    clock.begin("writing the certificate", unknown_time);
+    write_contract_certificate(made.certificate, a.output, session.existing());
+    clock.end();
+    summary = contract_verification_json(made);
+    found = findings(plan, made);
+    notes = contract_notes(made) + "\n";
+  } else if (a.method == "bitmap") {
     clock.begin("verifying", unknown_time);
     const BitmapVerification made =
         draw_bitmap(plan, a.plan.string(), region, a.samples_per_border, a.seed);
@@ -150,7 +190,6 @@ int verify_command(const VerifyArguments& a, const Session& session) {
   }
   terminal.reset();
   summary["plan"] = a.plan.string();
-  const char* product = a.method == "bitmap" ? "bitmap" : "certificate";
   summary[product] = a.output.string();
   summary["region"] = a.region;
   summary["findings"] = findings_json(found);
@@ -177,11 +216,25 @@ Action declare_verify(CLI::App& options) {
   options
       .add_option(
           "--method", a.method,
-          "certified: a proof with a certificate; bitmap: paper 2's backward reachable set on "
-          "samples of the borders, a picture that can be queried, not a proof")
-      ->check(CLI::IsMember({"certified", "bitmap"}))
+          "certified: a proof for the exact vehicle, with a certificate; contract: a proof for every "
+          "vehicle that keeps a contract (the default where there is one); bitmap: paper 2's "
+          "backward reachable set on samples of the borders, a picture that can be queried, not a "
+          "proof")
+      ->check(CLI::IsMember({"certified", "contract", "bitmap"}))
       ->type_name("METHOD")
-      ->capture_default_str();
+      ->default_str("certified");
+  options
+      .add_option("--contract", a.contract,
+                  "prove it for every vehicle that keeps the contract [vehicle.contract] of this "
+                  "file, instead of the plan's own contract")
+      ->check(CLI::ExistingFile)
+      ->type_name("FILE.toml");
+  options
+      .add_option("--parts", a.parts_per_cell,
+                  "under a contract: parts along the side of a cell; finer proves more, and takes "
+                  "longer (default: by the contract's command error)")
+      ->check(CLI::Range(1, 16))
+      ->type_name("K");
   options
       .add_option("--region", a.region,
                   "region to be reached: goal, obstacle, the cells wholly inside X0,Y0,X1,Y1, or "
@@ -243,6 +296,9 @@ Action declare_verify(CLI::App& options) {
   options.final_callback([&a] {
     if (a.samples_per_border % 4 != 0) {
       throw CLI::ValidationError("--border-samples", "expected a multiple of four");
+    }
+    if (!a.contract.empty() && !a.method.empty() && a.method != "contract") {
+      throw CLI::ValidationError("--contract", "goes with --method contract");
     }
     if (a.method == "bitmap" && (!a.resume.empty() || !a.failures.empty())) {
       throw CLI::ValidationError("--method bitmap",

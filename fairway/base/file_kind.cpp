@@ -29,6 +29,7 @@ FileKind product_kind_of(std::span<const std::byte> bytes) {
   const nlohmann::json record = parse_strict_json(text->second, "");
   if (!record.is_object() || !record.contains("format")) return FileKind::plan;
   if (record["format"] == "fairway-bitmap") return FileKind::bitmap;
+  if (record["format"] == "fairway-contract-certificate") return FileKind::contract_certificate;
   return record["format"] == "fairway-certificate" ? FileKind::certificate : FileKind::unknown;
 }
 
@@ -69,6 +70,8 @@ const char* name_of(FileKind kind) {
       return "a plan";
     case FileKind::certificate:
       return "a certificate";
+    case FileKind::contract_certificate:
+      return "a contract certificate";
     case FileKind::bitmap:
       return "a bitmap";
     case FileKind::ros_map:
@@ -120,6 +123,7 @@ std::string other_kind_words(FileKind found, FileKind wanted) {
       }
       return is + ", expected " + name_of(wanted) + ": use it with `fairway simulate`";
     case FileKind::certificate:
+    case FileKind::contract_certificate:
       return is + ", expected " + name_of(wanted) + ": use it with `fairway query`";
     case FileKind::bitmap:
       if (wanted == FileKind::certificate) {

@@ -16,6 +16,7 @@ enum class FileKind : std::uint8_t {
   scenario,
   plan,
   certificate,
+  contract_certificate,
   bitmap,
   ros_map,
   moving_ai,

@@ -24,6 +24,7 @@ TEST(FileKind, IsDetectedFromTheContent) {
       {"image: a.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n", FileKind::ros_map},
       {product("{\"format_version\":1}"), FileKind::plan},
       {product("{\"format\":\"fairway-certificate\"}"), FileKind::certificate},
+      {product("{\"format\":\"fairway-contract-certificate\"}"), FileKind::contract_certificate},
       {"type octile\nheight 1\nwidth 1\nmap\n.\n", FileKind::moving_ai},
       {"{\"fileType\": \"Plan\"}", FileKind::qgc_plan},
       {"{\"type\": \"Point\", \"coordinates\": [8, 47]}", FileKind::geojson},

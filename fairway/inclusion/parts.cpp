@@ -24,6 +24,19 @@ HeadingArc smallest_arc(std::vector<double>& headings) {
   return {headings[after], whole_turn_rad - gap};
 }
 
+/// An arc that ends just beyond the direction of a side is made wider: flights that come over the
+/// side with the few headings beyond would not come out of the slack of its places.
+HeadingArc clear_of_axes(HeadingArc arc) {
+  constexpr double least_rad = 0x1p-9;
+  const auto beyond = [](double angle_rad) {
+    const double past = std::fmod(counted_from_zero(angle_rad), 0.5 * pi);
+    return past < least_rad ? least_rad - past : 0.0;
+  };
+  const double below = beyond(-arc.lo_rad);
+  const double above = beyond(arc.hi_rad());
+  return {arc.lo_rad - below, arc.width_rad + below + above};
+}
+
 /// How far two ranges of one coordinate lie apart.
 double apart(double lo, double hi, double other_lo, double other_hi) {
   return std::max({0.0, other_lo - hi, lo - other_hi});
@@ -83,7 +96,7 @@ Parts::Parts(const Flow& flow, const VehicleContract& contract, int per_cell)
           kind_[at] = PartKind::wild;
           continue;
         }
-        arc_[at] = smallest_arc(headings).widened(band);
+        arc_[at] = clear_of_axes(smallest_arc(headings).widened(band));
         if (arc_[at].width_rad >= widest) kind_[at] = PartKind::wild;
       }
     }

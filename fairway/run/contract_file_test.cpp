@@ -1,5 +1,6 @@
 #include "fairway/run/contract_file.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -88,7 +89,7 @@ TEST(ContractsInScenarios, AreRefusedAtTheLineOfTheKey) {
        "s.toml:11: vehicle.contract.command_error_m: is -1 m, expected 0 to 1e15"},
       {"heading_error_rad = 2.0",
        "s.toml:11: vehicle.contract.heading_error_rad: is 2 rad, expected at least 0 and less than "
-       "a quarter turn, 1.5708; 2 degrees are 0.034907 rad"},
+       "1.5708: with more, a vehicle may turn either way everywhere; 2 degrees are 0.034907 rad"},
       {"wind_mps = 12",
        "s.toml:11: vehicle.contract.wind_mps: is 12 m/s, expected less than the least speed, 10 "
        "m/s: the wind carries a slower vehicle away"},
@@ -200,10 +201,10 @@ TEST(ContractFiles, GiveBackWhatWasWritten) {
     VehicleContract c;
     c.command_error_m = random.unit() * 30.0;
     c.look_ahead_m = random.below(2) == 0 ? 0.0 : random.unit();
-    c.heading_error_rad = random.unit();
     c.turn_radius_m = {20.0 * random.unit(), 20.0 + random.unit()};
     c.speed_mps = {10.0 - random.unit(), 10.0 + 1e6 * random.unit()};
-    c.hold_side_rad = random.unit() * pi;
+    c.hold_side_rad = 0.01 + random.unit() * 3.0;
+    c.heading_error_rad = random.unit() * std::min(c.hold_side_rad, 1.5);
     c.side_uncertain_rad = random.unit() * 1e-7;
     c.wind_mps = random.unit();
     ASSERT_EQ(contract_of_text(contract_toml(c), "c.toml", vehicle), c) << contract_toml(c);

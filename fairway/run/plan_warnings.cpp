@@ -1,11 +1,13 @@
 #include "fairway/run/plan_warnings.hpp"
 
+#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "fairway/base/share_text.hpp"
+#include "fairway/run/contract_warning.hpp"
 #include "fairway/run/passage_words.hpp"
 #include "fairway/run/summary.hpp"
 
@@ -64,6 +66,11 @@ std::vector<std::string> plan_warnings(const Scenario& scenario, const ObstacleM
   if (cut_off_warning(plan)) {
     const std::string passage = passage_words(cut_off_in(scenario, map, plan), map.frame);
     warnings.push_back(*cut_off_warning(plan, passage));
+  }
+  if (plan.record.contract) {
+    if (auto warning = contract_warning(plan, *plan.record.contract)) {
+      warnings.push_back(std::move(*warning));
+    }
   }
   return warnings;
 }

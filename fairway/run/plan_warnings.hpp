@@ -29,7 +29,7 @@ inline constexpr double most_failing_unwarned = 0.05;
                                                          const OutcomeCounts& starts_with_command);
 
 /// Those of the map, then those of the plan made of this scenario on it; of free cells that are cut
-/// off, with the passage that is too narrow.
+/// off, with the passage that is too narrow; of a contract that is too wide.
 [[nodiscard]] std::vector<std::string> plan_warnings(const Scenario& scenario,
                                                      const ObstacleMap& map, const Plan& plan);
 

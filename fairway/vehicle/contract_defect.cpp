@@ -31,6 +31,19 @@ Defect defect_of_angle(const char* key, double value, bool holds, const char* ex
       key, fmt::format("is {} rad, expected {}{}", value, expected, in_radians(value))};
 }
 
+/// With more, the band about every command is so wide that a vehicle in it may be turned out of it
+/// to either side (inclusion/parts.hpp: every part is wild).
+Defect defect_of_heading_error(const VehicleContract& c) {
+  const double error = c.heading_error_rad;
+  const double most = std::min(c.hold_side_rad, 0.5 * (pi - c.side_uncertain_rad));
+  if (error >= 0.0 && error < most) return {};
+  return ContractDefect{
+      "heading_error_rad",
+      fmt::format("is {} rad, expected at least 0 and less than {:.5g}: with more, a vehicle may "
+                  "turn either way everywhere{}",
+                  error, most, in_radians(error))};
+}
+
 Defect defect_of_range(const char* key, SizeRange range, const char* unit, double nominal) {
   const std::string shown = fmt::format("[{}, {}] {}", range.least, range.most, unit);
   const auto is_size = [](double x) { return x > 0.0 && x <= size_range::most; };
@@ -61,21 +74,18 @@ Defect defect_of_wind(double wind_mps, double least_speed_mps) {
 }  // namespace
 
 std::optional<ContractDefect> contract_defect(const VehicleContract& c, const Vehicle& nominal) {
-  const double error = c.heading_error_rad;
   const double hold = c.hold_side_rad;
   const double either = c.side_uncertain_rad;
   for (const Defect& defect :
        {defect_of_amount("command_error_m", c.command_error_m, "m"),
         defect_of_amount("look_ahead_m", c.look_ahead_m, "m"),
-        defect_of_angle("heading_error_rad", error, error >= 0.0 && error < 0.5 * pi,
-                        "at least 0 and less than a quarter turn, 1.5708"),
         defect_of_range("turn_radius_m", c.turn_radius_m, "m", nominal.turn_radius_m),
         defect_of_range("speed_mps", c.speed_mps, "m/s", nominal.speed_mps),
         defect_of_angle("hold_side_rad", hold, hold > 0.0 && hold <= pi,
                         "more than 0 and at most half a turn, 3.14159265"),
         defect_of_angle("side_uncertain_rad", either, either >= 0.0 && either <= 0.5 * pi,
                         "at least 0 and at most a quarter turn, 1.5708"),
-        defect_of_wind(c.wind_mps, c.speed_mps.least)}) {
+        defect_of_heading_error(c), defect_of_wind(c.wind_mps, c.speed_mps.least)}) {
     if (defect) return defect;
   }
   return {};

@@ -1,5 +1,6 @@
 #include "fairway/vehicle/contract.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -23,11 +24,11 @@ VehicleContract drawn(Random& random) {
   const auto some = [&](double most) { return random.below(3) == 0 ? 0.0 : random.unit() * most; };
   c.command_error_m = some(30.0);
   c.look_ahead_m = some(10.0);
-  c.heading_error_rad = some(1.5);
   c.turn_radius_m = {20.0 - some(15.0), 20.0 + some(15.0)};
   c.speed_mps = {10.0 - some(5.0), 10.0 + some(5.0)};
   c.hold_side_rad = pi - some(3.0);
   c.side_uncertain_rad = some(0.5 * pi);
+  c.heading_error_rad = some(0.99 * std::min(c.hold_side_rad, 0.5 * (pi - c.side_uncertain_rad)));
   c.wind_mps = some(4.9);
   return c;
 }
@@ -137,11 +138,11 @@ TEST(Contracts, ThatNoVehicleKeepsAreRefusedInASentenceWithTheCure) {
       {[](auto& c) { c.command_error_m = nan; }, "p.command_error_m: is nan m, expected 0 to 1e15"},
       {[](auto& c) { c.look_ahead_m = inf; }, "p.look_ahead_m: is inf m, expected 0 to 1e15"},
       {[](auto& c) { c.heading_error_rad = -0.1; },
-       "p.heading_error_rad: is -0.1 rad, expected at least 0 and less than a quarter turn, "
-       "1.5708"},
+       "p.heading_error_rad: is -0.1 rad, expected at least 0 and less than 1.5708: with more, a "
+       "vehicle may turn either way everywhere"},
       {[](auto& c) { c.heading_error_rad = 2; },
-       "p.heading_error_rad: is 2 rad, expected at least 0 and less than a quarter turn, 1.5708; 2 "
-       "degrees are 0.034907 rad"},
+       "p.heading_error_rad: is 2 rad, expected at least 0 and less than 1.5708: with more, a "
+       "vehicle may turn either way everywhere; 2 degrees are 0.034907 rad"},
       {[](auto& c) {
          c.turn_radius_m = {22, 18};
        },

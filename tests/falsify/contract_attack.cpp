@@ -34,8 +34,8 @@ class Attacker {
   void attack_some() {
     const State a = random_state();
     const State b = random_.below(2) == 0 ? random_state() : near(a);
-    const ContractAnswer answer_a = ask(a);
-    const ContractAnswer answer_b = ask(b);
+    const ContractClaim answer_a = ask(a);
+    const ContractClaim answer_b = ask(b);
     attack(a, answer_a, options_.each);
     attack(b, answer_b, options_.each);
     if (answer_a.verdict != answer_b.verdict) attack_between(a, answer_a, b, answer_b);
@@ -69,22 +69,26 @@ class Attacker {
   State near(const State& s) {
     const double scale = std::exp(-6.0 * random_.unit());
     const double d = choices_.flow().grid.cell_m * scale;
-    return {s.position_m + Vec2{d * random_.uniform(-1.0, 1.0), d * random_.uniform(-1.0, 1.0)},
+    const Grid& g = choices_.flow().grid;
+    const Vec2 p =
+        s.position_m + Vec2{d * random_.uniform(-1.0, 1.0), d * random_.uniform(-1.0, 1.0)};
+    return {{std::clamp(p.x, g.x0_m, g.x0_m + g.width_m()),
+             std::clamp(p.y, g.y0_m, g.y0_m + g.height_m())},
             Heading::from_rad(s.heading.rad() + scale * random_.uniform(-pi, pi))};
   }
 
-  ContractAnswer ask(const State& s) {
+  ContractClaim ask(const State& s) {
     ++totals_.states;
-    const ContractAnswer answer = verdict_of_(s);
+    const ContractClaim answer = verdict_of_(s);
     ++totals_.by_verdict[static_cast<std::size_t>(answer.verdict)];
     return answer;
   }
 
-  void attack_between(State a, ContractAnswer answer_a, State b, ContractAnswer answer_b) {
+  void attack_between(State a, ContractClaim answer_a, State b, ContractClaim answer_b) {
     for (int k = 0; k < options_.halvings; ++k) {
       const State middle{0.5 * (a.position_m + b.position_m),
                          Heading::from_rad(a.heading.rad() + 0.5 * a.heading.turn_to(b.heading))};
-      const ContractAnswer answer = ask(middle);
+      const ContractClaim answer = ask(middle);
       const bool like_a = answer.verdict == answer_a.verdict;
       (like_a ? a : b) = middle;
       (like_a ? answer_a : answer_b) = answer;
@@ -94,7 +98,7 @@ class Attacker {
     attack(b, answer_b, 2 * options_.each);
   }
 
-  void attack(const State& s, const ContractAnswer& answer, int flights) {
+  void attack(const State& s, const ContractClaim& answer, int flights) {
     if (answer.verdict == Verdict::undecided) return;
     static constexpr std::array turns{Adversary::greedy, Adversary::random,   Adversary::guided,
                                       Adversary::greedy, Adversary::circling, Adversary::random};
@@ -118,7 +122,7 @@ class Attacker {
     }
   }
 
-  void judge(BehaviourFlight flight, const ContractAnswer& answer, std::uint64_t seed,
+  void judge(BehaviourFlight flight, const ContractClaim& answer, std::uint64_t seed,
              const char* adversary) {
     const ProvedEnds ends =
         proved_ends(choices_.flow(), choices_.commands(), choices_.contract(), flight);

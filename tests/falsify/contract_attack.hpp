@@ -17,17 +17,17 @@
 
 namespace fairway {
 
-struct ContractAnswer {
+struct ContractClaim {
   Verdict verdict = Verdict::undecided;
   double time_bound_s = 0.0;  ///< of `reach`
 };
 
 /// Called from several threads at once.
-using ContractVerdictOf = std::function<ContractAnswer(const State&)>;
+using ContractVerdictOf = std::function<ContractClaim(const State&)>;
 
 struct ContractAttackOptions {
   std::uint64_t flights = 100000;  ///< at least
-  int each = 8;                    ///< flights from one state
+  int each = 24;                   ///< flights from one state
   std::uint64_t seed = 1;
   int halvings = 24;  ///< towards a boundary of what is proved
 };

@@ -15,7 +15,7 @@ TEST(ContractAttack, ContradictsWhatIsFalse) {
     ContractAttackOptions options;
     options.flights = 2000;
     for (const Verdict claim : {Verdict::reach, Verdict::collide, Verdict::trapped}) {
-      const auto claims = [&](const State&) { return ContractAnswer{claim, 1e9}; };
+      const auto claims = [&](const State&) { return ContractClaim{claim, 1e9}; };
       const auto totals = attack("all", held.flow(), trial.contract, claims, options);
       EXPECT_GE(totals.flights, options.flights);
       contradicted += totals.contradictions > 0 ? 1 : 0;
@@ -34,7 +34,7 @@ TEST(ContractAttack, FindsBoundsOfTimeThatAreTooShort) {
   contract.heading_error_rad = 0.01;
   ContractAttackOptions options;
   options.flights = 2000;
-  const auto claims = [&](const State&) { return ContractAnswer{Verdict::reach, 0.5}; };
+  const auto claims = [&](const State&) { return ContractClaim{Verdict::reach, 0.5}; };
   EXPECT_GT(attack("late", held.flow(), contract, claims, options).late, 100U);
 }
 
@@ -43,7 +43,7 @@ TEST(ContractAttack, ContradictsNothingWhereNothingIsClaimed) {
   const PlanFlow held(trial.plan);
   ContractAttackOptions options;
   options.flights = 500;
-  const auto claims = [](const State&) { return ContractAnswer{}; };
+  const auto claims = [](const State&) { return ContractClaim{}; };
   const auto totals = attack("none", held.flow(), trial.contract, claims, options);
   EXPECT_EQ(totals.flights, 0U);
   EXPECT_EQ(totals.contradictions + totals.late, 0U);

@@ -3,6 +3,11 @@
 //
 //   fairway-falsify [PLAN.safetensors ...] [--random-plans N] [--states N] [--seed S]
 //                   [--undecided-max F] [--time-limit S] [--last-level L] [--odd-plans N]
+//                   [--contract FILE.toml] [--contract-plans N] [--flights N] [--parts K]
+//
+// --contract: proves the plans under this vehicle contract instead, and attacks those verdicts with
+// --flights behaviours that keep it (contract_attack.hpp). --contract-plans: does the same to
+// random plans with random contracts.
 //
 // --odd-plans: certifies this many plans at the limits of what a plan may be, measures them with
 // few and with many samples, and checks them: fairway-check must accept everything verify makes.
@@ -29,13 +34,16 @@
 #include "check/proof.hpp"
 #include "check/testing/sample_certificate.hpp"
 #include "fairway/base/random.hpp"
+#include "fairway/behaviour/testing/contract_trial.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/run/contract_file.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/verify/certify.hpp"
 #include "fairway/verify/images.hpp"
 #include "fairway/verify/state_flight.hpp"
 #include "fairway/verify/testing/plans_to_verify.hpp"
 #include "fairway/verify/testing/wide_flight.hpp"
+#include "tests/falsify/contract_proof.hpp"
 
 namespace fairway {
 namespace {
@@ -47,6 +55,10 @@ struct Settings {
   std::size_t states = 100000;
   std::uint64_t seed = 1;
   CertifyOptions certify;
+  std::string contract;
+  std::uint64_t contract_plans = 0;
+  std::uint64_t flights = 100000;
+  int parts = 2;
 };
 
 struct Totals {
@@ -385,6 +397,10 @@ Settings settings_of(int argc, char** argv) {
   settings.certify.last_level = 22;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
+    if (word == "--contract" && i + 1 < argc) {
+      settings.contract = argv[++i];
+      continue;
+    }
     if (word.rfind("--", 0) != 0) {
       settings.plans.push_back(word);
       continue;
@@ -401,6 +417,12 @@ Settings settings_of(int argc, char** argv) {
       settings.odd_plans = whole;
     } else if (word == "--states") {
       settings.states = whole;
+    } else if (word == "--contract-plans") {
+      settings.contract_plans = whole;
+    } else if (word == "--flights") {
+      settings.flights = whole;
+    } else if (word == "--parts") {
+      settings.parts = static_cast<int>(whole);
     } else if (word == "--seed") {
       settings.seed = whole;
     } else if (word == "--undecided-max") {
@@ -445,8 +467,51 @@ std::size_t refused_odd_plans(const Settings& settings) {
   return refused;
 }
 
+/// Proves a plan under a contract, and attacks the proof.
+ContractAttackTotals attack_contract(const std::string& name, const Plan& plan,
+                                     const VehicleContract& contract, int parts, int last_level,
+                                     const Settings& settings) {
+  const PlanFlow plan_flow(plan);
+  const Flow flow = plan_flow.flow();
+  const ContractProof proof(flow, contract, parts, last_level, settings.certify.time_limit_s);
+  fmt::print("{}: {} x {} cells, {} parts a side, {} leaves, undecided {:.4f}\n", name,
+             flow.grid.nx, flow.grid.ny, parts, proof.leaves(), proof.undecided_share());
+  ContractAttackOptions options;
+  options.flights = settings.flights;
+  options.seed = settings.seed;
+  const auto claim = [&](const State& state) { return proof.claim(state); };
+  const ContractAttackTotals totals = attack(name, flow, contract, claim, options);
+  for (const std::string& story : totals.stories) fmt::print("  {}\n", story);
+  fmt::print("  {}\n", totals.line());
+  std::fflush(stdout);
+  return totals;
+}
+
+/// How many flights contradict a verdict under a contract.
+std::uint64_t contradicted_contracts(const Settings& settings) {
+  ContractAttackTotals totals;
+  if (!settings.contract.empty()) {
+    for (const std::string& path : settings.plans) {
+      const Plan plan = read_plan(path);
+      totals.add(attack_contract(path, plan, read_contract(settings.contract, plan.vehicle),
+                                 settings.parts, 6, settings));
+    }
+  }
+  for (std::uint64_t k = 0; k < settings.contract_plans; ++k) {
+    const std::uint64_t number = 1000003 * settings.seed + k;
+    const ContractTrial trial = contract_trial(number);
+    totals.add(attack_contract(fmt::format("contract trial {}", number), trial.plan, trial.contract,
+                               1 + static_cast<int>(k % 3), 2 + static_cast<int>(k % 5), settings));
+  }
+  if (totals.states > 0) fmt::print("under contracts, in all: {}\n", totals.line());
+  return totals.contradictions + totals.late;
+}
+
 int falsify(int argc, char** argv) {
   const Settings settings = settings_of(argc, argv);
+  if (!settings.contract.empty() || settings.contract_plans > 0) {
+    return contradicted_contracts(settings) == 0 ? 0 : 1;
+  }
   Totals totals;
   for (const std::string& path : settings.plans) {
     totals.add(Falsifier(path, read_plan(path), settings).run());

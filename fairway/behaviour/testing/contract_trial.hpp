@@ -1,6 +1,7 @@
 // A random plan with a random contract, degenerate ones among them.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "fairway/base/random.hpp"
@@ -21,13 +22,15 @@ inline ContractTrial contract_trial(std::uint64_t seed) {
   if (random.below(2) == 0) {  // smoother than those of the exact prover's tests, with walls
     plan = empty_plan(16, 13, 2.0, random.uniform(2.5, 9.0));
     const double twist = random.uniform(-3.0, 3.0);
-    const Vec2 goal{random.uniform(4.0, 28.0), random.uniform(4.0, 22.0)};
+    const double weave = random.below(2) == 0 ? 0.0 : 0.9;
+    const double goal_radius = plan.vehicle.turn_radius_m * random.uniform(0.8, 2.0);
+    const Vec2 goal{random.uniform(8.0, 24.0), random.uniform(8.0, 18.0)};
     for (std::size_t i = 0; i < plan.grid.size(); ++i) {
       const Vec2 p = plan.grid.center(plan.grid.cell_at(i));
-      plan.heading_rad[i] =
-          Heading::stored(sample_heading(FieldStyle::goalward, random, p, goal, twist));
-      if (random.below(30) == 0) plan.region[i] = Region::obstacle;
-      if (norm(p - goal) < 3.0) plan.region[i] = Region::goal;
+      plan.heading_rad[i] = Heading::stored(std::atan2(goal.y - p.y, goal.x - p.x) +
+                                            weave * std::sin(0.5 * p.x + twist));
+      if (random.below(40) == 0) plan.region[i] = Region::obstacle;
+      if (norm(p - goal) < goal_radius) plan.region[i] = Region::goal;
       if (plan.region[i] == Region::obstacle || random.below(40) == 0) {
         plan.heading_rad[i] = std::numeric_limits<float>::quiet_NaN();
       }
@@ -36,7 +39,7 @@ inline ContractTrial contract_trial(std::uint64_t seed) {
   VehicleContract& contract = trial.contract;
   contract = VehicleContract::of(plan.vehicle);
   const double r = plan.vehicle.turn_radius_m;
-  if (random.below(4) != 0) contract.command_error_m = random.uniform(0.0, 0.5) * r;
+  if (random.below(4) != 0) contract.command_error_m = random.uniform(0.0, 0.4) * r;
   if (random.below(4) != 0) contract.heading_error_rad = random.uniform(0.0, 0.1);
   if (random.below(3) != 0) contract.turn_radius_m = {0.85 * r, 1.15 * r};
   if (random.below(3) == 0) contract.side_uncertain_rad = random.uniform(0.0, 0.6);

@@ -1,0 +1,50 @@
+// What was proved about a plan under a vehicle contract, with everything queries and the checker
+// need.
+//
+// Properties that always hold: those of plan.hpp for the arrays taken from the plan; kind follows
+// from region and region_of_interest (cell_kinds); those of contract_verdicts.hpp for the parts of
+// the plan's cells (parts()).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fairway/base/frame.hpp"
+#include "fairway/base/grid.hpp"
+#include "fairway/inclusion/contract_verdicts.hpp"
+#include "fairway/inclusion/parts.hpp"
+#include "fairway/map/region.hpp"
+#include "fairway/plan/plan_digests.hpp"
+#include "fairway/vehicle/contract.hpp"
+#include "fairway/vehicle/vehicle.hpp"
+#include "fairway/verify/flow.hpp"
+#include "fairway/verify/region_of_interest.hpp"
+
+namespace fairway {
+
+struct ContractCertificate {
+  Grid grid;
+  Vehicle vehicle;  ///< the plan's, which keeps the contract
+  VehicleContract contract;
+  int parts_per_cell = 1;
+  RegionOfInterest region_of_interest;
+  std::vector<float> heading_rad;  ///< [iy][ix]
+  std::vector<Region> region;      ///< [iy][ix]
+  std::vector<CellKind> kind;      ///< [iy][ix]
+  ContractVerdicts verdicts;
+  PlanDigests plan;            ///< which plan it belongs to
+  std::optional<Frame> frame;  ///< where the plan's grid lies; none when the plan did not say
+  /// How it was found and its overall results, one JSON object.
+  std::string evidence_json = "{}";
+
+  Flow flow() const { return {grid, vehicle, heading_rad.data(), kind.data()}; }
+  /// Of the motions over ground that include all that keeps the contract (over_ground).
+  Parts parts() const { return {flow(), over_ground(contract), parts_per_cell}; }
+  double least_speed_mps() const { return over_ground(contract).speed_mps.least; }
+};
+
+/// Everything in its file except its arrays, one JSON object with sorted keys.
+[[nodiscard]] std::string record_text(const ContractCertificate& certificate);
+
+}  // namespace fairway

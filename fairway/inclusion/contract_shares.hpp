@@ -1,0 +1,63 @@
+// How many states are proved under a contract, and what the others wait for: measured by sampled
+// states, equally many in each ordinary cell, each answered as a query answers it.
+//
+// Properties that always hold: each sum of shares is 1, or 0 when there are no such cells; the
+// result depends on the arguments alone, not on threads.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "fairway/base/grid.hpp"
+#include "fairway/inclusion/contract_verdicts.hpp"
+#include "fairway/inclusion/inclusion_prover.hpp"
+#include "fairway/inclusion/parts.hpp"
+#include "fairway/vehicle/vehicle.hpp"
+#include "fairway/verify/verdict.hpp"
+
+namespace fairway {
+
+/// Shares by Verdict; of the undecided ones some are at risk: a behaviour that fails is known.
+struct ContractShares {
+  std::array<double, verdict_count> all{};   ///< cells that are neither obstacle nor target
+  std::array<double, verdict_count> free{};  ///< of these, the safe-start cells
+  std::array<double, verdict_count> buffer{};
+  double at_risk = 0.0;  ///< of all; all[undecided] holds it
+  double at_risk_free = 0.0;
+  std::size_t samples = 0;
+  double worst_time_s = 0.0;  ///< largest bound of a sampled state proved to reach
+};
+
+/// A place that undecided states wait for.
+struct Choke {
+  Cell cell;
+  Trouble why = Trouble::mixed;
+  double share = 0.0;  ///< of all states
+};
+
+struct ContractSurvey {
+  ContractShares shares;
+  std::vector<Choke> chokes;  ///< most costly first
+};
+
+struct SurveyOptions {
+  std::size_t samples = 40000;  ///< at least one in each cell
+  std::uint64_t seed = 1;
+  std::size_t most_chokes = 20;
+};
+
+/// Whether a behaviour that fails from this state is known; called for undecided states, by
+/// several threads at once, with the number of the row of cells that the state is in.
+using IsAtRisk = std::function<bool(const State& state)>;
+
+/// `region[cell]` tells safe starts. `make_search`: called once for each thread's rows.
+[[nodiscard]] ContractSurvey survey(const Flow& flow, const std::vector<bool>& is_free,
+                                    const Parts& parts, const ContractVerdicts& verdicts,
+                                    const InclusionProver& prover, double speed_least_mps,
+                                    const SurveyOptions& options,
+                                    const std::function<IsAtRisk()>& make_search);
+
+}  // namespace fairway

@@ -1,0 +1,232 @@
+#include "fairway/run/contract_verification.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fairway/base/error.hpp"
+#include "fairway/base/share_text.hpp"
+#include "fairway/behaviour/behaviour_choices.hpp"
+#include "fairway/behaviour/failure_guide.hpp"
+#include "fairway/behaviour/find_witness.hpp"
+#include "fairway/plan/plan_digests.hpp"
+#include "fairway/run/contract_file.hpp"
+#include "fairway/run/summary.hpp"
+#include "fairway/run/verification_summary.hpp"
+#include "fairway/run/version.hpp"
+#include "fairway/vehicle/contract_defect.hpp"
+
+namespace fairway {
+namespace {
+
+using nlohmann::json;
+
+json chokes_json(const ContractVerification& made) {
+  const Grid& grid = made.certificate.grid;
+  json chokes = json::array();
+  for (const Choke& choke : made.survey.chokes) {
+    const Vec2 at = grid.center(choke.cell);
+    chokes.push_back({{"x_m", at.x},
+                      {"y_m", at.y},
+                      {"cell", {choke.cell.ix, choke.cell.iy}},
+                      {"reason", reason_of(choke.why)},
+                      {"share", choke.share}});
+  }
+  return chokes;
+}
+
+json evidence_of(const ContractVerifyOptions& options, const ContractVerification& made) {
+  json levels = json::array();
+  for (const InclusionLevel& level : made.levels) {
+    levels.push_back({{"level", level.level},
+                      {"leaves", level.leaves},
+                      {"undecided_leaves", level.undecided},
+                      {"undecided_sides", level.undecided_share}});
+  }
+  const ContractShares& s = made.survey.shares;
+  return {{"program", program_version},
+          {"options",
+           {{"time_limit_s",
+             options.limits.time_limit_s > 0.0 ? json(options.limits.time_limit_s) : json()},
+            {"memory_limit_mb", options.limits.memory_limit_mb
+                                    ? json(*options.limits.memory_limit_mb)
+                                    : json()},
+            {"samples", options.samples},
+            {"seed", options.seed}}},
+          {"volume_fraction", shares_json(s.all)},
+          {"volume_fraction_free", shares_json(s.free)},
+          {"volume_fraction_buffer", shares_json(s.buffer)},
+          {"at_risk", s.at_risk},
+          {"at_risk_free", s.at_risk_free},
+          {"samples", s.samples},
+          {"worst_time_s", s.worst_time_s},
+          {"chokes", chokes_json(made)},
+          {"levels", std::move(levels)},
+          {"stopped_by", made.stopped_by_limit ? "limit" : "done"}};
+}
+
+/// A search for each thread, over what they share.
+struct WitnessTools {
+  WitnessTools(const Flow& flow, const VehicleContract& contract)
+      : choices(flow, contract), guide(choices) {}
+  BehaviourChoices choices;
+  FailureGuide guide;
+};
+
+std::function<IsAtRisk()> searches(const std::shared_ptr<WitnessTools>& tools,
+                                   std::uint64_t seed) {
+  return [tools, seed]() -> IsAtRisk {
+    const auto search = std::make_shared<WitnessSearch>(tools->choices, tools->guide);
+    return [tools, search, seed](const State& state) {
+      return search->find(state, {}, seed).has_value();
+    };
+  };
+}
+
+double share_of(const std::array<double, verdict_count>& shares, Verdict verdict) {
+  return shares[static_cast<std::size_t>(verdict)];
+}
+
+}  // namespace
+
+const char* reason_of(Trouble why) {
+  switch (why) {
+    case Trouble::gave_up:
+      return "opposing commands: too many ways to turn";
+    case Trouble::no_progress:
+      return "no direction in which all move on";
+    case Trouble::none:
+    case Trouble::waits:
+    case Trouble::mixed:
+      break;
+  }
+  return "some behaviours may end otherwise than others";
+}
+
+int usual_parts_per_cell(const VehicleContract& contract, double cell_m) {
+  const double rho = contract.command_error_m + contract.look_ahead_m;
+  if (rho >= 0.25 * cell_m) return 1;
+  return rho >= 0.1 * cell_m ? 2 : 4;
+}
+
+ContractVerification verify_contract(
+    const Plan& plan, const std::string& where, const RegionOfInterest& region,
+    const VehicleContract& contract, const ContractVerifyOptions& options,
+    const std::function<void(const std::string& doing)>& progress) {
+  if (!(plan.grid.cell_m < plan.vehicle.turn_radius_m)) {
+    throw InputError(
+        where, fmt::format("its cells of {:g} m are not smaller than the turning radius of {:g} m, "
+                           "as verification requires",
+                           plan.grid.cell_m, plan.vehicle.turn_radius_m));
+  }
+  require_contract(contract, plan.vehicle, where + ": contract");
+  ContractVerification made;
+  ContractCertificate& c = made.certificate;
+  c.grid = plan.grid;
+  c.vehicle = plan.vehicle;
+  c.contract = contract;
+  c.parts_per_cell = options.parts_per_cell > 0
+                         ? options.parts_per_cell
+                         : usual_parts_per_cell(contract, plan.grid.cell_m);
+  c.region_of_interest = region;
+  c.heading_rad = plan.heading_rad;
+  c.region = plan.region;
+  c.kind = cell_kinds(plan.grid, plan.region, region);
+  c.plan = plan_digests(plan);
+  c.frame = plan.record.frame;
+
+  const auto began = std::chrono::steady_clock::now();
+  InclusionLimits limits;
+  limits.memory_bytes =
+      static_cast<std::size_t>(options.limits.memory_limit_mb.value_or(0.0) * 1e6);
+  limits.go_on = [&] {
+    const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - began;
+    return options.limits.time_limit_s <= 0.0 || so_far.count() < options.limits.time_limit_s;
+  };
+  const Flow flow = c.flow();
+  const Parts parts = c.parts();
+  InclusionProver prover(parts, limits);
+  made.stopped_by_limit = !prover.run([&](const InclusionLevel& level) {
+    made.levels.push_back(level);
+    progress(fmt::format("verifying under the contract, {:.1f} % of sides undecided",
+                         100.0 * level.undecided_share));
+  });
+  c.verdicts = prover.verdicts(c.least_speed_mps());
+  progress("measuring shares of states");
+  std::vector<bool> is_free(plan.grid.size());
+  for (std::size_t i = 0; i < is_free.size(); ++i) is_free[i] = plan.region[i] == Region::free;
+  const auto tools =
+      options.find_witnesses ? std::make_shared<WitnessTools>(flow, contract) : nullptr;
+  SurveyOptions sampled;
+  sampled.samples = options.samples;
+  sampled.seed = options.seed;
+  made.survey = survey(flow, is_free, parts, c.verdicts, prover, c.least_speed_mps(), sampled,
+                       tools ? searches(tools, options.seed) : std::function<IsAtRisk()>{});
+  c.evidence_json = evidence_of(options, made).dump();
+  return made;
+}
+
+json contract_verification_json(const ContractVerification& made) {
+  const ContractCertificate& c = made.certificate;
+  json summary = json::parse(record_text(c));
+  summary["method"] = "contract";
+  summary["cells"] = {c.grid.nx, c.grid.ny};
+  summary["leaves"] = c.verdicts.leaves();
+  return summary;
+}
+
+std::vector<Finding> findings(const Plan& plan, const ContractVerification& made) {
+  const ContractShares& s = made.survey.shares;
+  const int decimals = decimals_of_sample(s.samples);
+  const bool is_goal =
+      made.certificate.region_of_interest.kind == RegionOfInterest::Kind::goal;
+  const std::string goal = is_goal ? goal_word(plan) : "region";
+  constexpr const char* all = "all states";
+  std::vector<Finding> found{{percent_text(share_of(s.all, Verdict::reach), decimals), all,
+                              "are proved to reach the " + goal +
+                                  " whatever the vehicle does within its contract"}};
+  if (is_goal) {
+    for (Finding& finding : plan_findings(plan)) found.push_back(std::move(finding));
+  }
+  const auto add = [&](double share, const std::string& what) {
+    if (share > 0.0) found.push_back({percent_text(share, decimals), all, what});
+  };
+  add(share_of(s.all, Verdict::collide), "are proved to collide, whatever it does");
+  add(s.at_risk, "are at risk: a behaviour within the contract fails");
+  add(share_of(s.all, Verdict::leave), "are proved to leave the map, whatever it does");
+  add(share_of(s.all, Verdict::trapped), "are proved to be trapped: they circle for ever");
+  add(share_of(s.all, Verdict::undecided) - s.at_risk, "are undecided");
+  if (made.stopped_by_limit) found.push_back({"", "", "the proof stopped at its limit"});
+  if (share_of(s.free, Verdict::reach) > 0.0) {
+    found.push_back({percent_text(share_of(s.free, Verdict::reach), decimals), "safe starts",
+                     "are proved to reach the " + goal});
+  }
+  return found;
+}
+
+std::string contract_notes(const ContractVerification& made) {
+  const ContractShares& s = made.survey.shares;
+  std::string words = fmt::format(
+      "The vehicle {}.\nShares of {} sampled states, each proved or flown; a map that does not "
+      "change.",
+      contract_words(made.certificate.contract), grouped(s.samples));
+  if (s.worst_time_s > 0.0) {
+    words += fmt::format("\nNo sampled state that reaches takes longer than {:.1f} s.",
+                         s.worst_time_s);
+  }
+  const std::size_t shown = std::min<std::size_t>(made.survey.chokes.size(), 5);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Choke& choke = made.survey.chokes[i];
+    const Vec2 at = made.certificate.grid.center(choke.cell);
+    words += fmt::format("\n{}{} of all states wait for ({:g}, {:g}): {}",
+                         i == 0 ? "What is not proved hangs on few places:\n" : "",
+                         percent_text(choke.share, 2), at.x, at.y, reason_of(choke.why));
+  }
+  return words;
+}
+
+}  // namespace fairway

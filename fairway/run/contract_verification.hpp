@@ -1,0 +1,60 @@
+// plan and contract -> verdicts under the contract -> certificate: what `fairway verify --contract`
+// and `fairway run` have in common.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "fairway/certificate/contract_certificate.hpp"
+#include "fairway/inclusion/contract_shares.hpp"
+#include "fairway/inclusion/inclusion_prover.hpp"
+#include "fairway/plan/plan.hpp"
+#include "fairway/run/findings.hpp"
+#include "fairway/run/verify_limits.hpp"
+#include "fairway/verify/region_of_interest.hpp"
+
+namespace fairway {
+
+struct ContractVerifyOptions {
+  int parts_per_cell = 0;  ///< 0: as fine as the command error asks for
+  VerifyLimits limits;     ///< undecided_max is not used
+  std::size_t samples = SurveyOptions{}.samples;
+  std::uint64_t seed = 1;
+  bool find_witnesses = true;  ///< of sampled states, to tell how many are at risk
+};
+
+struct ContractVerification {
+  ContractCertificate certificate;
+  ContractSurvey survey;
+  std::vector<InclusionLevel> levels;
+  bool stopped_by_limit = false;
+};
+
+/// Proves what all behaviours within `contract` do under `plan`. Throws InputError{where, ...} when
+/// the plan cannot be verified or the contract is none of its vehicle.
+[[nodiscard]] ContractVerification verify_contract(
+    const Plan& plan, const std::string& where, const RegionOfInterest& region,
+    const VehicleContract& contract, const ContractVerifyOptions& options,
+    const std::function<void(const std::string& doing)>& progress);
+
+/// Parts along the side of a cell: the finer, the less the commands of neighbours are mixed, down
+/// to the command error, which mixes them anyway.
+[[nodiscard]] int usual_parts_per_cell(const VehicleContract& contract, double cell_m);
+
+/// summary.json of verify, under a contract (docs/formats.md).
+[[nodiscard]] nlohmann::json contract_verification_json(const ContractVerification& made);
+
+/// The first line says how many of all states reach, whatever the vehicle does within the contract.
+[[nodiscard]] std::vector<Finding> findings(const Plan& plan, const ContractVerification& made);
+
+/// What was assumed, and the places that what is unproved waits for.
+[[nodiscard]] std::string contract_notes(const ContractVerification& made);
+
+/// "behaviours may touch an obstacle, or reach"
+[[nodiscard]] const char* reason_of(Trouble why);
+
+}  // namespace fairway
