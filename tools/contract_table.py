@@ -72,7 +72,7 @@ def main():
             said = json.loads(run([program, "contract", "--json", "--contract", file, "--tracking-m", 0.1 * r,
                                    "--log", *(flights[f] for f in told)]))
             for flight, held in zip(told, said["logs"]):
-                needs = "more than 3 r" if held["needs_m"] is None else f"{held['needs_m'] / r:.3f} r"
+                needs = "none" if held["needs_m"] is None else f"{held['needs_m'] / r:.3f} r"
                 row([f"{autopilot}_{flight}", kind, "yes" if flight in names else "", needs,
                      "yes" if held["kept"] else "**no**", f"{held['worst_s']:.0f}"])
 

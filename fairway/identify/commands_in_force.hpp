@@ -15,7 +15,7 @@ namespace fairway {
 enum class SideRule : std::uint8_t {
   each_command,  ///< at least until another command is in force: the path of commands keeps the
                  ///< contract's rule
-  contract  ///< as the contract says: for as long as any command in force is behind
+  contract       ///< as the contract says: for as long as any command in force is behind
 };
 
 /// The side taken, and the command (its run) it was taken for.

@@ -51,8 +51,7 @@ KeptContract kept_contract(const FlownTrack& track, const VehicleContract& contr
   const NearestMotion first = try_within(tracking_m);
   result.kept = first.stays;
   result.kept_until = first.reached;
-  const double farthest_m =
-      std::max(2.0 * tracking_m, farthest_tried_radii * contract.turn_radius_m.least);
+  const double farthest_m = growth * (contract.command_error_m + contract.look_ahead_m);
   for (double limit_m = growth * tracking_m; result.needs_m == never && limit_m <= farthest_m;
        limit_m *= growth) {
     static_cast<void>(try_within(limit_m));

@@ -18,7 +18,8 @@ namespace fairway {
 
 struct KeptContract {
   bool kept = false;  ///< in place; see wrong_speed
-  /// Some motion stays this near to the whole log, metres; infinite: beyond the farthest tried.
+  /// Some motion stays this near to the whole log, metres; infinite: none at any distance, for
+  /// beyond command_error_m from the vehicle no command that it was given is in force.
   double needs_m = 0.0;
   /// Where a tracking distance a little smaller than `needs_m` fails: the sample that decides.
   std::size_t worst = 0;
@@ -31,9 +32,6 @@ struct KeptContract {
   /// the tracking distance for as long as there is one.
   std::vector<Vec2> motion_m;
 };
-
-/// The farthest distance tried, in least turning radii of the contract.
-inline constexpr double farthest_tried_radii = 3.0;
 
 [[nodiscard]] KeptContract kept_contract(const FlownTrack& track, const VehicleContract& contract,
                                          double tracking_m,

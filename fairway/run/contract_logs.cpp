@@ -60,8 +60,15 @@ std::string place_words(const FlightLog& log, const HeldLog& held, double tracki
   if (std::isfinite(held.place.needs_m)) {
     return fmt::format("{}; the log needs {} m, {}", lost, length_text(held.place.needs_m), where);
   }
-  return fmt::format("{}; none within {:g} turning radii either, {}", lost, farthest_tried_radii,
-                     where);
+  return lost + "; nor farther away, where its commands would not be in force";
+}
+
+/// The contract's ranges as they show over ground, where logs are; its look-ahead stays.
+VehicleContract seen_over_ground(const VehicleContract& contract) {
+  VehicleContract seen = over_ground(contract);
+  seen.command_error_m = contract.command_error_m;
+  seen.look_ahead_m = contract.look_ahead_m;
+  return seen;
 }
 
 }  // namespace
@@ -89,8 +96,9 @@ ExplainedContract contract_of_logs(const std::vector<FlightLog>& logs,
                   time_text(at.time_s), place_text(at.place_m), length_text(options.tracking_m)));
 }
 
-HeldLog held_against(const FlightLog& log, const VehicleContract& contract, double tracking_m,
+HeldLog held_against(const FlightLog& log, const VehicleContract& given, double tracking_m,
                      SideRule sides) {
+  const VehicleContract contract = seen_over_ground(given);
   require_fine(log, contract.turn_radius_m.least);
   const FlownTrack track = flown_track(log, smoothing_radii * contract.turn_radius_m.least);
   HeldLog held;
