@@ -111,7 +111,8 @@ class Inputs(Files):
                       ("simulate", "p", "--states", "states.csv", "--outcomes", "states.csv"),
                       ("info", "map.pgm", "--resolution", 1, "-o", "map.png"),
                       ("init", "map.pgm", "--resolution", 1, "-o", "map.pgm"),
-                      ("steer", "--waypoints", "states.csv", "--turn-radius", "4", "--track", "states.csv")):
+                      ("steer", "--waypoints", "states.csv", "--turn-radius", "4", "--track", "states.csv"),
+                      ("contract", "--log", "states.csv", "-o", "states.csv")):
             for force in ((), ("--force",)):
                 with self.subTest(words=words, force=force):
                     self.assertIn("is an input", self.expect(65, *words, *force).stderr)
@@ -230,7 +231,7 @@ class Interrupted(Files):
 
 class Help(Files):
     def test_common_options_stand_in_the_help_of_every_command(self):
-        for command in ("run", "plan", "simulate", "verify", "query", "check", "cell", "draw", "export", "steer", "view"):
+        for command in ("run", "plan", "simulate", "verify", "query", "check", "cell", "draw", "export", "steer", "contract", "view"):
             told = self.expect(0, command, "--help").stdout
             common = told.partition("Common options:\n")[2]
             for option in ("--threads", "--quiet", "--json"):

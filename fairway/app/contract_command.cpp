@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,10 +9,10 @@
 
 #include "fairway/app/argument_checks.hpp"
 #include "fairway/app/command.hpp"
+#include "fairway/app/contract_arguments.hpp"
 #include "fairway/app/places.hpp"
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/base/error.hpp"
-#include "fairway/identify/known_vehicle.hpp"
 #include "fairway/identify/read_flight_log.hpp"
 #include "fairway/run/contract_file.hpp"
 #include "fairway/run/contract_logs.hpp"
@@ -25,22 +24,6 @@ namespace fairway {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct ContractArguments {
-  KnownVehicle vehicle;
-  std::string bank_limit;
-  std::string turn_rate;
-  std::string heading_error;
-  std::string holds = "course";
-  std::vector<std::string> logs;
-  std::string columns;
-  std::string angles;
-  std::optional<double> tracking_m;
-  double margin = 0.0;
-  fs::path contract;
-  fs::path picture;
-  fs::path output;
-};
 
 LogFormat format_of(const ContractArguments& a) {
   LogFormat format;
@@ -83,7 +66,8 @@ int hold_logs(const ContractArguments& a, const Session& session) {
   const double tracking_m =
       a.tracking_m.value_or(usual_tracking_radii * contract.turn_radius_m.least);
   std::vector<HeldLog> held;
-  for (const FlightLog& log : logs) held.push_back(held_against(log, contract, tracking_m));
+  for (const FlightLog& log : logs)
+    held.push_back(held_against(log, contract, tracking_m, a.sides()));
   const std::size_t worst = worst_of(held);
   if (!a.picture.empty()) {
     write_picture(picture_of_log(logs[worst], held[worst], tracking_m), a.picture,
@@ -95,7 +79,7 @@ int hold_logs(const ContractArguments& a, const Session& session) {
   }
   session.tell(held_json(held, tracking_m), text.substr(0, text.size() - 1));
   for (const HeldLog& h : held) {
-    if (!h.kept.kept) return exit_no;
+    if (!h.kept) return exit_no;
   }
   return exit_done;
 }
@@ -107,7 +91,7 @@ int contract_command(const ContractArguments& a, const Session& session) {
   if (a.logs.empty()) return give(a, contract_of(a.vehicle), session);
   if (!a.contract.empty()) return hold_logs(a, session);
   const FitMargins margins{a.margin, a.vehicle.position_error_m};
-  return give(a, contract_of_logs(logs_of(a), a.tracking_m, margins), session);
+  return give(a, contract_of_logs(logs_of(a), a.tracking_m, margins, a.sides()), session);
 }
 
 void check_vehicle(ContractArguments& a, const CLI::App& options) {
@@ -131,29 +115,32 @@ void check_vehicle(ContractArguments& a, const CLI::App& options) {
   const double least_mps = (1.0 - v.speed_spread) * v.airspeed_mps;
   if (v.wind_mps >= least_mps) {
     throw CLI::ValidationError(
-        "--wind", fmt::format("expected less than the least airspeed, {:.3g} m/s: the wind carries a "
-                              "slower vehicle away",
-                              least_mps));
+        "--wind",
+        fmt::format("expected less than the least airspeed, {:.3g} m/s: the wind carries a "
+                    "slower vehicle away",
+                    least_mps));
   }
   v.holds = a.holds == "heading" ? HeldDirection::heading : HeldDirection::course;
   if (contract_of(v).contract.heading_error_rad >= 0.5 * pi) {
-    throw CLI::ValidationError("--heading-error, --wind, --holds",
-                               "the course may be off by a quarter turn or more: no contract can be "
-                               "proved with it; a course-hold autopilot needs no allowance for wind");
+    throw CLI::ValidationError(
+        "--heading-error, --wind, --holds",
+        "the course may be off by a quarter turn or more: no contract can be "
+        "proved with it; a course-hold autopilot needs no allowance for wind");
   }
 }
 
 void check_arguments(ContractArguments& a, const CLI::App& options) {
   if (a.logs.empty()) {
-    for (const char* name : {"--contract", "--columns", "--angles", "--tracking-m", "--picture", "--margin"}) {
+    for (const char* name : {"--contract", "--columns", "--angles", "--tracking-m", "--picture",
+                             "--margin", "--hold-sides"}) {
       if (options.count(name) > 0) throw CLI::RequiresError(name, "--log");
     }
     check_vehicle(a, options);
     return;
   }
-  for (const char* name : {"--airspeed", "--bank-limit", "--turn-rate", "--turn-radius", "--bank-lag",
-                           "--wind", "--delay", "--control-period", "--heading-error", "--holds",
-                           "--radius-spread", "--speed-spread"}) {
+  for (const char* name : {"--airspeed", "--bank-limit", "--turn-rate", "--turn-radius",
+                           "--bank-lag", "--wind", "--delay", "--control-period", "--heading-error",
+                           "--holds", "--radius-spread", "--speed-spread"}) {
     if (options.count(name) > 0) throw CLI::ExcludesError(name, "--log");
   }
   if (!a.columns.empty()) {
@@ -172,103 +159,6 @@ void check_arguments(ContractArguments& a, const CLI::App& options) {
   }
 }
 
-void declare_turn(CLI::App& options, ContractArguments& a) {
-  options.add_option("--airspeed", a.vehicle.airspeed_mps, "airspeed, m/s")
-      ->check(finite_above(0.0))
-      ->type_name("V");
-  options
-      .add_option("--bank-limit", a.bank_limit,
-                  "greatest bank in a turn, radians or with the suffix deg")
-      ->check(angle_argument())
-      ->type_name("A");
-  options
-      .add_option("--turn-rate", a.turn_rate, "or the rate of its turns, radians (or deg) a second")
-      ->check(angle_argument())
-      ->type_name("W");
-  options.add_option("--turn-radius", a.vehicle.turn_radius_m, "or the turning radius, metres")
-      ->check(finite_above(0.0))
-      ->type_name("R");
-  options
-      .add_option("--radius-spread", a.vehicle.radius_spread,
-                  "share by which the radius in still air may be smaller or larger")
-      ->check(CLI::Range(0.0, 0.9))
-      ->type_name("S")
-      ->capture_default_str();
-  options
-      .add_option("--speed-spread", a.vehicle.speed_spread, "the same for the airspeed")
-      ->check(CLI::Range(0.0, 0.9))
-      ->type_name("S")
-      ->capture_default_str();
-}
-
-void declare_errors(CLI::App& options, ContractArguments& a) {
-  options
-      .add_option("--bank-lag", a.vehicle.bank_lag_s,
-                  "time constant of the roll, seconds; leave it out for a vehicle that does not bank")
-      ->check(finite_from(0.0))
-      ->type_name("S");
-  options.add_option("--wind", a.vehicle.wind_mps, "strongest wind, m/s, from any direction")
-      ->check(finite_from(0.0))
-      ->type_name("W");
-  options
-      .add_option("--delay", a.vehicle.delay_s,
-                  "seconds from being at a place to obeying its command, at worst")
-      ->check(finite_from(0.0))
-      ->type_name("S");
-  options.add_option("--control-period", a.vehicle.control_period_s, "seconds between two commands")
-      ->check(finite_from(0.0))
-      ->type_name("S");
-  options
-      .add_option("--position-error", a.vehicle.position_error_m,
-                  "error of the position, metres, at worst; with logs, of their places")
-      ->check(finite_from(0.0))
-      ->type_name("M");
-  options
-      .add_option("--heading-error", a.heading_error,
-                  "error of sensor and control about a course held, radians or with the suffix deg "
-                  "(default: 1deg)")
-      ->check(angle_argument())
-      ->type_name("A");
-  options.add_option("--holds", a.holds, "what the autopilot holds: the course over ground, or the heading")
-      ->check(CLI::IsMember({"course", "heading"}))
-      ->capture_default_str();
-}
-
-void declare_logs(CLI::App& options, ContractArguments& a) {
-  options
-      .add_option("--log", a.logs,
-                  "flight logs: CSV with a header and t_s,x_m,y_m,course_rad,command_rad")
-      ->type_name("CSV");
-  options
-      .add_option("--columns", a.columns,
-                  "names of the columns, such as time=T,x=EAST,y=NORTH,course=COG,command=CMD")
-      ->type_name("NAMES");
-  options
-      .add_option("--angles", a.angles,
-                  "how courses are counted: math (radians counter-clockwise from east), compass "
-                  "(radians clockwise from north), compass-deg (degrees)")
-      ->check(CLI::IsMember({"math", "compass", "compass-deg"}));
-  options
-      .add_option("--tracking-m", a.tracking_m,
-                  "how far a flight may be from a motion of the contract, metres (default: a tenth "
-                  "of the turning radius)")
-      ->check(finite_above(0.0))
-      ->type_name("M");
-  options
-      .add_option("--margin", a.margin,
-                  "widen the fitted contract: errors larger, ranges wider by this share")
-      ->check(CLI::Range(0.0, 2.0))
-      ->type_name("S");
-  options
-      .add_option("--contract", a.contract,
-                  "do not fit: find out whether the logs keep this contract, a file with "
-                  "[vehicle.contract]")
-      ->type_name("FILE.toml");
-  options.add_option("--picture", a.picture, "draw the log that keeps it worst; .svg or .png")
-      ->check(picture_argument())
-      ->type_name("FILE");
-}
-
 }  // namespace
 
 Action declare_contract(CLI::App& options) {
@@ -277,7 +167,8 @@ Action declare_contract(CLI::App& options) {
   declare_turn(options, a);
   declare_errors(options, a);
   declare_logs(options, a);
-  options.add_option("-o,--output", a.output, "write the contract to a file")->type_name("FILE.toml");
+  options.add_option("-o,--output", a.output, "write the contract to a file")
+      ->type_name("FILE.toml");
   options.final_callback([&a, &options] { check_arguments(a, options); });
   options.footer(
       "Prints a block [vehicle.contract] with a reason for each number: from --airspeed and what\n"

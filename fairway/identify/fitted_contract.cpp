@@ -21,7 +21,8 @@ constexpr std::array<Slack, 4> mixes{{{1.0, 1.0, 1.0, 1.0, 1.0},
                                       {1.0, 0.2, 1.0, 1.0, 1.0},
                                       {1.0, 1.0, 0.4, 0.4, 1.0}}};
 
-constexpr double negligible = 0.01;  // of the widest
+constexpr std::size_t most_states = 64;  // of a search: a fit takes hundreds
+constexpr double negligible = 0.01;      // of the widest
 constexpr double widest_error_radii = 0.8;
 constexpr double widest_heading_rad = 0.2;
 constexpr double widest_radius = 1.5;  // of the flown one, and its inverse
@@ -45,7 +46,8 @@ class Fit {
     VehicleContract c;
     c.command_error_m = widest_error_radii * r * slack[0];
     c.heading_error_rad = widest_heading_rad * slack[1];
-    c.turn_radius_m = {r * std::pow(widest_radius, -slack[2]), r * std::pow(widest_radius, slack[3])};
+    c.turn_radius_m = {r * std::pow(widest_radius, -slack[2]),
+                       r * std::pow(widest_radius, slack[3])};
     // The side is chosen when the command is given, and the turn before goes on for that long.
     const double turned_rad = c.command_error_m / c.turn_radius_m.least;
     c.side_uncertain_rad = std::min(std::max(widest_side_rad * slack[4], turned_rad), 0.49 * pi);
@@ -58,7 +60,9 @@ class Fit {
     const VehicleContract tried = contract(slack);
     // The log that failed last is likely to fail again.
     for (const std::size_t k : order_) {
-      const NearestMotion motion = nearest_motion(tracks_[k], tried, {.limit_m = options_.tracking_m});
+      const NearestMotion motion = nearest_motion(
+          tracks_[k], tried,
+          {.limit_m = options_.tracking_m, .sides = options_.sides, .most_states = most_states});
       if (motion.stays) continue;
       std::rotate(order_.begin(), std::find(order_.begin(), order_.end(), k),
                   std::find(order_.begin(), order_.end(), k) + 1);
@@ -74,7 +78,7 @@ class Fit {
       const auto breaks = broken_by(times(mix, holds));
       if (!breaks) break;
       broken = *breaks;
-      if (doubled == 2) return std::nullopt;
+      if (doubled == 1) return std::nullopt;
       holds *= 2.0;
     }
     double fails = 0.0;
@@ -159,7 +163,7 @@ std::optional<FittedContract> fitted_contract(const std::vector<FlownTrack>& tra
     for (std::size_t m = a; m < b; ++m) {
       const Fit fit(tracks, options);
       slacks[m] = fit.tighten_together(mixes[m], mix_broken[m]);
-      if (slacks[m]) fit.tighten_each(*slacks[m], {0.6, 0.8}, mix_deciders[m]);
+      if (slacks[m]) fit.tighten_each(*slacks[m], {0.6}, mix_deciders[m]);
     }
   });
   const Fit fit(tracks, options);
@@ -172,7 +176,7 @@ std::optional<FittedContract> fitted_contract(const std::vector<FlownTrack>& tra
   }
   broken = mix_broken[0];
   if (!best) return std::nullopt;
-  fit.tighten_each(*best, {0.9, 0.95, 0.0}, deciders);
+  fit.tighten_each(*best, {0.8, 0.9, 0.95, 0.0}, deciders);
   FittedContract result;
   result.deciders = deciders;
   result.contract = fit.contract(*best);

@@ -15,13 +15,20 @@
 #include <optional>
 #include <vector>
 
+#include "fairway/identify/commands_in_force.hpp"
 #include "fairway/identify/flown_track.hpp"
 #include "fairway/vehicle/contract.hpp"
 
 namespace fairway {
 
 /// What was tightened.
-enum class ContractPart : std::uint8_t { command_error, heading_error, least_radius, most_radius, side };
+enum class ContractPart : std::uint8_t {
+  command_error,
+  heading_error,
+  least_radius,
+  most_radius,
+  side
+};
 inline constexpr std::size_t contract_parts = 5;
 
 /// The log and the sample that stop a number from being tightened further.
@@ -42,7 +49,8 @@ struct FittedContract {
 
 struct FitOptions {
   double tracking_m = 0.0;     ///< above 0
-  double turn_radius_m = 0.0; ///< flown at full bank
+  double turn_radius_m = 0.0;  ///< flown at full bank
+  SideRule sides = SideRule::each_command;
 };
 
 /// Nothing when the logs keep no contract of the widest kind tried: then `broken` is set.

@@ -10,12 +10,15 @@
 namespace fairway {
 
 struct FitMargins {
-  double share = 0.0;             ///< every error this share larger, every range this share wider
+  /// Every error is this share larger, every range this share wider; besides, the heading error by
+  /// this share of a degree, and the radii by this share of 5 %.
+  double share = 0.0;
   double position_error_m = 0.0;  ///< of the places in the logs, added to the command's
 };
 
 /// Widened by the margins and rounded outwards to three digits.
-[[nodiscard]] ExplainedContract explained(const FittedContract& fit, std::span<const FlightLog> logs,
+[[nodiscard]] ExplainedContract explained(const FittedContract& fit,
+                                          std::span<const FlightLog> logs,
                                           const FitMargins& margins);
 
 }  // namespace fairway

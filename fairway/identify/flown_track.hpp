@@ -15,18 +15,18 @@ namespace fairway {
 
 /// A command and how long it was in force.
 struct CommandRun {
-  double command_rad = 0.0;
+  Heading command;
   std::size_t last = 0;  ///< sample at which it was superseded (closed: it may still be in force)
 };
 
 struct FlownTrack {
   std::vector<double> time_s;
   std::vector<Vec2> place_m;
-  std::vector<double> course_rad;    ///< not wrapped: continuous along the flight
-  std::vector<double> speed_mps;     ///< smoothed
-  std::vector<double> way_m;         ///< flown since the first sample
+  std::vector<Heading> course;    ///< of the smoothed motion
+  std::vector<double> speed_mps;  ///< smoothed
+  std::vector<double> way_m;      ///< flown since the first sample
   std::vector<CommandRun> runs;
-  std::vector<std::size_t> run_of;   ///< the run in force at each sample
+  std::vector<std::size_t> run_of;  ///< the run in force at each sample
 
   std::size_t size() const { return time_s.size(); }
 };

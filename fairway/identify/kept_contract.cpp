@@ -1,5 +1,6 @@
 #include "fairway/identify/kept_contract.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -7,49 +8,61 @@
 #include "fairway/identify/nearest_motion.hpp"
 
 namespace fairway {
+namespace {
+
+std::optional<std::size_t> wrong_speed_of(const FlownTrack& track, SizeRange range) {
+  std::optional<std::size_t> worst;
+  double worst_factor = 1.0;
+  for (std::size_t i = 0; i < track.size(); ++i) {
+    const double v = track.speed_mps[i];
+    const double factor = std::max(range.least / v, v / range.most);
+    if (factor <= worst_factor) continue;
+    worst = i;
+    worst_factor = factor;
+  }
+  return worst;
+}
+
+}  // namespace
 
 KeptContract kept_contract(const FlownTrack& track, const VehicleContract& contract,
-                           double tracking_m) {
+                           double tracking_m, SideRule sides) {
   constexpr double growth = 1.5;
-  constexpr double precise = 1.03;     // needs_m is found to three percent
-  constexpr double least_share = 0.02; // of the tracking distance
+  constexpr double precise = 1.03;      // needs_m is found to three percent
+  constexpr double least_share = 0.02;  // of the tracking distance
+  constexpr double never = std::numeric_limits<double>::infinity();
   require(tracking_m > 0.0, "the tracking distance is above 0");
-  const auto stays_within = [&](double limit_m) {
-    return nearest_motion(track, contract, {.limit_m = limit_m});
-  };
-  const double farthest_m =
-      std::max(2.0 * tracking_m, farthest_tried_radii * contract.turn_radius_m.least);
   KeptContract result;
-  NearestMotion first = stays_within(tracking_m);
-  result.kept = first.stays;
-  result.kept_until = result.worst = first.stays ? first.farthest : first.reached;
-  double fails_m = first.stays ? least_share * tracking_m : tracking_m;
-  double holds_m = first.stays ? first.farthest_m : std::numeric_limits<double>::infinity();
-  for (double limit_m = growth * tracking_m; !std::isfinite(holds_m) && limit_m <= farthest_m;
-       limit_m *= growth) {
-    const NearestMotion tried = stays_within(limit_m);
+  result.needs_m = never;
+  double fails_m = least_share * tracking_m;
+  double shown_m = tracking_m;  // the limit of the search whose motion is shown
+  const auto try_within = [&](double limit_m) {
+    const NearestMotion tried =
+        nearest_motion(track, contract, {.limit_m = limit_m, .sides = sides});
+    result.worst = tried.stays ? tried.farthest : tried.reached;
     if (tried.stays) {
-      holds_m = tried.farthest_m;
-      result.worst = tried.farthest;
+      result.needs_m = tried.farthest_m;
+      shown_m = limit_m;
     } else {
       fails_m = limit_m;
-      result.worst = tried.reached;
     }
+    return tried;
+  };
+  const NearestMotion first = try_within(tracking_m);
+  result.kept = first.stays;
+  result.kept_until = first.reached;
+  const double farthest_m = growth * (contract.command_error_m + contract.look_ahead_m);
+  for (double limit_m = growth * tracking_m; result.needs_m == never && limit_m <= farthest_m;
+       limit_m *= growth) {
+    static_cast<void>(try_within(limit_m));
   }
-  while (std::isfinite(holds_m) && holds_m > precise * fails_m) {
-    const double middle_m = std::sqrt(holds_m * fails_m);
-    const NearestMotion tried = stays_within(middle_m);
-    if (tried.stays) {
-      holds_m = std::min(tried.farthest_m, middle_m);
-    } else {
-      fails_m = middle_m;
-      result.worst = tried.reached;
-    }
+  while (result.needs_m != never && result.needs_m > precise * fails_m) {
+    static_cast<void>(try_within(std::sqrt(result.needs_m * fails_m)));
   }
-  result.needs_m = holds_m;
-  const double shown_m = std::isfinite(holds_m) ? precise * holds_m : tracking_m;
+  result.wrong_speed = wrong_speed_of(track, contract.speed_mps);
   result.motion_m =
-      nearest_motion(track, contract, {.limit_m = shown_m, .wants_places = true}).place_m;
+      nearest_motion(track, contract, {.limit_m = shown_m, .sides = sides, .wants_places = true})
+          .place_m;
   return result;
 }
 

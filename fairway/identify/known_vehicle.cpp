@@ -47,7 +47,8 @@ Answer answer_of(const KnownVehicle& v, double fastest_mps) {
   Answer answer;
   answer.time_s = v.delay_s + v.control_period_s + roll_s;
   answer.way_m = answer.time_s * fastest_mps;
-  answer.words = fmt::format("delay {:.3g} s + control period {:.3g} s", v.delay_s, v.control_period_s);
+  answer.words =
+      fmt::format("delay {:.3g} s + control period {:.3g} s", v.delay_s, v.control_period_s);
   if (v.bank_lag_s) {
     answer.words += fmt::format(" + roll-in {:.3g} s (bank lag {:.3g} s and {:.3g} s)", roll_s,
                                 *v.bank_lag_s, roll_in_s);
@@ -78,13 +79,15 @@ void fill_radius_and_speed(const KnownVehicle& v, ExplainedContract& e) {
   const double radius_m = still_air_radius_m(v);
   VehicleContract air;
   air.turn_radius_m = {(1.0 - v.radius_spread) * radius_m, (1.0 + v.radius_spread) * radius_m};
-  air.speed_mps = {(1.0 - v.speed_spread) * v.airspeed_mps, (1.0 + v.speed_spread) * v.airspeed_mps};
+  air.speed_mps = {(1.0 - v.speed_spread) * v.airspeed_mps,
+                   (1.0 + v.speed_spread) * v.airspeed_mps};
   air.wind_mps = v.wind_mps;
   const VehicleContract ground = over_ground(air);
   e.contract.turn_radius_m = {down(ground.turn_radius_m.least), up(ground.turn_radius_m.most)};
   e.contract.speed_mps = {down(ground.speed_mps.least), up(ground.speed_mps.most)};
   e.turn_radius = radius_words(v) + fmt::format(", give or take {:.3g} %", 100.0 * v.radius_spread);
-  e.speed = fmt::format("{:.3g} m/s, give or take {:.3g} %", v.airspeed_mps, 100.0 * v.speed_spread);
+  e.speed =
+      fmt::format("{:.3g} m/s, give or take {:.3g} %", v.airspeed_mps, 100.0 * v.speed_spread);
   if (v.wind_mps > 0.0) {
     e.turn_radius += fmt::format(
         ";\nover ground times (1 - w)^2 to (1 + w)^2, with w = wind / least airspeed = {:.2g}",
@@ -104,15 +107,18 @@ double still_air_radius_m(const KnownVehicle& v) {
 }
 
 ExplainedContract contract_of(const KnownVehicle& v) {
-  const int sizes = (v.bank_limit_rad ? 1 : 0) + (v.turn_rate_radps ? 1 : 0) + (v.turn_radius_m ? 1 : 0);
+  const int sizes =
+      (v.bank_limit_rad ? 1 : 0) + (v.turn_rate_radps ? 1 : 0) + (v.turn_radius_m ? 1 : 0);
   require(sizes == 1, "exactly one of bank limit, turn rate and turning radius is given");
-  require(v.wind_mps < (1.0 - v.speed_spread) * v.airspeed_mps, "the wind is below the least speed");
+  require(v.wind_mps < (1.0 - v.speed_spread) * v.airspeed_mps,
+          "the wind is below the least speed");
   ExplainedContract e;
-  e.about = {"From what is known of the vehicle. Fly it, and hold the contract against the logs:",
-             "fairway contract --log FLIGHT.csv --contract FILE.toml",
-             fmt::format("A plan for it: speed_mps = {:.4g}, turn_radius_m = {:.4g}, or others within "
-                         "the ranges below.",
-                         v.airspeed_mps, still_air_radius_m(v))};
+  e.about = {
+      "From what is known of the vehicle. Fly it, and hold the contract against the logs:",
+      "fairway contract --log FLIGHT.csv --contract FILE.toml",
+      fmt::format("A plan for it: speed_mps = {:.4g}, turn_radius_m = {:.4g}, or others within "
+                  "the ranges below.",
+                  v.airspeed_mps, still_air_radius_m(v))};
   fill_radius_and_speed(v, e);
   fill_heading_error(v, e);
   const Answer answer = answer_of(v, e.contract.speed_mps.most);

@@ -17,14 +17,15 @@ struct KnownVehicle {
   std::optional<double> bank_limit_rad;
   std::optional<double> turn_rate_radps;
   std::optional<double> turn_radius_m;
-  std::optional<double> bank_lag_s;  ///< time constant of the roll into a turn; none: it does not roll
+  std::optional<double>
+      bank_lag_s;  ///< time constant of the roll into a turn; none: it does not roll
   double wind_mps = 0.0;
   double delay_s = 0.0;           ///< from a place to the command that answers it, worst case
   double control_period_s = 0.0;  ///< between two commands
   double position_error_m = 0.0;  ///< worst case
   double heading_error_rad = 0.0174532925199433;  ///< of sensor and control, worst case
-  double radius_spread = 0.1;     ///< the radius in still air may be this share more or less
-  double speed_spread = 0.05;     ///< the same for the speed
+  double radius_spread = 0.1;  ///< the radius in still air may be this share more or less
+  double speed_spread = 0.05;  ///< the same for the speed
   HeldDirection holds = HeldDirection::course;
 };
 

@@ -13,10 +13,10 @@ namespace fairway {
 namespace {
 
 constexpr std::size_t fewest_samples = 50;
-constexpr double longest_gap_steps = 5.0;   // in usual steps of time
-constexpr double fastest_jump = 5.0;        // in usual speeds
-constexpr double most_slip_rad = 0.6;       // of the course from the motion, half of the time
-constexpr double most_step_radii = 0.34;    // samples a third of a radius apart
+constexpr double longest_gap_steps = 5.0;  // in usual steps of time
+constexpr double fastest_jump = 5.0;       // in usual speeds
+constexpr double most_slip_rad = 0.6;      // of the course from the motion, half of the time
+constexpr double most_step_radii = 0.34;   // samples a third of a radius apart
 
 [[noreturn]] void refuse(const FlightLog& log, const LogSample& at, const std::string& what) {
   throw InputError(fmt::format("{}:{}", log.name, at.line), what);
@@ -71,11 +71,12 @@ void require_whole(const FlightLog& log, const Usual& usual) {
     }
     const double speed_mps = norm(now.place_m - log.samples[i - 1].place_m) / step_s;
     if (speed_mps > fastest_jump * usual.speed_mps) {
-      refuse(log, now,
-             fmt::format("the place jumps by {} m in {:.3g} s at t = {:.6g} s, where the log usually "
-                         "moves at {:.3g} m/s: expected places of one flight; cut the log there",
-                         length_text(norm(now.place_m - log.samples[i - 1].place_m)), step_s,
-                         now.time_s, usual.speed_mps));
+      refuse(
+          log, now,
+          fmt::format("the place jumps by {} m in {:.3g} s at t = {:.6g} s, where the log usually "
+                      "moves at {:.3g} m/s: expected places of one flight; cut the log there",
+                      length_text(norm(now.place_m - log.samples[i - 1].place_m)), step_s,
+                      now.time_s, usual.speed_mps));
     }
   }
 }

@@ -5,8 +5,8 @@
 
 namespace fairway {
 
-/// Throws InputError{NAME:LINE, ...} for time that does not grow, gaps, jumps of place, courses that
-/// are not the direction of the motion, and a log too short to judge.
+/// Throws InputError{NAME:LINE, ...} for time that does not grow, gaps, jumps of place, courses
+/// that are not the direction of the motion, and a log too short to judge.
 void require_sound(const FlightLog& log);
 
 /// Throws InputError{NAME, ...} for a log that never turns, or whose command never changes: nothing

@@ -6,8 +6,9 @@
 // both seen `look_ahead_m` ahead. A command is never obeyed before it is given.
 // Since the command in force may change at any instant, the turn over a step may be anything
 // between the extremes of what the commands allow (the limit of ever faster changes). The speed is
-// that of the track, corrected within the contract's range. Motions alike in place and course are
-// one; the beam keeps those nearest to the track.
+// that of the track, somewhat faster where the motion is behind and slower where it is ahead:
+// places do not depend on it. Motions alike in place and course are one; the beam keeps those
+// nearest to the track.
 //
 // What it returns keeps the contract, so "found" is a proof up to the length of the steps. That
 // nothing is found proves nothing: another motion may exist. Deterministic.
@@ -16,6 +17,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "fairway/identify/commands_in_force.hpp"
 #include "fairway/identify/flown_track.hpp"
 #include "fairway/vehicle/contract.hpp"
 
@@ -30,7 +32,8 @@ struct NearestMotion {
 };
 
 struct MotionSearch {
-  double limit_m = 1.0;        ///< distance from the track, above 0
+  double limit_m = 1.0;  ///< distance from the track, above 0
+  SideRule sides = SideRule::each_command;
   bool wants_places = false;
   std::size_t most_states = 96;
 };

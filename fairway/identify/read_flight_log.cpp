@@ -63,23 +63,28 @@ Reading reading_of(const std::vector<std::string>& header, const LogFormat& form
   if (format.angles != LogAngles::by_names) reading.angles = format.angles;
   for (const std::string& name : reading.names) {
     if (std::find(header.begin(), header.end(), name) != header.end()) continue;
-    throw InputError(where, fmt::format("no column {} among {}: expected {}; name others with "
-                                        "--columns time=...,x=...,y=...,course=...,command=...",
-                                        name, fmt::join(header, ","), fmt::join(reading.names, ",")));
+    throw InputError(where,
+                     fmt::format("no column {} among {}: expected {}; name others with "
+                                 "--columns time=...,x=...,y=...,course=...,command=...",
+                                 name, fmt::join(header, ","), fmt::join(reading.names, ",")));
   }
   return reading;
 }
 
 Heading heading_of(double value, const std::string& name, LogAngles angles, const CsvPlace& place) {
   if (angles != LogAngles::north_cw_deg && std::abs(value) > most_heading_rad) {
-    place.refuse(fmt::format("{} is {:g}: expected radians from -7 to 7; for degrees clockwise from "
-                             "north give --angles compass-deg",
-                             name, value));
+    place.refuse(
+        fmt::format("{} is {:g}: expected radians from -7 to 7; for degrees clockwise from "
+                    "north give --angles compass-deg",
+                    name, value));
   }
   switch (angles) {
-    case LogAngles::north_cw_rad: return Heading::from_rad(0.5 * pi - value);
-    case LogAngles::north_cw_deg: return Heading::from_rad((90.0 - value) * (pi / 180.0));
-    default: return Heading::from_rad(value);
+    case LogAngles::north_cw_rad:
+      return Heading::from_rad(0.5 * pi - value);
+    case LogAngles::north_cw_deg:
+      return Heading::from_rad((90.0 - value) * (pi / 180.0));
+    default:
+      return Heading::from_rad(value);
   }
 }
 
@@ -106,7 +111,8 @@ std::vector<std::string> log_columns_of(const std::string& text, const std::stri
 
 FlightLog read_flight_log(const std::string& file, const LogFormat& format) {
   const std::string where = csv_name(file);
-  constexpr std::array<CsvColumn, 5> known{{{"t_s"}, {"x_m"}, {"y_m"}, {"course_rad"}, {"command_rad"}}};
+  constexpr std::array<CsvColumn, 5> known{
+      {{"t_s"}, {"x_m"}, {"y_m"}, {"course_rad"}, {"command_rad"}}};
   const std::string text = plain_text(csv_text(file, known), where);
   const Reading reading = reading_of(header_of(text), format, where);
   const auto angle =

@@ -14,7 +14,7 @@
 namespace fairway {
 
 enum class LogAngles : std::uint8_t {
-  by_names,     ///< as the set of names says; counter-clockwise for names that were given
+  by_names,  ///< as the set of names says; counter-clockwise for names that were given
   east_ccw_rad,
   north_cw_rad,
   north_cw_deg

@@ -10,7 +10,7 @@
 
 namespace fairway {
 
-enum class HeldSide : std::int8_t { right = -1, none = 0, left = 1 };
+enum class TurnSide : std::int8_t { right = -1, none = 0, left = 1 };
 
 /// Turns from least to most, radians, positive to the left.
 struct TurnRange {
@@ -46,7 +46,8 @@ struct TurnStep {
   /// within the error; there anything that stays within.
   TurnRange towards(double off_rad) const {
     if (std::abs(off_rad) <= error_rad) {
-      return {std::max(-fastest_rad, off_rad - error_rad), std::min(fastest_rad, off_rad + error_rad)};
+      return {std::max(-fastest_rad, off_rad - error_rad),
+              std::min(fastest_rad, off_rad + error_rad)};
     }
     return around(std::abs(off_rad), off_rad > 0.0);
   }
@@ -56,8 +57,8 @@ struct TurnStep {
     const double most = std::min(fastest_rad, left_rad + error_rad);
     return to_the_left ? TurnRange{least, most} : TurnRange{-most, -least};
   }
-  TurnRange to_side(double off_rad, HeldSide side) const {
-    const bool left = side == HeldSide::left;
+  TurnRange to_side(double off_rad, TurnSide side) const {
+    const bool left = side == TurnSide::left;
     const double ahead_rad = left ? off_rad : -off_rad;
     return around(ahead_rad > 0.0 ? ahead_rad : ahead_rad + two_pi, left);
   }

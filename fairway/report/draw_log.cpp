@@ -79,7 +79,8 @@ void draw_close_up(Canvas& canvas, const PlotFrame& frame, const LogPicture& p) 
   draw_tracks(canvas, frame, p, "close-up");
   const auto layer = canvas.layer("distance", frame.rect);
   const Vec2 at = frame.to_page(p.log_m[p.worst_sample]);
-  canvas.stroke(DrawingPath::circle(at, p.tracking_m * pt_per_m(frame)), {worst_color, 1.0, {2.5, 2.0}});
+  canvas.stroke(DrawingPath::circle(at, p.tracking_m * pt_per_m(frame)),
+                {worst_color, 1.0, {2.5, 2.0}});
   canvas.fill(DrawingPath::circle(at, 2.4), worst_color);
   if (p.worst_sample >= p.motion_m.size()) return;
   const Vec2 motion = frame.to_page(p.motion_m[p.worst_sample]);

@@ -23,12 +23,13 @@ inline constexpr double usual_tracking_radii = 0.1;
 /// turns, one whose samples are too far apart, and where no contract is kept.
 [[nodiscard]] ExplainedContract contract_of_logs(const std::vector<FlightLog>& logs,
                                                  std::optional<double> tracking_m,
-                                                 const FitMargins& margins);
+                                                 const FitMargins& margins, SideRule sides);
 
 /// A log held against a contract.
 struct HeldLog {
   std::string name;
-  KeptContract kept;
+  KeptContract place;
+  bool kept = false;  ///< in place and speed
   double kept_until_s = 0.0;
   double worst_s = 0.0;
   Vec2 worst_m;
@@ -37,7 +38,7 @@ struct HeldLog {
 };
 
 [[nodiscard]] HeldLog held_against(const FlightLog& log, const VehicleContract& contract,
-                                   double tracking_m);
+                                   double tracking_m, SideRule sides);
 
 /// The logs' lines, worst first, and a sentence on all.
 [[nodiscard]] std::string held_text(const std::vector<HeldLog>& held);
