@@ -10,7 +10,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double most_step = 2.5 * pi / 180.0;
-constexpr double most_joining = 5.0 * pi / 180.0;  ///< headings of a set that begins
+constexpr double most_joining = 2.5 * pi / 180.0;  ///< headings of a set that begins
 constexpr double most_turned = 8.0 * pi;
 constexpr int most_work = 1 << 14;
 constexpr std::size_t most_waiting = 4096;
