@@ -302,42 +302,5 @@ TEST(ContractFlight, TellsOfAllThatFlightsFromAStateMeet) {
   EXPECT_LT(count.lost, count.images / 4);
 }
 
-TEST(ContractFlight, TellsOfThoseThatTurnBackForACommandOnTheOtherSide) {
-  // Turning left from 40 degrees to 110, it comes to where the commands lie on its right.
-  SmallWorld w = random_world(1);
-  w.nx = w.ny = 10;
-  w.k = 1;
-  w.rho = 0.02;
-  w.eps = 0.002;
-  w.r1 = w.r2 = 3.0;
-  w.hold = 0.5 * pi;
-  w.uncertain = 0.0;
-  w.command.clear();
-  w.filled.clear();
-  w.kind.assign(100, 0);
-  for (int i = 0; i < 100; ++i) {
-    const double degrees = i < 20 ? 110.0 : i < 40 ? 190.0 : 275.0;
-    w.command.push_back(static_cast<float>(wrapped(degrees * pi / 180.0)));
-  }
-  w.fill();
-  const Contract contract = contract_of_world(w);
-  const Parts parts = parts_of(loop_of_world(w), 1, 1, contract);
-  Behaviours behaviours(parts, contract);
-  Recorder image;
-  behaviours.follow_state(parts.index({4, 2}), 0.5, 0.9, 40.0 * pi / 180.0, image);
-  ASSERT_FALSE(image.lost);
-  int told = 0;
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const Whim whim{.wants = static_cast<int>(seed % 3) - 1, .radius = 0, .fickle = 0.3};
-    std::string why;
-    Flight flight{.w = w, .parts = parts, .contract = contract, .image = image};
-    const Answer answer =
-        flight.fly({.x = 4.5, .y = 2.9, .heading = 40.0 * pi / 180.0}, {4, 2}, whim, seed, why);
-    ASSERT_NE(answer, Answer::untold) << why << " " << seed;
-    told += answer == Answer::told ? 1 : 0;
-  }
-  EXPECT_GT(told, 150);
-}
-
 }  // namespace
 }  // namespace fairway_check
