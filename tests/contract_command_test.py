@@ -66,6 +66,7 @@ class Contract(unittest.TestCase):
         self.contract(*NUMBERS, "-o", "c.toml")
         self.assertEqual((self.folder / "c.toml").read_text(), printed)
         self.contract(*NUMBERS, "-o", "c.toml", code=65)
+        self.assertEqual(self.contract(*NUMBERS, "--quiet").stdout, printed)
         self.write("log.csv", log_lines(1))
         self.contract("--log", "log.csv", "--contract", "c.toml", code=1)  # 50 m are not 20 m
         told = json.loads(self.contract(*NUMBERS, "--json").stdout)
