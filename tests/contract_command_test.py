@@ -98,6 +98,14 @@ class Contract(unittest.TestCase):
         told = self.contract("--log", "1.csv", "2.csv", "3.csv", "--contract", "c.toml").stdout
         self.assertIn("3 of 3 logs keep the contract.", told)
 
+    def test_the_tightest_contract_is_kept_by_its_own_log_as_the_file_says(self):
+        for seed in (7, 8):
+            self.write("log.csv", log_lines(seed))
+            self.contract("--log", "log.csv", "-o", "c.toml", "--force")
+            words = re.search(r"# fairway contract --log OTHER.csv --contract FILE.toml (.*)\n",
+                              (self.folder / "c.toml").read_text())[1].split()
+            self.contract("--log", "log.csv", "--contract", "c.toml", *words)
+
     def test_a_command_ignored_is_found_and_drawn(self):
         lines = log_lines(4)
         times = [i for i in range(602, len(lines)) if lines[i].split(",")[4] != lines[i - 1].split(",")[4]]
