@@ -10,7 +10,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double most_step = 2.5 * pi / 180.0;
-constexpr double most_joining = 5.0 * pi / 180.0;  ///< headings of a set that begins
+constexpr double most_joining = 2.5 * pi / 180.0;  ///< headings of a set that begins
 constexpr double most_turned = 8.0 * pi;
 constexpr int most_work = 1 << 14;
 constexpr std::size_t most_waiting = 4096;
@@ -44,6 +44,21 @@ Shape within(const Shape& at, const Box& box) {
   return all;
 }
 Point corner_of(Cell part) { return {static_cast<double>(part.x), static_cast<double>(part.y)}; }
+
+/// Restricts where an aligned set leaves over a side, if no heading (middle +- half) goes the other
+/// way along it.
+void keep_sure(Cell part, int side, double middle, double half, const Box& sure, double& low,
+               double& high) {
+  const double off = std::abs(std::remainder(middle - (side + 1) * (0.5 * pi), 2.0 * pi));
+  const double x0 = sure.x0 - part.x;
+  const double x1 = sure.x1 - part.x;
+  const double y0 = sure.y0 - part.y;
+  const double y1 = sure.y1 - part.y;
+  const double from[4]{y0, 1.0 - x1, 1.0 - y1, x0};
+  const double to[4]{y1, 1.0 - x0, 1.0 - y0, x1};
+  if (off + half <= 0.5 * pi) low = std::max(low, from[side]);
+  if (off - half >= 0.5 * pi) high = std::min(high, to[side]);
+}
 
 /// All displacements in a step of the clock. With the radius r between r1 and r2 the displacement
 /// is the integral of r e over the headings, so that of r1, an arc within the triangle of its
@@ -135,24 +150,22 @@ void Behaviours::follow_leaf(std::size_t part, int side, double low, double high
   double most = arc.right + arc.width;
   if (parts_.kind[part] != ordinary || is_loose(arc, contract_)) return lose();
   if (!point_outwards(side, least, most)) return;
-  // A side is held only for a command that is far: at the other end of the arc.
-  const double near_right = arc.right + arc.width - contract_.hold_side + 2.0 * angle_slack;
-  const double near_left = arc.right + contract_.hold_side - 2.0 * angle_slack;
-  const Shape line = places_on(side, low, high);
-  const auto leave = [&](double from, double to, bool holds_left, bool holds_right) {
-    from = std::max(from, least);
-    to = std::min(to, most);
-    if (from > to) return;
-    begin(Cell{0, 0}.beyond(side), line, from, to, Memory{.nothing = true, .side = holds_left},
-          Memory{.nothing = true, .side = holds_right}, true, Past{}.with(from, to, 0.0, 0.0));
-  };
-  if (near_right < arc.right) {
-    leave(least, most, false, false);
-  } else {  // narrower than twice that far, so that these do not overlap, but for slack
-    leave(least, near_right, true, false);
-    leave(near_right, near_left, false, false);
-    leave(near_left, most, false, true);
-  }
+  // Near the ends of a wide arc a side may be held: the one that leads into the arc. (Those that
+  // hold the other one have turned that way without pause, and are followed as such.)
+  const double far_left = arc.right + arc.width - contract_.hold_side + angle_slack;
+  const double far_right = arc.right + contract_.hold_side - angle_slack;
+  const double to_left = std::clamp(far_left, least, most);
+  const double to_right = std::clamp(far_right, to_left, most);
+  const Shape at = places_on(side, low, high);
+  const Box sure = at.bounds();
+  const Past past = Past{}.with(least, most, 0.0, 0.0);
+  const Memory none{.nothing = true, .side = false};
+  const Memory any{.nothing = true, .side = true};
+  const Cell beyond = Cell{0, 0}.beyond(side);
+  if (to_left > least) begin(beyond, at, least, to_left, any, none, sure, past);
+  if (to_right > to_left || least == most)
+    begin(beyond, at, to_left, to_right, none, none, sure, past);
+  if (most > to_right) begin(beyond, at, to_right, most, none, any, sure, past);
   run(sightings);
 }
 
@@ -163,7 +176,7 @@ void Behaviours::follow_state(std::size_t part, double x, double y, double headi
   work_ = 0;
   origin_ = parts_.part_at(part);
   const Memory memory{.nothing = true, .side = false};
-  begin({0, 0}, Shape{{x, y}}, heading_rad, heading_rad, memory, memory, false,
+  begin({0, 0}, Shape{{x, y}}, heading_rad, heading_rad, memory, memory, everywhere,
         Past{}.with(heading_rad, heading_rad, 0.0, 0.0));
   run(sightings);
 }
@@ -184,7 +197,7 @@ void Behaviours::run(Sightings& sightings) {
 
 /// States in a part (or on its border, about to enter) with headings in [least, most].
 void Behaviours::begin(Cell part, const Shape& at, double least, double most, Memory left,
-                       Memory right, bool exact, const Past& past) {
+                       Memory right, const Box& sure, const Past& past) {
   touch_ends(at, past);
   if (kind_of(part) != ordinary || lost_ || sightings_->has_enough()) return;
   if (++work_ > most_work) return lose();
@@ -206,7 +219,7 @@ void Behaviours::begin(Cell part, const Shape& at, double least, double most, Me
   bool aligns = false;
   std::array<Run, 2> runs{Run{.turn = 1}, Run{.turn = -1}};
   const auto finish = [&](Run& run) {
-    if (run.memory.any()) turn_from(at, run.turn, run.least, run.most, run.memory, past);
+    if (run.memory.any()) turn_from(at, run.turn, run.least, run.most, run.memory, sure, past);
     run.memory = {};
   };
   for (std::size_t i = 0; i + 1 < count; ++i) {
@@ -216,7 +229,7 @@ void Behaviours::begin(Cell part, const Shape& at, double least, double most, Me
     const std::array<Choices, 2> choices{
         choices_in(arc.right, arc.width, low, step, left, contract_),
         choices_in(-end, arc.width, -low - step, step, right, contract_)};
-    if (choices[0].aligns && !aligns) align(part, at, exact, low + 0.5 * step, past);
+    if (choices[0].aligns && !aligns) align(part, at, true, sure, low + 0.5 * step, past);
     aligns = aligns || choices[0].aligns;
     const bool alternates = choices[0].alternates || choices[1].alternates;
     if (alternates) roam(part, at, low, low + step, past);
@@ -234,7 +247,7 @@ void Behaviours::begin(Cell part, const Shape& at, double least, double most, Me
 }
 
 void Behaviours::turn_from(const Shape& at, int turn, double least, double most, Memory memory,
-                           const Past& past) {
+                           const Box& sure, const Past& past) {
   const double count = std::max(1.0, std::ceil((most - least) / most_joining));
   if (waiting_.size() > most_waiting) return lose();
   for (double i = 0.0; i < count; ++i) {
@@ -246,7 +259,8 @@ void Behaviours::turn_from(const Shape& at, int turn, double least, double most,
                         .clock = turn > 0 ? low : -high,
                         .joined = turn > 0 ? high : -low,
                         .memory = memory,
-                        .past = past.with(low, high, 0.0, 0.0)});
+                        .past = past.with(low, high, 0.0, 0.0),
+                        .sure = sure});
   }
 }
 
@@ -266,6 +280,8 @@ void Behaviours::turn_back(const Turning& set, double end, Cell part, const Shap
     back.past.most_rad = std::max(back.past.most_rad, past.most_rad);
     back.past.length = std::max(back.past.length, past.length);
     back.past.turned = std::max(back.past.turned, past.turned);
+    back.sure = {std::min(back.sure.x0, set.sure.x0), std::min(back.sure.y0, set.sure.y0),
+                 std::max(back.sure.x1, set.sure.x1), std::max(back.sure.y1, set.sure.y1)};
     return;
   }
   returns_.push_back({part,
@@ -275,15 +291,19 @@ void Behaviours::turn_back(const Turning& set, double end, Cell part, const Shap
                        .clock = -end,
                        .joined = -set.clock,
                        .memory = memory,
-                       .past = past}});
+                       .past = past,
+                       .sure = set.sure}});
 }
 
 /// Aligned in a part, `heading` among the headings. The way in the cone of its arc is shorter than
 /// what it gains along the middle of the cone, divided by the cosine of half its width.
-void Behaviours::align(Cell part, const Shape& at, bool exact, double heading, const Past& past) {
+void Behaviours::align(Cell part, const Shape& at, bool begins, const Box& sure, double heading,
+                       const Past& past) {
   const Arc arc = arc_of(part);
   const double right = heading - around_from(heading - arc.right);
-  const Point middle = unit(right + 0.5 * arc.width);
+  const double middle_rad = right + 0.5 * arc.width;
+  const Point middle = unit(middle_rad);
+  const bool exact = begins && sure.x0 > -HUGE_VAL;
   const double length =
       (1.0 + 8.0 * touch) * (std::abs(middle.x) + std::abs(middle.y)) / std::cos(0.5 * arc.width);
   const Past then = past.with(right, right + arc.width, length, 0.0);
@@ -292,6 +312,7 @@ void Behaviours::align(Cell part, const Shape& at, bool exact, double heading, c
     double low = 0.0;
     double high = 0.0;
     if (find_way_out(inside, side, right, right + arc.width, exact, low, high)) {
+      keep_sure(part, side, middle_rad, 0.5 * arc.width, sure, low, high);
       sightings_->cross(parts_.index(global(part)), side, low, high, then);
     }
   }
@@ -315,7 +336,7 @@ void Behaviours::roam(Cell part, const Shape& at, double least, double most, con
     if (!point_outwards(side, from, to)) continue;
     const Memory any{.nothing = true, .side = true};
     begin(part.beyond(side), moved(places_on(side, low, high), corner_of(part)), from, to, any, any,
-          false, then);
+          everywhere, then);
   }
 }
 
@@ -363,6 +384,9 @@ bool Behaviours::advance(Turning& set) {
     by = Displacements(set.turn, set.clock, step, least_radius_, most_radius_);
     swept = sum(set.at, by.partial);
   }
+  const Point middle = unit(set.turn * (set.clock + 0.5 * step));  // all are in its quadrant
+  (middle.x > 0.0 ? set.sure.x1 : set.sure.x0) = middle.x > 0.0 ? HUGE_VAL : -HUGE_VAL;
+  (middle.y > 0.0 ? set.sure.y1 : set.sure.y0) = middle.y > 0.0 ? HUGE_VAL : -HUGE_VAL;
   const double end = set.clock + step;
   const Past past = set.turn > 0 ? set.past.with(set.clock, end, most_radius_ * step, step)
                                  : set.past.with(-end, -set.clock, most_radius_ * step, step);
@@ -421,7 +445,7 @@ void Behaviours::meet_part(const Turning& set, double step, Cell part, const Sha
   }
   const Choices c = choices_in(set.turn > 0 ? arc.right : -(arc.right + arc.width), arc.width,
                                set.clock, step, set.memory, contract_);
-  if (c.aligns) align(part, there, false, least + 0.5 * step, past);
+  if (c.aligns) align(part, there, false, set.sure, least + 0.5 * step, past);
   if (c.alternates) {
     met_.push_back({part, false});
     return roam(part, there, least, least + step, past);

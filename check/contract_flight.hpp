@@ -53,6 +53,8 @@ class Behaviours {
   void follow_state(std::size_t part, double x, double y, double heading_rad, Sightings& sightings);
 
  private:
+  /// Bounds that hold without any error, as nobody of the set has moved against them.
+  static constexpr Box everywhere{-HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL};
   struct Turning {
     Shape at{};
     Shape joining{};     ///< until the clock is `joined`, others begin here
@@ -61,6 +63,7 @@ class Behaviours {
     double joined = 0.0;
     Memory memory{};
     Past past{};
+    Box sure = everywhere;
   };
   /// A part that a set meets in a step.
   struct Met {
@@ -75,12 +78,13 @@ class Behaviours {
   struct Run;
 
   void begin(Cell part, const Shape& at, double least, double most, Memory left, Memory right,
-             bool exact, const Past& past);
+             const Box& sure, const Past& past);
   void turn_from(const Shape& at, int turn, double least, double most, Memory memory,
-                 const Past& past);
+                 const Box& sure, const Past& past);
   void turn_back(const Turning& set, double end, Cell part, const Shape& there, Memory memory,
                  const Past& past);
-  void align(Cell part, const Shape& at, bool exact, double heading, const Past& past);
+  void align(Cell part, const Shape& at, bool begins, const Box& sure, double heading,
+             const Past& past);
   void roam(Cell part, const Shape& at, double least, double most, const Past& past);
   void touch_ends(const Shape& at, const Past& past);
 

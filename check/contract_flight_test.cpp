@@ -265,7 +265,9 @@ void attack(std::uint64_t from, std::uint64_t to, bool leaves, Count& count) {
           const double within = f % 4 == 0 ? 0.0 : f % 4 == 1 ? 1.0 : dice.unit();
           start.heading = least + within * (most - least);
           if (touches_end(w, start.x, start.y)) continue;
-          if (width > w.hold) start.side = static_cast<int>(dice.below(3)) - 1;
+          const bool leads_in = dice.unit() < 0.7;  // the side held for a far command of the arc
+          if (leads_in && start.heading < right + width - w.hold) start.side = 1;
+          if (leads_in && start.heading > right + w.hold) start.side = -1;
         }
         const Whim whim{.wants = static_cast<int>(dice.below(3)) - 1,
                         .radius = static_cast<int>(dice.below(3)),

@@ -8,7 +8,10 @@
 #include <fmt/format.h>
 
 #include "fairway/app/command.hpp"
+#include "fairway/app/ending.hpp"
+#include "fairway/app/places.hpp"
 #include "fairway/app/states_asked.hpp"
+#include "fairway/base/atomic_file.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/base/file_kind.hpp"
 #include "fairway/base/mapped_file.hpp"
@@ -16,7 +19,9 @@
 #include "fairway/bitmap/bitmap_file.hpp"
 #include "fairway/bitmap/sample_bitmap.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/certificate/contract_certificate_file.hpp"
 #include "fairway/map/earth_frame.hpp"
+#include "fairway/run/ask_contract.hpp"
 #include "fairway/run/flight_summary.hpp"
 #include "fairway/run/start_warnings.hpp"
 #include "fairway/runtime.hpp"
@@ -31,6 +36,7 @@ struct QueryArguments {
   fs::path certificate;
   StatesAsked asked;
   bool trust_file = false;
+  fs::path witness;
 };
 
 /// What is printed for a state.
@@ -101,8 +107,43 @@ std::vector<State> states_of(const QueryArguments& a, const Grid& grid, const Fr
   return states;
 }
 
+/// Under a contract: with the behaviour that fails, where one is known.
+int query_contract(const QueryArguments& a, const Session& session) {
+  require_places({a.witness}, files_of({a.certificate}), session.existing());
+  const ContractCertificate certificate = read_contract_certificate(a.certificate);
+  const Frame frame = certificate.frame.value_or(Frame{});
+  const std::vector<State> states = states_of(a, certificate.grid, frame, session);
+  if (!a.witness.empty() && states.size() != 1) {
+    throw InputError("--witness", fmt::format("goes with a single state, found {}", states.size()));
+  }
+  const std::vector<ContractReply> replies = ask(certificate, states);
+  std::vector<Answer> answers;
+  for (const ContractReply& reply : replies) {
+    answers.push_back({reply.word(), {}});
+    if (reply.verdict == Verdict::reach) answers.back().time_bound_s = reply.time_bound_s;
+  }
+  tell(a, "certificate", frame, states, answers, session);
+  if (a.witness.empty()) return exit_done;
+  if (!replies.front().witness) {
+    session.warn(fmt::format("no witness was written: the verdict is {}, and no behaviour that "
+                             "fails is known",
+                             replies.front().word()));
+    return exit_no;
+  }
+  write_whole(a.witness, session.existing(), witness_csv(certificate, *replies.front().witness));
+  return exit_done;
+}
+
 int query_command(const QueryArguments& a, const Session& session) {
   const MappedFile file(a.certificate);
+  if (kind_of_bytes(file.bytes()) == FileKind::contract_certificate) {
+    return query_contract(a, session);
+  }
+  if (!a.witness.empty()) {
+    throw InputError(a.certificate.string(),
+                     "is no contract certificate: only under a contract are states at risk, with a "
+                     "witness");
+  }
   if (kind_of_bytes(file.bytes()) == FileKind::bitmap) {
     const Bitmap bitmap = read_bitmap(a.certificate);
     const Frame frame = bitmap.frame.value_or(Frame{});
@@ -131,13 +172,18 @@ int query_command(const QueryArguments& a, const Session& session) {
 Action declare_query(CLI::App& options) {
   auto arguments = std::make_shared<QueryArguments>();
   QueryArguments& a = *arguments;
-  options.add_option("certificate", a.certificate, "the certificate, or a bitmap")
+  options.add_option("certificate", a.certificate, "the certificate, of the exact vehicle or under a contract, or a bitmap")
       ->required()
       ->type_name("CERT|BITMAP");
   declare_states(options, a.asked, "state");
   options.add_flag("--trust-file", a.trust_file,
                    "skip checking the certificate's digests: faster for a few states of a large "
                    "certificate");
+  options
+      .add_option("--witness", a.witness,
+                  "under a contract: write the behaviour that fails from this state, if it is at "
+                  "risk, step by step")
+      ->type_name("CSV");
   options.final_callback([&a] {
     if (a.asked.empty()) throw CLI::RequiredError("--state, --state-deg or --states");
   });

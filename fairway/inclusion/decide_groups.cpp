@@ -198,7 +198,7 @@ class Decider {
         hi = std::max(hi, on);
       }
     }
-    const double off = 0.5 * p.headings.width_rad + 1e-5;
+    const double off = 0.5 * p.headings.width_rad + 1e-3;  // who checks may find more
     return static_cast<float>((p.flown + generous * (hi - lo + 0.1) / std::cos(off)) * (1.0 + 1e-6));
   }
 

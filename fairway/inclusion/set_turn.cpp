@@ -86,6 +86,7 @@ void SetFlight::turn(const TurningSet& set) {
   const auto still_to = [&](double heading) { return sign * (last - heading); };
   ConvexSet here = from.set;
   Past past = from.past;
+  past.flown += parts_.turn_radius().most * options_.step_rad;  // who checks may begin a step sooner
   bool forgot = false;         // some may hold no side any more
   std::vector<Gathered> back;  // what turns back
   while (!image_.gave_up) {
@@ -127,7 +128,7 @@ void SetFlight::turn(const TurningSet& set) {
         continue;
       }
       const HeadingArc& arc = parts_.arc(p);
-      if (arc.widened(align_slack_rad).meets(these)) align(p, piece, past, 4.0 * place_slack);
+      if (arc.widened(align_slack_rad).meets(these)) align(p, piece, past, 16.0 * place_slack);
       const double x = behind(arc);
       if (x <= arc.width_rad) continue;
       if (x - off - arc.width_rad <= (forgot ? opposite : hold)) {  // a command on the other side

@@ -29,16 +29,18 @@ class Attacker {
         options_(options),
         random_(Random::stream(options.seed, item)) {}
 
-  /// From a state at random, and as many from both sides of a boundary that lies between it and
-  /// another one.
+  /// From a state at random, and as many from both sides of a boundary between it and another one.
   void attack_some() {
     const State a = random_state();
-    const State b = random_.below(2) == 0 ? random_state() : near(a);
-    const ContractClaim answer_a = ask(a);
-    const ContractClaim answer_b = ask(b);
-    attack(a, answer_a, options_.each);
-    attack(b, answer_b, options_.each);
-    if (answer_a.verdict != answer_b.verdict) attack_between(a, answer_a, b, answer_b);
+    const ContractClaim claim_a = ask(a);
+    attack(a, claim_a, options_.each);
+    for (int tries = 0; tries < 8; ++tries) {
+      const State b = tries % 2 == 0 ? near(a) : random_state();
+      const ContractClaim claim_b = ask(b);
+      if (claim_b.verdict == claim_a.verdict) continue;
+      attack_between(a, claim_a, b, claim_b);
+      return;
+    }
   }
 
   const ContractAttackTotals& totals() const { return totals_; }
@@ -93,9 +95,10 @@ class Attacker {
       (like_a ? a : b) = middle;
       (like_a ? answer_a : answer_b) = answer;
     }
-    totals_.aimed += 2;
-    attack(a, answer_a, 2 * options_.each);
-    attack(b, answer_b, 2 * options_.each);
+    const std::uint64_t before = totals_.flights;
+    attack(a, answer_a, options_.each);
+    attack(b, answer_b, options_.each);
+    totals_.aimed += totals_.flights - before;
   }
 
   void attack(const State& s, const ContractClaim& answer, int flights) {
@@ -192,10 +195,11 @@ void ContractAttackTotals::add(const ContractAttackTotals& other) {
 }
 
 std::string ContractAttackTotals::line() const {
-  std::string text =
-      fmt::format("{} flights, {} states asked ({} beside boundaries", flights, states, aimed);
+  std::string text = fmt::format("{} flights ({} from beside boundaries), {} states asked (",
+                                 flights, aimed, states);
   for (const Verdict verdict : verdicts_in_order) {
-    text += fmt::format(", {} {}", by_verdict[static_cast<std::size_t>(verdict)], name_of(verdict));
+    text += fmt::format("{}{} {}", verdict == verdicts_in_order[0] ? "" : ", ",
+                        by_verdict[static_cast<std::size_t>(verdict)], name_of(verdict));
   }
   return text + fmt::format("); {} contradictions, {} late, {} not proved", contradictions, late,
                             unproved);

@@ -34,7 +34,7 @@ struct ContractAttackOptions {
 
 struct ContractAttackTotals {
   std::uint64_t states = 0;  ///< asked about
-  std::uint64_t aimed = 0;   ///< of those, beside a boundary
+  std::uint64_t aimed = 0;   ///< of the flights, from beside a boundary
   std::uint64_t flights = 0;
   std::uint64_t contradictions = 0;
   std::uint64_t late = 0;  ///< reached, but later than the bound

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fairway/behaviour/testing/contract_trial.hpp"
+#include "tests/falsify/contract_proof.hpp"
 
 namespace fairway {
 namespace {
@@ -47,6 +48,44 @@ TEST(ContractAttack, ContradictsNothingWhereNothingIsClaimed) {
   const auto totals = attack("none", held.flow(), trial.contract, claims, options);
   EXPECT_EQ(totals.flights, 0U);
   EXPECT_EQ(totals.contradictions + totals.late, 0U);
+}
+
+TEST(ContractAttack, ContradictsAProofThatWasMadeForASteadierVehicle) {
+  // What a prover would claim that left out one of the errors.
+  const auto contradictions = [](const auto& steadier) {
+    std::uint64_t found = 0;
+    for (std::uint64_t seed = 203; seed < 206; ++seed) {
+      ContractTrial trial = contract_trial(seed);
+      const double r = trial.plan.vehicle.turn_radius_m;
+      trial.contract = VehicleContract::of(trial.plan.vehicle);
+      trial.contract.command_error_m = 0.25 * r;
+      trial.contract.heading_error_rad = 0.08;
+      trial.contract.turn_radius_m = {0.75 * r, 1.3 * r};
+      VehicleContract proved = trial.contract;
+      steadier(proved, r);
+      const PlanFlow held(trial.plan);
+      const ContractProof proof(held.flow(), proved, 2, 3, 1e9);
+      ContractAttackOptions options;
+      options.flights = 2000;
+      found += attack(
+                   "steadier", held.flow(), trial.contract,
+                   [&](const State& s) { return proof.claim(s); }, options)
+                   .contradictions;
+    }
+    return found;
+  };
+  EXPECT_GT(contradictions([](VehicleContract& c, double) { c.command_error_m = 0.0; }), 0U);
+  EXPECT_GT(contradictions([](VehicleContract& c, double) { c.heading_error_rad = 0.0; }), 0U);
+  EXPECT_GT(contradictions([](VehicleContract& c, double r) {
+              c.turn_radius_m = {r, 1.3 * r};
+            }),
+            0U);
+  EXPECT_GT(contradictions([](VehicleContract& c, double r) {
+              c.turn_radius_m = {0.75 * r, r};
+            }),
+            0U);
+  // And nothing contradicts the proof itself.
+  EXPECT_EQ(contradictions([](VehicleContract&, double) {}), 0U);
 }
 
 }  // namespace

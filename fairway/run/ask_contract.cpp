@@ -1,0 +1,64 @@
+#include "fairway/run/ask_contract.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fairway/base/parallel.hpp"
+#include "fairway/behaviour/behaviour_choices.hpp"
+#include "fairway/behaviour/failure_guide.hpp"
+#include "fairway/behaviour/find_witness.hpp"
+#include "fairway/behaviour/witness_csv.hpp"
+#include "fairway/inclusion/contract_lookup.hpp"
+#include "fairway/vehicle/filled_commands.hpp"
+
+namespace fairway {
+namespace {
+
+/// So far outside, numbers of parts no longer fit.
+bool is_far(const Grid& grid, Vec2 p) {
+  const double far = 1e6 * grid.cell_m;
+  return std::abs(p.x - grid.x0_m) > far || std::abs(p.y - grid.y0_m) > far;
+}
+
+}  // namespace
+
+std::vector<ContractReply> ask(const ContractCertificate& certificate,
+                               std::span<const State> states) {
+  const Parts parts = certificate.parts();
+  const Grid& grid = certificate.grid;
+  std::vector<ContractReply> replies(states.size());
+  for_ranges(states.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec2 p = states[i].position_m;
+      if (is_far(grid, p)) {
+        replies[i].verdict = Verdict::leave;
+        continue;
+      }
+      const Vec2 place{(p.x - grid.x0_m) / parts.part_m(), (p.y - grid.y0_m) / parts.part_m()};
+      const ContractAnswer answer =
+          contract_answer(parts, certificate.verdicts, certificate.least_speed_mps(), place,
+                          states[i].heading.rad());
+      replies[i].verdict = answer.verdict;
+      replies[i].time_bound_s = answer.worst_time_s;
+    }
+  });
+  const auto is_open = [](const ContractReply& r) { return r.verdict == Verdict::undecided; };
+  if (std::none_of(replies.begin(), replies.end(), is_open)) return replies;
+  const BehaviourChoices choices(certificate.flow(), certificate.contract);
+  const FailureGuide guide(choices);
+  for_ranges(states.size(), 4, [&](std::size_t begin, std::size_t end) {
+    WitnessSearch search(choices, guide);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (is_open(replies[i])) replies[i].witness = search.find(states[i]);
+    }
+  });
+  return replies;
+}
+
+std::string witness_csv(const ContractCertificate& certificate, const BehaviourFlight& witness) {
+  const std::vector<float> commands =
+      filled_commands(certificate.grid, certificate.heading_rad.data());
+  return witness_csv(certificate.flow(), commands, certificate.contract, witness);
+}
+
+}  // namespace fairway

@@ -1,0 +1,36 @@
+// Looks up states in a contract certificate.
+//
+// Where nothing is proved, a behaviour within the contract that fails is searched for: found, the
+// state is at risk, and the behaviour shows it. Answers do not depend on threads.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fairway/behaviour/behaviour_flight.hpp"
+#include "fairway/certificate/contract_certificate.hpp"
+#include "fairway/vehicle/vehicle.hpp"
+#include "fairway/verify/verdict.hpp"
+
+namespace fairway {
+
+struct ContractReply {
+  Verdict verdict = Verdict::undecided;
+  double time_bound_s = 0.0;               ///< of every behaviour; only with reach
+  std::optional<BehaviourFlight> witness;  ///< of an undecided state that is at risk
+
+  /// The verdict's name, or "at_risk".
+  const char* word() const { return witness ? "at_risk" : name_of(verdict); }
+};
+
+/// Reply [i] belongs to state [i].
+[[nodiscard]] std::vector<ContractReply> ask(const ContractCertificate& certificate,
+                                             std::span<const State> states);
+
+/// The flight as CSV (docs/formats.md, "Witness").
+[[nodiscard]] std::string witness_csv(const ContractCertificate& certificate,
+                                      const BehaviourFlight& witness);
+
+}  // namespace fairway
