@@ -66,6 +66,7 @@ class Contract(unittest.TestCase):
         self.contract(*NUMBERS, "-o", "c.toml")
         self.assertEqual((self.folder / "c.toml").read_text(), printed)
         self.contract(*NUMBERS, "-o", "c.toml", code=65)
+        self.assertEqual(self.contract(*NUMBERS, "--quiet").stdout, printed)
         self.write("log.csv", log_lines(1))
         self.contract("--log", "log.csv", "--contract", "c.toml", code=1)  # 50 m are not 20 m
         told = json.loads(self.contract(*NUMBERS, "--json").stdout)
@@ -96,6 +97,14 @@ class Contract(unittest.TestCase):
         self.assertTrue(17.0 < low < 20.0 < high < 23.0, text)
         told = self.contract("--log", "1.csv", "2.csv", "3.csv", "--contract", "c.toml").stdout
         self.assertIn("3 of 3 logs keep the contract.", told)
+
+    def test_the_tightest_contract_is_kept_by_its_own_log_as_the_file_says(self):
+        for seed in (7, 8):
+            self.write("log.csv", log_lines(seed))
+            self.contract("--log", "log.csv", "-o", "c.toml", "--force")
+            words = re.search(r"# fairway contract --log OTHER.csv --contract FILE.toml (.*)\n",
+                              (self.folder / "c.toml").read_text())[1].split()
+            self.contract("--log", "log.csv", "--contract", "c.toml", *words)
 
     def test_a_command_ignored_is_found_and_drawn(self):
         lines = log_lines(4)

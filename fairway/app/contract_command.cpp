@@ -44,8 +44,12 @@ int give(const ContractArguments& a, const ExplainedContract& explained, const S
   const std::string text = explained_contract_toml(explained);
   nlohmann::json report{{"contract", json_of(explained.contract)}};
   if (a.output.empty()) {
-    if (session.json) report["toml"] = text;
-    session.tell(report, text.substr(0, text.size() - 1));
+    report["toml"] = text;
+    if (session.json) {
+      session.tell(report, "");
+    } else {
+      print(text);  // with --quiet, too: it is the answer
+    }
     return exit_done;
   }
   write_whole(a.output, session.existing(), text);

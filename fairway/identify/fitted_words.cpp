@@ -64,7 +64,8 @@ ExplainedContract explained(const FittedContract& fit, std::span<const FlightLog
   e.about = {fmt::format("From {} flight log{}, at a tracking distance of {} m: add it to",
                          logs.size(), logs.size() == 1 ? "" : "s", length_text(fit.tracking_m)),
              "map.footprint_radius_m. Hold it against other flights of the same vehicle:",
-             "fairway contract --log OTHER.csv --contract FILE.toml",
+             fmt::format("fairway contract --log OTHER.csv --contract FILE.toml --tracking-m {}",
+                         length_text(fit.tracking_m)),
              fmt::format("Flown at full turn: a radius of {} m, the median.",
                          decimal_text(fit.turn_radius_m, 1))};
   e.command_error = fmt::format("{:.3g} m of way and distance; {}", tight.command_error_m,

@@ -10,6 +10,7 @@
 #include "fairway/base/parallel.hpp"
 #include "fairway/identify/fitted_contract.hpp"
 #include "fairway/identify/log_troubles.hpp"
+#include "fairway/identify/nearest_motion.hpp"
 #include "fairway/report/draw_log.hpp"
 
 namespace fairway {
@@ -71,6 +72,23 @@ VehicleContract seen_over_ground(const VehicleContract& contract) {
   return seen;
 }
 
+/// The fit in words, widened by a little more where its search, which drops motions, loses its way
+/// in the rounded numbers.
+ExplainedContract kept_by_all(const FittedContract& fit, const std::vector<FlightLog>& logs,
+                              const std::vector<FlownTrack>& tracks, const FitMargins& margins,
+                              SideRule sides) {
+  ExplainedContract words;
+  for (const double more : {0.0, 0.01, 0.02, 0.05, 0.1}) {
+    words = explained(fit, logs, {margins.share + more, margins.position_error_m});
+    const bool kept = std::all_of(tracks.begin(), tracks.end(), [&](const FlownTrack& track) {
+      return nearest_motion(track, words.contract, {.limit_m = fit.tracking_m, .sides = sides})
+          .stays;
+    });
+    if (kept) break;
+  }
+  return words;
+}
+
 }  // namespace
 
 ExplainedContract contract_of_logs(const std::vector<FlightLog>& logs,
@@ -85,7 +103,7 @@ ExplainedContract contract_of_logs(const std::vector<FlightLog>& logs,
   const FitOptions options{tracking_m.value_or(usual_tracking_radii * radius_m), radius_m, sides};
   Decider broken;
   const auto fit = fitted_contract(tracks, options, broken);
-  if (fit) return explained(*fit, logs, margins);
+  if (fit) return kept_by_all(*fit, logs, tracks, margins, sides);
   const LogSample& at = logs[broken.log].samples[broken.sample];
   throw InputError(
       fmt::format("{}:{}", logs[broken.log].name, at.line),
