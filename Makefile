@@ -2,6 +2,8 @@
 
 export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
 JOBS ?= $(shell nproc)
+# More options of cmake for `make test`.
+CONFIGURE ?=
 # What users run; tests and benchmarks are built on request.
 PROGRAMS = fairway_command fairway_check
 
@@ -31,7 +33,7 @@ demo: build
 	build/release/bin/fairway run demo/demo.toml -o out/demo --force
 
 test: setup
-	cmake --preset release
+	cmake --preset release $(CONFIGURE)
 	cmake --build --preset release --parallel $(JOBS)
 	ctest --preset release --parallel $(JOBS)
 

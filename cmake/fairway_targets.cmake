@@ -37,6 +37,13 @@ function(fairway_sources target)
     PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
 endfunction()
 
+# fairway_compiled_alone(TARGET a.cpp ...): sources, relative to the folder, that a unity build
+# (CMAKE_UNITY_BUILD, as in .ci/run) leaves out, for they name things as other files do.
+function(fairway_compiled_alone target)
+  list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # fairway_headers_behind(RESULT HEADER): HEADER and every header of the project that it includes,
 # directly or not, as absolute paths. Reconfigures when one of them changes.
 function(fairway_headers_behind result header)
@@ -66,6 +73,7 @@ function(fairway_tests name)
   find_package(rapidcheck REQUIRED)
   add_executable(${name} ${ARG_SOURCES})
   fairway_defaults(${name})
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)  # tests often name their samples alike
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest_main GTest::gmock rapidcheck)
   target_compile_definitions(${name} PRIVATE

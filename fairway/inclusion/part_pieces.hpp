@@ -22,7 +22,8 @@ inline Box grown_box(PartPlace p, double by = place_slack) {
 
 /// Calls body(part, kind, piece) for parts that together hold the set. A part over which behaviours
 /// fly is left out when the set only touches it, and lies within the slack of others there: a set
-/// that came out of a part must not count as being in it.
+/// that came out of a part must not count as being in it. Not so beside an obstacle: who passes so
+/// near its corner may have passed it.
 template <typename Body>
 void for_parts(const Parts& parts, const ConvexSet& set, const Body& body) {
   const auto [lowest, highest] = set.box();
@@ -42,11 +43,18 @@ void for_parts(const Parts& parts, const ConvexSet& set, const Body& body) {
                     most;  // then none is left out
   std::array<PartPlace, most> chosen;
   std::array<PartPlace, most> touched;
+  std::array<PartPlace, most> ends;
+  std::size_t ends_count = 0;
   std::size_t chosen_count = 0;
   std::size_t touched_count = 0;
   const auto choose = [&](PartPlace p, PartKind kind, const ConvexSet& grown) {
     body(p, kind, grown);
-    if (!many && is_flown_over(kind)) chosen[chosen_count++] = p;
+    if (many) return;
+    if (is_flown_over(kind)) {
+      chosen[chosen_count++] = p;
+    } else {
+      ends[ends_count++] = p;
+    }
   };
   for (int iy = y0; iy <= y1; ++iy) {
     for (int ix = x0; ix <= x1; ++ix) {
@@ -70,9 +78,11 @@ void for_parts(const Parts& parts, const ConvexSet& set, const Body& body) {
                c.y >= q.iy - place_slack && c.y <= q.iy + 1 + place_slack;
       });
     };
-    if (!sliver.empty() &&
-        std::none_of(chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(chosen_count),
-                     holds_it)) {
+    const auto is_held = [&](const std::array<PartPlace, most>& parts_there, std::size_t count) {
+      return std::any_of(parts_there.begin(),
+                         parts_there.begin() + static_cast<std::ptrdiff_t>(count), holds_it);
+    };
+    if (!sliver.empty() && (is_held(ends, ends_count) || !is_held(chosen, chosen_count))) {
       choose(p, parts.kind(p), piece(p, place_slack));
     }
   }
