@@ -55,12 +55,18 @@ CellKind BehaviourChoices::met(Vec2 from, Vec2 to) const {
       }
     }
   }
-  const CellKind kind = flow_.kind_at(at);
-  if (kind != CellKind::obstacle && kind != CellKind::outside) return CellKind::ordinary;
-  const CellRange cells = cells_around(g, to, to, margin_m_);
-  if (kind == CellKind::obstacle) return cells.is_one() ? kind : CellKind::ordinary;
-  const bool surely = cells.x1 < 0 || cells.y1 < 0 || cells.x0 >= g.nx || cells.y0 >= g.ny;
-  return surely ? kind : CellKind::ordinary;
+  const CellKind kind = surely_in(to);
+  return kind == CellKind::target ? CellKind::ordinary : kind;
+}
+
+CellKind BehaviourChoices::surely_in(Vec2 place) const {
+  const Grid& g = flow_.grid;
+  const CellRange cells = cells_around(g, place, place, margin_m_);
+  if (cells.x1 < 0 || cells.y1 < 0 || cells.x0 >= g.nx || cells.y0 >= g.ny) {
+    return CellKind::outside;
+  }
+  const CellKind kind = flow_.kind_at({cells.x0, cells.y0});
+  return cells.is_one() && kind != CellKind::outside ? kind : CellKind::ordinary;
 }
 
 }  // namespace fairway

@@ -51,6 +51,9 @@ class BehaviourChoices {
   /// that its end lies in by a margin, else ordinary.
   CellKind met(Vec2 from, Vec2 to) const;
 
+  /// The kind of the cell that a place lies in by a margin; ordinary when there is none.
+  CellKind surely_in(Vec2 place) const;
+
   const Flow& flow() const { return flow_; }
   const VehicleContract& contract() const { return contract_; }
   const std::vector<float>& commands() const { return commands_; }  ///< filled_commands

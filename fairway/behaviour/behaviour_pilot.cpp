@@ -86,6 +86,25 @@ int BehaviourPilot::pick(const Mood& mood, const BehaviourChoiceList& list, Rand
   return best;
 }
 
+/// A few steps more, from where a goal cell may have been touched to where it surely is entered: so
+/// that the flight proves that it was. Returns their length.
+double BehaviourPilot::enter_goal(BehaviourState state, std::vector<BehaviourStep>& steps) const {
+  BehaviourChoiceList list;
+  double length_m = 0.0;
+  for (int more = 0; more < 4; ++more) {
+    if (choices_.surely_in(state.place) == CellKind::target) break;
+    choices_.list(state, list);
+    int best = 0;
+    for (int i = 1; i < list.size(); ++i) {
+      if (choices_.surely_in(list[i].end.place) == CellKind::target) best = i;
+    }
+    steps.push_back(list[best].step);
+    length_m += length_of(list[best].step, state.heading_rad);
+    state = list[best].end;
+  }
+  return length_m;
+}
+
 BehaviourRun BehaviourPilot::fly(const State& start, Adversary adversary, std::uint64_t seed,
                                  double limit_m, std::vector<BehaviourStep>* steps) const {
   const Flow& flow = choices_.flow();
@@ -119,7 +138,11 @@ BehaviourRun BehaviourPilot::fly(const State& start, Adversary adversary, std::u
     if (steps != nullptr) steps->push_back(choice.step);
     const Vec2 from = state.place;
     state = choice.end;
-    if (ended(choices_.met(from, state.place))) return run;
+    if (!ended(choices_.met(from, state.place))) continue;
+    if (run.outcome == Outcome::reach && steps != nullptr) {
+      run.length_m += enter_goal(state, *steps);
+    }
+    return run;
   }
   run.outcome = Outcome::trapped;
   return run;

@@ -48,6 +48,7 @@ class BehaviourPilot {
 
  private:
   struct Mood;
+  double enter_goal(BehaviourState state, std::vector<BehaviourStep>& steps) const;
   void renew(Mood& mood, const BehaviourState& state, Random& random) const;
   int pick(const Mood& mood, const BehaviourChoiceList& list, Random& random) const;
 
