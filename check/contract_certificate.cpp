@@ -13,9 +13,11 @@ namespace {
 
 constexpr const char* contract_format = "fairway-contract-certificate";
 
-/// A part this close to half a turn may be called wild, although its arc is narrower by the slack
-/// that the certificate's author allows for.
-constexpr double almost_wild = std::numbers::pi - 1e-3;
+/// An arc that nearly is too wide to hold its headings may have been called wild, by the slack that
+/// the certificate's author allows for: its part may have no leaves, which claims nothing.
+double almost_wild(const Contract& contract) {
+  return std::min(std::numbers::pi - contract.side_uncertain, 2.0 * contract.hold_side) - 0.02;
+}
 
 void take_arrays(const TensorFile& file, ContractCertificate& c) {
   require(file.tensors.size() == 10, "does not have the arrays of a contract certificate",
@@ -58,8 +60,9 @@ void require_leaves(ContractCertificate& c) {
     Arc& arc = c.parts.arc[part];
     const bool is_ordinary = c.parts.kind[part] == ordinary && arc.width < std::numbers::pi;
     const bool has_leaves = c.first[4 * part] < c.first[4 * part + 1];
-    if (is_ordinary && !has_leaves && arc.width > almost_wild) arc = {};
-    const bool expected = is_ordinary && arc.width < std::numbers::pi;
+    const bool is_wild = is_ordinary && !has_leaves && arc.width > almost_wild(c.contract);
+    if (is_wild) arc = {};
+    const bool expected = is_ordinary && !is_wild;
     for (std::size_t s = 4 * part; s < 4 * part + 4; ++s) {
       require((c.first[s] < c.first[s + 1]) == expected,
               "a section has leaves where it cannot have any, or none where it must");
