@@ -7,13 +7,14 @@ CONFIGURE ?=
 # What users run; tests and benchmarks are built on request.
 PROGRAMS = fairway_command fairway_check
 
-.PHONY: help setup build demo test bench reproduce install package try-package site clean
+.PHONY: help setup build demo test bench tidy reproduce install package try-package site clean
 
 help:
 	@echo "make demo       build, run the demonstration, print where the results are"
 	@echo "make test       build and run every test"
 	@echo "make build      build/release/bin/fairway"
 	@echo "make bench      build and print the benchmark table"
+	@echo "make tidy       clang-tidy on every file (half an hour)"
 	@echo "make reproduce  redraw the papers' figures on the project's own maps"
 	@echo "make install    install to PREFIX (default /usr/local)"
 	@echo "make package    Debian packages, in build/package/packages"
@@ -42,6 +43,13 @@ bench: setup
 	cmake --preset bench
 	cmake --build --preset bench --parallel $(JOBS)
 	cmake --build --preset bench --target run_bench
+
+tidy: setup
+	@tools/setup.sh tools/packages-ci.apt
+	cmake --preset release -B build/separate -DFAIRWAY_WEB=OFF
+	git ls-files 'fairway/*.cpp' 'check/*.cpp' | grep -v '_test\.cpp$$' | \
+	  xargs -P $(JOBS) -n 4 clang-tidy-14 -p build/separate --quiet --extra-arg=-Wno-unknown-warning-option \
+	  --extra-arg=-Wno-ignored-attributes --extra-arg=-Wno-bitwise-instead-of-logical
 
 reproduce: PROGRAMS += fairway_reproduce
 reproduce: build

@@ -125,9 +125,10 @@ int query_contract(const QueryArguments& a, const Session& session) {
   tell(a, "certificate", frame, states, answers, session);
   if (a.witness.empty()) return exit_done;
   if (!replies.front().witness) {
-    session.warn(fmt::format("no witness was written: the verdict is {}, and no behaviour that "
-                             "fails is known",
-                             replies.front().word()));
+    session.warn(
+        fmt::format("no witness was written: the verdict is {}, and no behaviour that "
+                    "fails is known",
+                    replies.front().word()));
     return exit_no;
   }
   write_whole(a.witness, session.existing(), witness_csv(certificate, *replies.front().witness));
@@ -172,7 +173,9 @@ int query_command(const QueryArguments& a, const Session& session) {
 Action declare_query(CLI::App& options) {
   auto arguments = std::make_shared<QueryArguments>();
   QueryArguments& a = *arguments;
-  options.add_option("certificate", a.certificate, "the certificate, of the exact vehicle or under a contract, or a bitmap")
+  options
+      .add_option("certificate", a.certificate,
+                  "the certificate, of the exact vehicle or under a contract, or a bitmap")
       ->required()
       ->type_name("CERT|BITMAP");
   declare_states(options, a.asked, "state");

@@ -216,7 +216,8 @@ Action declare_verify(CLI::App& options) {
   options
       .add_option(
           "--method", a.method,
-          "certified: a proof for the exact vehicle, with a certificate; contract: a proof for every "
+          "certified: a proof for the exact vehicle, with a certificate; contract: a proof for "
+          "every "
           "vehicle that keeps a contract (the default where there is one); bitmap: paper 2's "
           "backward reachable set on samples of the borders, a picture that can be queried, not a "
           "proof")

@@ -199,7 +199,8 @@ class Decider {
       }
     }
     const double off = 0.5 * p.headings.width_rad + 1e-3;  // who checks may find more
-    return static_cast<float>((p.flown + generous * (hi - lo + 0.1) / std::cos(off)) * (1.0 + 1e-6));
+    return static_cast<float>((p.flown + generous * (hi - lo + 0.1) / std::cos(off)) *
+                              (1.0 + 1e-6));
   }
 
   void tell_trouble(std::span<const Id> members, const Prospect& all, bool one) {

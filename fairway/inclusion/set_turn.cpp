@@ -86,9 +86,10 @@ void SetFlight::turn(const TurningSet& set) {
   const auto still_to = [&](double heading) { return sign * (last - heading); };
   ConvexSet here = from.set;
   Past past = from.past;
-  past.flown += parts_.turn_radius().most * options_.step_rad;  // who checks may begin a step sooner
-  bool forgot = false;         // some may hold no side any more
-  std::vector<Gathered> back;  // what turns back
+  past.flown +=
+      parts_.turn_radius().most * options_.step_rad;  // who checks may begin a step sooner
+  bool forgot = false;                                // some may hold no side any more
+  std::vector<Gathered> back;                         // what turns back
   while (!image_.gave_up) {
     if (++steps_ > options_.most_steps || sign * (at - from.lo_rad) > 3.0 * whole_turn_rad) {
       image_.gave_up = true;
