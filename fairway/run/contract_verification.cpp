@@ -15,6 +15,7 @@
 #include "fairway/behaviour/find_witness.hpp"
 #include "fairway/plan/plan_digests.hpp"
 #include "fairway/run/contract_file.hpp"
+#include "fairway/run/contract_warning.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/run/verification_summary.hpp"
 #include "fairway/run/version.hpp"
@@ -52,16 +53,15 @@ json evidence_of(const ContractVerifyOptions& options, const ContractVerificatio
           {"options",
            {{"time_limit_s",
              options.limits.time_limit_s > 0.0 ? json(options.limits.time_limit_s) : json()},
-            {"memory_limit_mb", options.limits.memory_limit_mb
-                                    ? json(*options.limits.memory_limit_mb)
-                                    : json()},
+            {"memory_limit_mb",
+             options.limits.memory_limit_mb ? json(*options.limits.memory_limit_mb) : json()},
             {"samples", options.samples},
             {"seed", options.seed}}},
           {"volume_fraction", shares_json(s.all)},
           {"volume_fraction_free", shares_json(s.free)},
           {"volume_fraction_buffer", shares_json(s.buffer)},
-          {"at_risk", s.at_risk},
-          {"at_risk_free", s.at_risk_free},
+          {"at_risk", made.searched ? json(s.at_risk) : json()},
+          {"at_risk_free", made.searched ? json(s.at_risk_free) : json()},
           {"samples", s.samples},
           {"worst_time_s", s.worst_time_s},
           {"chokes", chokes_json(made)},
@@ -77,8 +77,7 @@ struct WitnessTools {
   FailureGuide guide;
 };
 
-std::function<IsAtRisk()> searches(const std::shared_ptr<WitnessTools>& tools,
-                                   std::uint64_t seed) {
+std::function<IsAtRisk()> searches(const std::shared_ptr<WitnessTools>& tools, std::uint64_t seed) {
   return [tools, seed]() -> IsAtRisk {
     const auto search = std::make_shared<WitnessSearch>(tools->choices, tools->guide);
     return [tools, search, seed](const State& state) {
@@ -129,9 +128,8 @@ ContractVerification verify_contract(
   c.grid = plan.grid;
   c.vehicle = plan.vehicle;
   c.contract = contract;
-  c.parts_per_cell = options.parts_per_cell > 0
-                         ? options.parts_per_cell
-                         : usual_parts_per_cell(contract, plan.grid.cell_m);
+  c.parts_per_cell = options.parts_per_cell > 0 ? options.parts_per_cell
+                                                : usual_parts_per_cell(contract, plan.grid.cell_m);
   c.region_of_interest = region;
   c.heading_rad = plan.heading_rad;
   c.region = plan.region;
@@ -159,8 +157,9 @@ ContractVerification verify_contract(
   progress("measuring shares of states");
   std::vector<bool> is_free(plan.grid.size());
   for (std::size_t i = 0; i < is_free.size(); ++i) is_free[i] = plan.region[i] == Region::free;
-  const auto tools =
-      options.find_witnesses ? std::make_shared<WitnessTools>(flow, contract) : nullptr;
+  // Where most states are undecided, a search in each takes too long.
+  made.searched = options.find_witnesses && wild_share(plan, contract) <= most_wild_unwarned;
+  const auto tools = made.searched ? std::make_shared<WitnessTools>(flow, contract) : nullptr;
   SurveyOptions sampled;
   sampled.samples = options.samples;
   sampled.seed = options.seed;
@@ -182,13 +181,12 @@ json contract_verification_json(const ContractVerification& made) {
 std::vector<Finding> findings(const Plan& plan, const ContractVerification& made) {
   const ContractShares& s = made.survey.shares;
   const int decimals = decimals_of_sample(s.samples);
-  const bool is_goal =
-      made.certificate.region_of_interest.kind == RegionOfInterest::Kind::goal;
+  const bool is_goal = made.certificate.region_of_interest.kind == RegionOfInterest::Kind::goal;
   const std::string goal = is_goal ? goal_word(plan) : "region";
   constexpr const char* all = "all states";
-  std::vector<Finding> found{{percent_text(share_of(s.all, Verdict::reach), decimals), all,
-                              "are proved to reach the " + goal +
-                                  " whatever the vehicle does within its contract"}};
+  std::vector<Finding> found{
+      {percent_text(share_of(s.all, Verdict::reach), decimals), all,
+       "are proved to reach the " + goal + " whatever the vehicle does within its contract"}};
   if (is_goal) {
     for (Finding& finding : plan_findings(plan)) found.push_back(std::move(finding));
   }
@@ -215,8 +213,8 @@ std::string contract_notes(const ContractVerification& made) {
       "change.",
       contract_words(made.certificate.contract), grouped(s.samples));
   if (s.worst_time_s > 0.0) {
-    words += fmt::format("\nNo sampled state that reaches takes longer than {:.1f} s.",
-                         s.worst_time_s);
+    words +=
+        fmt::format("\nNo sampled state that reaches takes longer than {:.1f} s.", s.worst_time_s);
   }
   const std::size_t shown = std::min<std::size_t>(made.survey.chokes.size(), 5);
   for (std::size_t i = 0; i < shown; ++i) {
