@@ -93,8 +93,8 @@ void write_flights(const ScenarioFlights& flown, const Plan& plan, const std::st
 /// report.html; where this build has none, a warning says why.
 void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights& flown,
                 const Verified& verified, const std::optional<ProvedUnderContract>& under_contract,
-                const ExactFlights& flights, const std::string& title, const fs::path& place,
-                RunResult& result) {
+                const VerdictMap* contract_map, const ExactFlights& flights,
+                const std::string& title, const fs::path& place, RunResult& result) {
   constexpr std::size_t failing_of_each = 4;
   const auto* proved = std::get_if<Proved>(&verified);
   ReportPage page{title,
@@ -103,7 +103,8 @@ void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights&
                   result.summary,
                   proved != nullptr ? &proved->verification.certificate : nullptr,
                   proved != nullptr ? failing_flights(flights, proved->failing, failing_of_each)
-                                    : std::vector<FailingFlights>{}};
+                                    : std::vector<FailingFlights>{},
+                  contract_map};
   if (under_contract) page.words.push_back(words_of(plan, *under_contract));
   const std::string absent = write_report_page(plan, mission, flown, page, place);
   if (!absent.empty()) result.warnings.push_back(absent);
@@ -187,7 +188,8 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   add_flights(result.summary, flown, scenario.simulate.seed);
   result.summary["verify"] = json_of(verified);
   result.summary["products"] = product_digests(place);
-  write_page(plan, mission, flown, verified, under_contract, flights, title, place, result);
+  write_page(plan, mission, flown, verified, under_contract,
+             contract_map ? &*contract_map : nullptr, flights, title, place, result);
   clock.end();
   result.summary["products"] = product_digests(place);
   add_cost(result.summary, clock);
