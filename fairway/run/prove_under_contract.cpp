@@ -79,8 +79,9 @@ std::vector<Finding> findings(const Plan& plan, const ProvedUnderContract& prove
   for (const Verdict verdict : verdicts_in_order) {
     if (fails(verdict)) failing += share_of(s.all, verdict);
   }
-  if (failing > 0.0) add(failing, "are proved to fail, whatever it does within it");
-  if (s.at_risk > 0.0) add(s.at_risk, "are at risk: something it may do within it fails");
+  if (failing > 0.0)
+    add(failing, "are proved to fail, whatever the vehicle does within its contract");
+  if (s.at_risk > 0.0) add(s.at_risk, "are at risk: a behaviour within the contract fails");
   const double undecided = std::max(0.0, share_of(s.all, Verdict::undecided) - s.at_risk);
   if (undecided > 0.0) add(undecided, "are undecided under the contract");
   return found;
