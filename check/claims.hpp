@@ -24,8 +24,10 @@ using TellState = std::function<Told(std::size_t cell, double x, double y, doubl
 /// the one measured with `samples` states, and no more states reach later than chance allows. The
 /// findings go into `report`. Throws Defect 1, or nlohmann::json::exception, for impossible
 /// claims.
+/// `may_prove_more`: claims of less than is measured here are no defect.
 std::string defect_of_claims(const nlohmann::json& record, const Loop& loop,
                              const std::vector<std::int8_t>& region, std::size_t samples,
-                             const TellState& tell, nlohmann::ordered_json& report);
+                             bool may_prove_more, const TellState& tell,
+                             nlohmann::ordered_json& report);
 
 }  // namespace fairway_check

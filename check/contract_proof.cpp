@@ -240,7 +240,7 @@ std::string judge_contract(const std::string& path, const std::string& plan, std
   if (!late.empty()) return late;
   if (!c.record.contains("volume_fraction")) return "";
   return defect_of_claims(
-      c.record, c.loop, c.region, samples,
+      c.record, c.loop, c.region, samples, true,
       [&c](std::size_t cell, double x, double y, double heading_rad) {
         return told_of_state(c, cell, x, y, heading_rad);
       },

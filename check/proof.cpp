@@ -141,7 +141,7 @@ std::string judge(const std::string& path, const std::string& plan, std::size_t 
                        verdict_name[c.verdict[first]], defect_of_leaf(c, section, first));
   }
   return defect_of_claims(
-      c.record, c.loop, c.region, samples,
+      c.record, c.loop, c.region, samples, false,
       [&c](std::size_t cell, double x, double y, double heading_rad) {
         return told_of_state(c, cell, x, y, heading_rad);
       },

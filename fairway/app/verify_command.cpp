@@ -20,6 +20,7 @@
 #include "fairway/run/bitmap_verification.hpp"
 #include "fairway/run/contract_file.hpp"
 #include "fairway/run/contract_verification.hpp"
+#include "fairway/run/contract_warning.hpp"
 #include "fairway/run/failing_flights.hpp"
 #include "fairway/run/failing_states.hpp"
 #include "fairway/run/findings.hpp"
@@ -131,13 +132,14 @@ int verify_command(const VerifyArguments& a, const Session& session) {
     }
     const ContractVerification made =
         verify_contract(plan, a.plan.string(), region, *contract, contract_options(a),
-                        [&](const std::string& doing) { clock.begin(doing, unknown_time); });
+                        begin_verifying_contract(clock, a.limits));
     clock.begin("writing the certificate", unknown_time);
     write_contract_certificate(made.certificate, a.output, session.existing());
     clock.end();
     summary = contract_verification_json(made);
     found = findings(plan, made);
     notes = contract_notes(made) + "\n";
+    if (auto warning = contract_warning(plan, *contract)) warnings.push_back(std::move(*warning));
   } else if (a.method == "bitmap") {
     clock.begin("verifying", unknown_time);
     const BitmapVerification made =

@@ -124,26 +124,31 @@ json record_of(const PageContent& content) {
     if (group.flights.size() > group.most)
       left_out[group.group] = group.flights.size() - group.most;
   }
-  return {{"format_version", 2},
-          {"title", content.title},
-          {"grid",
-           {{"nx", g.nx}, {"ny", g.ny}, {"x0_m", g.x0_m}, {"y0_m", g.y0_m}, {"cell_m", g.cell_m}}},
-          {"values",
-           {{"nx", values.nx}, {"ny", values.ny}, {"cells_per_value", values.cells_per_value}}},
-          {"frame", page_frame_json(g, frame_in(content.plan.record), content.lon_lat)},
-          {"vehicle", json_of(content.plan.vehicle)},
-          {"mission", json_of(content.mission)},
-          {"cost_step_m", page_cost_step_m(content.plan)},
-          {"styles", styles_json()},
-          {"codes", codes_json()},
-          {"verdicts", content.verdicts != nullptr && content.verdicts->samples() > 0
-                           ? json::parse(page_verdicts_json(*content.verdicts))
-                           : json()},
-          {"flights", flights_json(content.flights)},
-          {"flights_left_out", std::move(left_out)},
-          {"words", content.words},
-          {"assumptions", content.assumptions},
-          {"summary", json::parse(content.summary_json)}};
+  json record = {
+      {"format_version", 2},
+      {"title", content.title},
+      {"grid",
+       {{"nx", g.nx}, {"ny", g.ny}, {"x0_m", g.x0_m}, {"y0_m", g.y0_m}, {"cell_m", g.cell_m}}},
+      {"values",
+       {{"nx", values.nx}, {"ny", values.ny}, {"cells_per_value", values.cells_per_value}}},
+      {"frame", page_frame_json(g, frame_in(content.plan.record), content.lon_lat)},
+      {"vehicle", json_of(content.plan.vehicle)},
+      {"mission", json_of(content.mission)},
+      {"cost_step_m", page_cost_step_m(content.plan)},
+      {"styles", styles_json()},
+      {"codes", codes_json()},
+      {"verdicts", content.verdicts != nullptr && content.verdicts->samples() > 0
+                       ? json::parse(page_verdicts_json(*content.verdicts))
+                       : json()},
+      {"flights", flights_json(content.flights)},
+      {"flights_left_out", std::move(left_out)},
+      {"words", content.words},
+      {"assumptions", content.assumptions},
+      {"summary", json::parse(content.summary_json)}};
+  if (content.contract_verdicts != nullptr) {
+    record["contract_verdicts"] = json::parse(page_verdicts_json(*content.contract_verdicts));
+  }
+  return record;
 }
 
 /// JSON that is safe in a script element.
@@ -199,6 +204,9 @@ std::string page_html(const PageContent& content, std::string_view html) {
   PagePayload payload;
   add_plan_arrays(content.plan, payload);
   if (content.verdicts != nullptr) add_verdict_arrays(*content.verdicts, payload);
+  if (content.contract_verdicts != nullptr) {
+    add_verdict_arrays(*content.contract_verdicts, payload, "contract_verdict");
+  }
   add_flight_arrays(content, payload);
   const std::array<std::pair<std::string_view, std::string>, 3> marks{
       {{"@FAIRWAY_TITLE@", escaped_html(content.title)},

@@ -42,6 +42,7 @@ struct PageContent {
   std::string summary_json = "{}";            ///< an object: findings and warnings head the page
   std::vector<std::string> assumptions = {};  ///< what a proof rests on
   LonLatOf lon_lat = {};                      ///< none: the map is not georeferenced
+  const VerdictMap* contract_verdicts = nullptr;  ///< besides `verdicts`, under a contract; or none
 };
 
 /// Throws PreconditionViolation when there is no template (page_template.hpp) or arrays do not fit.

@@ -164,7 +164,7 @@ void add_plan_arrays(const Plan& plan, PagePayload& payload) {
   add_contours(plan, payload);
 }
 
-void add_verdict_arrays(const VerdictMap& map, PagePayload& payload) {
+void add_verdict_arrays(const VerdictMap& map, PagePayload& payload, const std::string& name) {
   std::vector<std::uint8_t> code(map.heading_rad.size() * map.samples());
   require(map.kind.size() == map.samples() && map.verdict.size() == code.size(),
           "a verdict map's arrays fit its samples and headings");
@@ -177,7 +177,7 @@ void add_verdict_arrays(const VerdictMap& map, PagePayload& payload) {
     }
   }
   payload.add_layers(
-      "verdict",
+      name,
       {map.heading_rad.size(), static_cast<std::size_t>(map.ny), static_cast<std::size_t>(map.nx)},
       code);
   // For each sample, the number of headings with each verdict; a byte holds up to 255 headings.
@@ -189,7 +189,7 @@ void add_verdict_arrays(const VerdictMap& map, PagePayload& payload) {
       ++count[static_cast<std::size_t>(map.verdict_at(h, i)) * map.samples() + i];
     }
   }
-  payload.add("verdict_count",
+  payload.add(name + "_count",
               {verdict_count, static_cast<std::size_t>(map.ny), static_cast<std::size_t>(map.nx)},
               std::span<const std::uint8_t>(count));
 }

@@ -29,8 +29,9 @@ inline constexpr std::uint8_t page_obstacle = 250;
 inline constexpr std::uint8_t page_target = 249;
 static_assert(verdict_count <= page_target);
 
-/// `verdict` [headings][ny][nx]: a code of Verdict, page_obstacle or page_target.
-void add_verdict_arrays(const VerdictMap& map, PagePayload& payload);
+/// NAME [headings][ny][nx]: a code of Verdict, page_obstacle or page_target; and NAME_count.
+void add_verdict_arrays(const VerdictMap& map, PagePayload& payload,
+                        const std::string& name = "verdict");
 
 /// `piece_*` of all flights shown, one flight after the other, each followed by its final leg.
 void add_flight_arrays(const PageContent& content, PagePayload& payload);

@@ -258,6 +258,43 @@ TEST(Page, EveryVerdictLayerIsThatOfTheMap) {
   EXPECT_NEAR(info["offset_m"][1].get<double>(), place.y - middle.y, 1e-9);
 }
 
+TEST(Page, VerdictsUnderAContractAreASecondLayerAndWithoutThemNothingChanges) {
+  const Plan plan = island_plan({14, 12, -3.0, 5.0, 6.0}, {60.0, 40.0}, {4, 6});
+  const VerdictMap map = verdicts_of(plan);
+  VerdictMap under = VerdictMap::over(plan.grid, 2, 5);
+  under.kind.assign(under.samples(), CellKind::ordinary);
+  for (std::size_t i = 0; i < under.verdict.size(); ++i) {
+    under.verdict[i] = static_cast<Verdict>(i % verdict_count);
+  }
+  const auto page_with = [&](const VerdictMap* contract_verdicts) {
+    PageContent content{"t", plan, goal, {}, &map};
+    content.contract_verdicts = contract_verdicts;
+    return page_html(content, bare);
+  };
+  const std::string without = page_with(nullptr);
+  EXPECT_EQ(without, page_html({"t", plan, goal, {}, &map}, bare));
+  EXPECT_FALSE(record_of(without).contains("contract_verdicts"));
+
+  const std::string page = page_with(&under);
+  json record = record_of(page);
+  EXPECT_EQ(record["contract_verdicts"]["nx"], under.nx);
+  EXPECT_EQ(record["contract_verdicts"]["heading_rad"], json(under.heading_rad));
+  record.erase("contract_verdicts");
+  EXPECT_EQ(record, record_of(without));
+  const Decoded arrays = arrays_of(page);
+  for (std::size_t h = 0; h < 2; ++h) {
+    const auto layer = arrays.array<std::uint8_t>("contract_verdict", h);
+    ASSERT_EQ(layer.size(), under.samples());
+    for (std::size_t i = 0; i < layer.size(); ++i) {
+      EXPECT_EQ(layer[i], static_cast<int>(under.verdict_at(h, i)));
+    }
+  }
+  EXPECT_EQ(arrays.array<std::uint8_t>("contract_verdict_count").size(),
+            verdict_count * under.samples());
+  EXPECT_EQ(arrays.array<std::uint8_t>("verdict", 1),
+            arrays_of(without).array<std::uint8_t>("verdict", 1));
+}
+
 TEST(Page, TheRecordListsEveryVerdictAndOutcomeOnce) {
   const Plan plan = island_plan({14, 12, -3.0, 5.0, 6.0}, {60.0, 40.0}, {4, 6});
   const json record = record_of(page_html({"t", plan, goal, {}}, bare));

@@ -15,6 +15,7 @@
 #include "fairway/behaviour/find_witness.hpp"
 #include "fairway/plan/plan_digests.hpp"
 #include "fairway/run/contract_file.hpp"
+#include "fairway/run/contract_warning.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/run/verification_summary.hpp"
 #include "fairway/run/version.hpp"
@@ -59,8 +60,8 @@ json evidence_of(const ContractVerifyOptions& options, const ContractVerificatio
           {"volume_fraction", shares_json(s.all)},
           {"volume_fraction_free", shares_json(s.free)},
           {"volume_fraction_buffer", shares_json(s.buffer)},
-          {"at_risk", s.at_risk},
-          {"at_risk_free", s.at_risk_free},
+          {"at_risk", made.searched ? json(s.at_risk) : json()},
+          {"at_risk_free", made.searched ? json(s.at_risk_free) : json()},
           {"samples", s.samples},
           {"worst_time_s", s.worst_time_s},
           {"chokes", chokes_json(made)},
@@ -156,8 +157,9 @@ ContractVerification verify_contract(
   progress("measuring shares of states");
   std::vector<bool> is_free(plan.grid.size());
   for (std::size_t i = 0; i < is_free.size(); ++i) is_free[i] = plan.region[i] == Region::free;
-  const auto tools =
-      options.find_witnesses ? std::make_shared<WitnessTools>(flow, contract) : nullptr;
+  // Where most states are undecided, a search in each takes too long.
+  made.searched = options.find_witnesses && wild_share(plan, contract) <= most_wild_unwarned;
+  const auto tools = made.searched ? std::make_shared<WitnessTools>(flow, contract) : nullptr;
   SurveyOptions sampled;
   sampled.samples = options.samples;
   sampled.seed = options.seed;

@@ -32,6 +32,7 @@ struct ContractVerification {
   ContractSurvey survey;
   std::vector<InclusionLevel> levels;
   bool stopped_by_limit = false;
+  bool searched = false;  ///< for behaviours that fail; else nothing is known to be at risk
 };
 
 /// Proves what all behaviours within `contract` do under `plan`. Throws InputError{where, ...} when

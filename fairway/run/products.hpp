@@ -12,6 +12,7 @@ inline constexpr const char* flights_csv = "flights.csv";
 inline constexpr const char* flights_geojson = "flights.geojson";
 inline constexpr const char* outcomes = "outcomes.csv";
 inline constexpr const char* certificate = "certificate.safetensors";
+inline constexpr const char* contract_certificate = "contract.certificate.safetensors";
 inline constexpr const char* bitmap = "bitmap.safetensors";
 inline constexpr const char* failures = "failures.csv";
 inline constexpr const char* report_page = "report.html";

@@ -13,6 +13,7 @@
 #include "fairway/run/failing_flights.hpp"
 #include "fairway/run/scenario_flights.hpp"
 #include "fairway/vehicle/mission.hpp"
+#include "fairway/verify/verdict_map.hpp"
 
 namespace fairway {
 
@@ -22,6 +23,7 @@ struct ReportPage {
   nlohmann::json summary;          ///< without what differs from run to run
   const Certificate* certificate = nullptr;
   std::vector<FailingFlights> failing;
+  const VerdictMap* contract_verdicts = nullptr;  ///< under the contract, or none
 };
 
 /// Writes `folder`/report.html. Empty when it did; else why this build has no page, one sentence

@@ -14,6 +14,7 @@
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/plan/plan_of_field.hpp"
 #include "fairway/run/closing.hpp"
+#include "fairway/run/contract_pictures.hpp"
 #include "fairway/run/design_warnings.hpp"
 #include "fairway/run/failing_flights.hpp"
 #include "fairway/run/findings.hpp"
@@ -25,6 +26,7 @@
 #include "fairway/run/plan_warnings.hpp"
 #include "fairway/run/product_picture.hpp"
 #include "fairway/run/products.hpp"
+#include "fairway/run/prove_under_contract.hpp"
 #include "fairway/run/region_request.hpp"
 #include "fairway/run/report_page.hpp"
 #include "fairway/run/run_estimate.hpp"
@@ -90,18 +92,20 @@ void write_flights(const ScenarioFlights& flown, const Plan& plan, const std::st
 
 /// report.html; where this build has none, a warning says why.
 void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights& flown,
-                const Verified& verified, const ExactFlights& flights, const std::string& title,
-                const fs::path& place, RunResult& result) {
+                const Verified& verified, const std::optional<ProvedUnderContract>& under_contract,
+                const VerdictMap* contract_map, const ExactFlights& flights,
+                const std::string& title, const fs::path& place, RunResult& result) {
   constexpr std::size_t failing_of_each = 4;
   const auto* proved = std::get_if<Proved>(&verified);
-  const ReportPage page{
-      title,
-      {plan_words(plan), flight_words(flown) + "Flights are evidence, not a proof.",
-       words_of(verified)},
-      result.summary,
-      proved != nullptr ? &proved->verification.certificate : nullptr,
-      proved != nullptr ? failing_flights(flights, proved->failing, failing_of_each)
-                        : std::vector<FailingFlights>{}};
+  ReportPage page{title,
+                  {plan_words(plan), flight_words(flown) + "Flights are evidence, not a proof.",
+                   words_of(verified)},
+                  result.summary,
+                  proved != nullptr ? &proved->verification.certificate : nullptr,
+                  proved != nullptr ? failing_flights(flights, proved->failing, failing_of_each)
+                                    : std::vector<FailingFlights>{},
+                  contract_map};
+  if (under_contract) page.words.push_back(words_of(plan, *under_contract));
   const std::string absent = write_report_page(plan, mission, flown, page, place);
   if (!absent.empty()) result.warnings.push_back(absent);
 }
@@ -117,8 +121,8 @@ json product_digests(const fs::path& folder) {
 /// "DIR/report.html, DIR/plan.svg, ...": the files to look at first.
 std::string to_look_at(const fs::path& folder, const json& products) {
   std::string files;
-  for (const char* name :
-       {product::report_page, "plan.svg", "flights.svg", "verdicts.svg", "slices.svg"}) {
+  for (const char* name : {product::report_page, "plan.svg", "flights.svg", "verdicts.svg",
+                           "contract.svg", "slices.svg"}) {
     if (!products.contains(name)) continue;
     files += (files.empty() ? "" : ", ") + (folder / name).string();
   }
@@ -154,6 +158,8 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
 
   const Verified verified =
       verify_and_check(plan, scenario, region, flown, place, clock, left.from_pictures());
+  const std::optional<ProvedUnderContract> under_contract =
+      prove_under_contract(plan, scenario, region, place, clock);
   const Plan as_asked = as_verified(plan, verified);
   const ExactFlights flights(as_asked);
 
@@ -161,27 +167,39 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   const std::string title = scenario.file.stem().string();
   write_run_pictures(plan, mission, flown, title, place);
   write_verified_pictures(as_asked, flights, verified, scenario.simulate.seed, title, place);
+  std::optional<VerdictMap> contract_map;
+  if (under_contract) {
+    contract_map = contract_verdict_map(under_contract->verification.certificate);
+    write_contract_pictures(*contract_map, title, place);
+  }
 
   clock.begin("making the page", left.page_s);
-  const std::vector<Finding> found = findings_of(plan, flown, verified);
+  std::vector<Finding> found = findings_of(plan, flown, verified);
   RunResult result{
       false, plan_summary(scenario, plan), {}, warnings_of(scenario, map, plan, flown, verified)};
+  if (under_contract) {
+    for (Finding& finding : findings(plan, *under_contract)) found.push_back(std::move(finding));
+    if (auto warning = limit_warning(*under_contract)) result.warnings.push_back(*warning);
+    result.summary["contract"] = json_of(*under_contract);
+  }
   add_overrides(result.summary, scenario);
   result.summary["findings"] = findings_json(found);
   result.summary["warnings"] = result.warnings;
   add_flights(result.summary, flown, scenario.simulate.seed);
   result.summary["verify"] = json_of(verified);
   result.summary["products"] = product_digests(place);
-  write_page(plan, mission, flown, verified, flights, title, place, result);
+  write_page(plan, mission, flown, verified, under_contract,
+             contract_map ? &*contract_map : nullptr, flights, title, place, result);
   clock.end();
   result.summary["products"] = product_digests(place);
   add_cost(result.summary, clock);
   write_whole(place / product::summary, Existing::keep, result.summary.dump(2) + "\n");
   products.commit();
-  result.paragraph = fmt::format("{}\n{}{}\nLook at {} and {}.", findings_table(found),
-                                 notes_of(plan, flown, verified), cost_words(result.summary),
-                                 to_look_at(folder, result.summary["products"]),
-                                 (folder / product::summary).string());
+  result.paragraph = fmt::format(
+      "{}\n{}{}\nLook at {} and {}.", findings_table(found),
+      notes_of(plan, flown, verified) + (under_contract ? notes_of(*under_contract) : ""),
+      cost_words(result.summary), to_look_at(folder, result.summary["products"]),
+      (folder / product::summary).string());
   return result;
 }
 

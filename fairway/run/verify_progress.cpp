@@ -23,4 +23,17 @@ CertifyProgress begin_verifying(StageClock& clock, const CertifyOptions& options
   };
 }
 
+std::function<void(const std::string& doing)> begin_verifying_contract(StageClock& clock,
+                                                                       const VerifyLimits& limits) {
+  const double limit_s = limits.time_limit_s > 0.0 ? limits.time_limit_s : unknown_time;
+  clock.begin("verifying under the contract", TimeLeft{unknown_time, limit_s});
+  return [&clock, limit_s](const std::string& doing) {
+    TimeLeft left;
+    const bool is_proof = doing.starts_with("verifying");  // what follows has no limit
+    if (limit_s >= 0.0 && is_proof) left.limit_s = std::max(0.0, limit_s - clock.seconds());
+    clock.rename(doing);
+    clock.tell(left);
+  };
+}
+
 }  // namespace fairway

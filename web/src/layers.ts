@@ -2,7 +2,7 @@
 // each code, a ground colour with a pattern on it. Colours and patterns are those of the pictures.
 import type { Numbers, Arrays } from "./arrays";
 import { isDark } from "./dom";
-import { no_value, RegionCode, type PageRecord, type VerdictStyle } from "./record";
+import { no_value, RegionCode, type PageRecord, type VerdictInfo, type VerdictStyle } from "./record";
 
 export interface CodeLayer {
   codes: Uint8Array;
@@ -169,8 +169,9 @@ export class VerdictLayers {
   private readonly asked: (Promise<Uint8Array> | undefined)[];
   readonly length: number;
 
-  constructor(private readonly arrays: Arrays, private readonly record: PageRecord) {
-    this.length = record.verdicts!.heading_rad.length;
+  /** `name`: of their array, whose counts are in NAME_count. */
+  constructor(private readonly arrays: Arrays, readonly info: VerdictInfo, readonly name = "verdict") {
+    this.length = info.heading_rad.length;
     this.kept = new Array(this.length);
     this.asked = new Array(this.length);
   }
@@ -179,7 +180,7 @@ export class VerdictLayers {
   at(heading: number): Uint8Array | undefined { return this.kept[heading]; }
 
   ask(heading: number): Promise<Uint8Array> {
-    return this.asked[heading] ??= this.arrays.layer("verdict", heading).then((codes) => this.kept[heading] = codes);
+    return this.asked[heading] ??= this.arrays.layer(this.name, heading).then((codes) => this.kept[heading] = codes);
   }
 
   async askAll(): Promise<void> {
@@ -187,7 +188,7 @@ export class VerdictLayers {
   }
 
   layer(codes: Uint8Array): CodeLayer {
-    const { nx, ny, cells_per_sample } = this.record.verdicts!;
+    const { nx, ny, cells_per_sample } = this.info;
     return { codes, nx, ny, cells: cells_per_sample };
   }
 }

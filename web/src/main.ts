@@ -26,6 +26,8 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
   showTrust(record);
   showNumbers(record);
   const map = new MapPage(record, arrays, await fieldOf(arrays), await flightsIn(record, arrays));
+  const { verdicts } = map;
+  const exact = { ...record };  // the map's record changes with what it shows
   await map.show();
   if (map.verdict_tiles) showVolumes(record, map.verdict_tiles);
   const follow = () => {
@@ -38,10 +40,10 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
   document.documentElement.dataset.ready = String(Math.round(performance.now()));
 
   // The rest, in the background.
-  if (map.verdicts) {
+  if (verdicts) {
     await map.needCounts();
-    void map.verdicts.askAll();
-    map.turned = showSolid(record, map.verdicts);
+    void verdicts.askAll();
+    map.turned = showSolid(exact, verdicts);
   } else {
     byId("solid-section").hidden = true;
   }

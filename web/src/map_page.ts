@@ -56,6 +56,8 @@ export class MapPage implements MapHands, PlanView {
   private share_kind = 0;
   private tool: Live | null = null;
   private own: Own | null = null;
+  private set_aside: VerdictLayers | null = null;  // of the vehicle that is not shown: exact, or under its contract
+  private readonly vehicles = oneOf(["Exact vehicle", "Under the contract"], "Which vehicle", (k) => this.showVehicle(k === 1));
   private readonly stale = new Set<Part>();
 
   constructor(private readonly record: PageRecord, private arrays: Arrays, private readonly field: FieldArrays, private readonly flown: ShownFlight[]) {
@@ -63,14 +65,17 @@ export class MapPage implements MapHands, PlanView {
     this.view = new Viewport(record.grid);
     this.base = new BaseMap(byId<HTMLCanvasElement>("map-base"), record.grid);
     this.overlay = new Overlay(record, field);
-    this.verdicts = record.verdicts ? new VerdictLayers(arrays, record) : null;
+    this.verdicts = record.verdicts ? new VerdictLayers(arrays, record.verdicts) : null;
+    if (record.verdicts && record.contract_verdicts) {
+      this.set_aside = new VerdictLayers(arrays, record.contract_verdicts, "contract_verdict");
+    }
     this.paintTiles();
     this.shown = record.verdicts ? "verdict" : "cost";
     this.slider = new HeadingSlider(record, () => this.verdict_tiles, () => {
       this.redraw("base", "readout");
       if (this.shown === "verdict" && record.verdicts) updateVerdictLegend(record, this.slider.index);
       this.nameShown();
-      if (!this.own) this.turned(this.slider.index);
+      if (!this.own && !this.under_contract) this.turned(this.slider.index);
     });
     this.replay = new Replay(record, flown, (what) => {
       if (what === "choice" && this.replay.selected >= 0) this.setLayer("flights", true);
@@ -155,7 +160,22 @@ export class MapPage implements MapHands, PlanView {
     writeLink({ ...linkable(this.grid, { x: this.cross[0], y: this.cross[1], h }), goal: null });
   }
 
+  private get under_contract(): boolean { return this.verdicts?.name === "contract_verdict"; }
+
+  /** Verdicts of the exact vehicle, or of all that keep its contract, at the heading nearest to the one shown. */
+  private showVehicle(contract: boolean): void {
+    if (contract === this.under_contract || !this.set_aside) return;
+    const verdicts = this.set_aside;
+    this.set_aside = this.verdicts;
+    const { mission, cost_step_m } = this.record;
+    this.take({ mission, cost_step_m, field: this.field }, verdicts.info, verdicts);
+    if (!contract) this.turned(this.slider.index);
+    void this.needCounts().then(() => this.redraw("base", "readout"));
+  }
+
   showMoved(plan: MovedPlan): void {
+    if (this.under_contract) this.vehicles.querySelector("button")!.click();
+    this.vehicles.hidden = true;
     const { record, field } = this;
     this.own ??= { moved: { mission: record.mission, cost_step_m: record.cost_step_m, field: { ...field } }, info: record.verdicts,
       verdicts: this.verdicts, arrays: this.arrays, shown: this.shown, flights: this.choice.flights };
@@ -170,7 +190,7 @@ export class MapPage implements MapHands, PlanView {
     const { mission, cost_step_m } = record;
     this.arrays = arrays;
     record.verdicts = info;
-    this.take({ mission, cost_step_m, field: this.field }, info, new VerdictLayers(arrays, record));
+    this.take({ mission, cost_step_m, field: this.field }, info, new VerdictLayers(arrays, info));
     await this.verdicts!.ask(this.slider.index);
     await this.needCounts();
     this.choose("verdict");
@@ -180,6 +200,7 @@ export class MapPage implements MapHands, PlanView {
     const own = this.own;
     if (!own) return;
     this.own = null;
+    this.vehicles.hidden = this.set_aside === null;
     this.arrays = own.arrays;
     this.take(own.moved, own.info, own.verdicts);
     this.setLayer("flights", own.flights);
@@ -219,7 +240,9 @@ export class MapPage implements MapHands, PlanView {
   /** What the shares of headings are made of; the readout shows them too. */
   async needCounts(): Promise<void> {
     if (this.reaching || !this.verdicts) return;
-    const [first, all] = await Promise.all([this.verdicts.ask(0), this.arrays.array("verdict_count")]);
+    const { verdicts } = this;
+    const [first, all] = await Promise.all([verdicts.ask(0), this.arrays.array(`${verdicts.name}_count`)]);
+    if (verdicts !== this.verdicts) return;  // others are shown by now
     this.reaching = headingsOfKind(this.record, all as Uint8Array, 0);
     this.share_layers = share_kinds.map((_, kind) => shareLayer(this.record, first, all as Uint8Array, kind));
   }
@@ -292,7 +315,7 @@ export class MapPage implements MapHands, PlanView {
 
   private drawReadout(): void {
     const codes = this.verdicts?.at(this.slider.index);
-    showReadout(this.record, this.field, this.cross, codes ? { codes, heading_rad: this.slider.rad, reaching: this.reaching } : null);
+    showReadout(this.record, this.field, this.cross, codes ? { codes, heading_rad: this.slider.rad, reaching: this.reaching, whose: this.under_contract ? " under the contract" : "" } : null);
   }
 
   private showLegend(): void {
@@ -305,6 +328,9 @@ export class MapPage implements MapHands, PlanView {
   }
 
   private offerChoices(): void {
+    this.vehicles.classList.add("sub");
+    this.vehicles.hidden = this.set_aside === null;
+    byId("views").append(this.vehicles);
     const shares = oneOf(share_kinds, "Which share", (kind) => {
       this.share_kind = kind;
       this.showLegend();
@@ -344,7 +370,8 @@ export class MapPage implements MapHands, PlanView {
     const what = this.shown === "verdict" ? `Verdicts at heading ${bearingWords(this.record, this.slider.rad)}, ${wind(this.slider.rad)}`
       : this.shown === "share" ? `${view}: ${share_kinds[this.share_kind]}` : view;
     const layers = layer_names.filter(([name]) => this.choice[name]).map(([, words]) => words.toLowerCase());
-    byId("shown-words").textContent = what + (layers.length > 0 ? `; overlays: ${layers.join(", ")}` : "") + ".";
+    const whose = this.under_contract && (this.shown === "verdict" || this.shown === "share") ? ", under the contract" : "";
+    byId("shown-words").textContent = what + whose + (layers.length > 0 ? `; overlays: ${layers.join(", ")}` : "") + ".";
   }
 
   private fit(): void {

@@ -46,6 +46,11 @@ export function showVolumes(record: PageRecord, tiles: Tiles): void {
     rows.push(["All states", verify.volume_fraction], ["Safe starts", verify.volume_fraction_free],
       ["Safe starts with a command", verify.volume_fraction_free_commanded], ["Buffer around obstacles", verify.volume_fraction_buffer]);
   }
+  const { contract } = record.summary;
+  if (contract) {
+    rows.push(["All states, under the contract", contract.volume_fraction],
+      ["Safe starts, under the contract", contract.volume_fraction_free]);
+  }
   const { order, undecided } = record.codes;
   const paints: (() => void)[] = [];
   byId("volumes").replaceChildren(...rows.map(([name, share]) => {

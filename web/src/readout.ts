@@ -7,7 +7,7 @@ import { no_value, RegionCode, valueIndex, type PageRecord } from "./record";
 const region_names = ["buffer", "safe start", "obstacle", "goal"];
 
 /** The layer shown, its heading, and for how many headings each sample reaches, once known. */
-export interface ShownVerdicts { codes: Uint8Array; heading_rad: number; reaching: Uint16Array | null }
+export interface ShownVerdicts { codes: Uint8Array; heading_rad: number; reaching: Uint16Array | null; whose: string }
 
 type Cell = [number, number];
 
@@ -23,7 +23,7 @@ function verdictTerms(record: PageRecord, cell: Cell, verdicts: ShownVerdicts): 
   const code = verdicts.codes[sample];
   if (code === record.codes.obstacle || code === record.codes.target) return [];
   const name = record.styles.verdict[code].name;
-  const terms = [term(`verdict at ${headingWords(verdicts.heading_rad)}`, code === record.codes.undecided ? name : `proved: ${name}`)];
+  const terms = [term(`verdict at ${headingWords(verdicts.heading_rad)}${verdicts.whose}`, code === record.codes.undecided ? name : `proved: ${name}`)];
   if (verdicts.reaching) terms.push(term("headings that reach", `${verdicts.reaching[sample]} of ${info.heading_rad.length}`));
   return terms;
 }

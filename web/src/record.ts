@@ -67,6 +67,7 @@ export interface PageRecord {
   };
   codes: Codes;
   verdicts: VerdictInfo | null;
+  contract_verdicts?: VerdictInfo;  // under the vehicle's contract, where it has one
   flights: FlightRecord[];
   flights_left_out: Record<string, number>;
   words: string[];

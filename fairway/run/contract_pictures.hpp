@@ -1,0 +1,24 @@
+// What a contract certificate says at every place, sampled: for a picture and for the page.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fairway/certificate/contract_certificate.hpp"
+#include "fairway/verify/verdict_map.hpp"
+
+namespace fairway {
+
+/// Verdicts at eight headings, of at most 64 cells across. So few because each state is flown as a
+/// set: up to 150 microseconds, where the exact vehicle takes one. No states for shares.
+[[nodiscard]] VerdictMap contract_verdict_map(const ContractCertificate& certificate);
+
+/// Every file that write_contract_pictures writes.
+[[nodiscard]] std::vector<std::string> contract_picture_files();
+
+/// The verdicts at each heading, into `folder`.
+void write_contract_pictures(const VerdictMap& map, const std::string& title,
+                             const std::filesystem::path& folder);
+
+}  // namespace fairway

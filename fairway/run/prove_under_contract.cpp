@@ -1,0 +1,130 @@
+#include "fairway/run/prove_under_contract.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "fairway/base/atomic_file.hpp"
+#include "fairway/base/share_text.hpp"
+#include "fairway/certificate/contract_certificate_file.hpp"
+#include "fairway/run/checker.hpp"
+#include "fairway/run/products.hpp"
+#include "fairway/run/summary.hpp"
+#include "fairway/run/verify_progress.hpp"
+
+namespace fairway {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+double share_of(const std::array<double, verdict_count>& shares, Verdict verdict) {
+  return shares[static_cast<std::size_t>(verdict)];
+}
+
+std::string goal_of(const Plan& plan, const ProvedUnderContract& proved) {
+  const RegionOfInterest& region = proved.verification.certificate.region_of_interest;
+  return region.kind == RegionOfInterest::Kind::goal ? goal_word(plan) : "region";
+}
+
+const char* checked_words(bool checked) {
+  return checked ? "an independent program re-proved the certificate"
+                 : "the certificate was NOT checked: fairway-check could not be run";
+}
+
+std::string time_words(const ContractShares& shares) {
+  if (!(shares.worst_time_s > 0.0)) return {};
+  return fmt::format("no sampled state that reaches takes longer than {:.1f} s",
+                     shares.worst_time_s);
+}
+
+}  // namespace
+
+std::optional<ProvedUnderContract> prove_under_contract(const Plan& plan, const Scenario& scenario,
+                                                        const RegionOfInterest& region,
+                                                        const fs::path& place, StageClock& clock) {
+  const std::optional<VehicleContract>& contract = plan.record.contract;
+  if (!contract || scenario.verify.method != VerifyMethod::certified) return std::nullopt;
+  const fs::path file = place / product::contract_certificate;
+  ContractVerifyOptions options;
+  options.limits = scenario.verify.limits;
+  options.seed = scenario.simulate.seed;
+  ProvedUnderContract proved;
+  proved.verification = verify_contract(plan, scenario.file.string(), region, *contract, options,
+                                        begin_verifying_contract(clock, options.limits));
+  write_contract_certificate(proved.verification.certificate, file, Existing::keep);
+  clock.begin("checking the contract's certificate", unknown_time);
+  const CheckRun check = run_checker({file.string(), "--quiet"}, true);
+  if (check.exit_code == 1) {
+    throw std::runtime_error("the contract's certificate was refused by fairway-check: " +
+                             check.output);
+  }
+  proved.checked = check.exit_code == 0;
+  return proved;
+}
+
+std::vector<Finding> findings(const Plan& plan, const ProvedUnderContract& proved) {
+  const ContractShares& s = proved.verification.survey.shares;
+  const int decimals = decimals_of_sample(s.samples);
+  std::vector<Finding> found;
+  const auto add = [&](double share, const std::string& what) {
+    found.push_back({percent_text(share, decimals), "all states", what});
+  };
+  add(share_of(s.all, Verdict::reach), "are proved to reach the " + goal_of(plan, proved) +
+                                           " whatever the vehicle does within its contract");
+  double failing = 0.0;
+  for (const Verdict verdict : verdicts_in_order) {
+    if (fails(verdict)) failing += share_of(s.all, verdict);
+  }
+  if (failing > 0.0)
+    add(failing, "are proved to fail, whatever the vehicle does within its contract");
+  if (s.at_risk > 0.0) add(s.at_risk, "are at risk: a behaviour within the contract fails");
+  const double undecided = std::max(0.0, share_of(s.all, Verdict::undecided) - s.at_risk);
+  if (undecided > 0.0) add(undecided, "are undecided under the contract");
+  return found;
+}
+
+std::string notes_of(const ProvedUnderContract& proved) {
+  const ContractVerification& made = proved.verification;
+  const std::string time = time_words(made.survey.shares);
+  std::string notes = fmt::format("Under the contract {}{}{}.\n", time, time.empty() ? "" : "; ",
+                                  checked_words(proved.checked));
+  const std::size_t shown = std::min<std::size_t>(made.survey.chokes.size(), 2);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Choke& choke = made.survey.chokes[i];
+    const Vec2 at = made.certificate.grid.center(choke.cell);
+    notes += fmt::format("{}{} of all states wait for ({:g}, {:g}): {}.\n",
+                         i == 0 ? "What is not proved hangs on few places: " : "",
+                         percent_text(choke.share, 2), at.x, at.y, reason_of(choke.why));
+  }
+  return notes;
+}
+
+std::string words_of(const Plan& plan, const ProvedUnderContract& proved) {
+  std::string words;
+  for (const Finding& finding : findings(plan, proved)) {
+    words += fmt::format("{} of {} {}. ", finding.share, finding.of, finding.what);
+  }
+  const ContractShares& s = proved.verification.survey.shares;
+  const std::string time = time_words(s);
+  return words + fmt::format("Shares of {} sampled states, each proved or flown; {}{}{}.",
+                             grouped(s.samples), time, time.empty() ? "" : "; ",
+                             checked_words(proved.checked));
+}
+
+std::optional<std::string> limit_warning(const ProvedUnderContract& proved) {
+  if (!proved.verification.stopped_by_limit) return std::nullopt;
+  return "The proof under the contract stopped at its limit of time or memory: raise the limit, or "
+         "a share of the states stays undecided.";
+}
+
+json json_of(const ProvedUnderContract& proved) {
+  json summary = contract_verification_json(proved.verification);
+  summary["checked"] = proved.checked;
+  return summary;
+}
+
+}  // namespace fairway
