@@ -406,9 +406,32 @@ bool Behaviours::advance(Turning& set) {
 void Behaviours::meet(const Turning& set, double step, const Shape& swept, const Past& past,
                       Memory& memory) {
   met_.clear();
+  near_.clear();
   for_parts(swept, skin + blur, [&](Cell part, const Shape& there) {
-    if (!lost_) meet_part(set, step, part, within(there, box_of(part).grown(skin)), past, memory);
+    const auto begins_in = [&](const Shape& at) {
+      return !at.empty() && !clipped(at, box_of(part).grown(skin + blur)).empty();
+    };
+    const bool ends = kind_of(part) != ordinary;
+    near_.push_back({part, there, ends || begins_in(set.at) || begins_in(set.joining)});
   });
+  // Nobody comes behind obstacles but over sides of other parts: through the corner where two
+  // obstacles meet, one touches both. (A convex set over such a corner does not show it.)
+  for (bool more = true; more;) {
+    more = false;
+    for (Near& to : near_) {
+      if (to.is_reached) continue;
+      to.is_reached = std::any_of(near_.begin(), near_.end(), [&](const Near& from) {
+        return from.is_reached && kind_of(from.part) == ordinary &&
+               std::abs(from.part.x - to.part.x) + std::abs(from.part.y - to.part.y) == 1;
+      });
+      more = more || to.is_reached;
+    }
+  }
+  for (const Near& n : near_) {
+    if (!lost_ && n.is_reached) {
+      meet_part(set, step, n.part, within(n.there, box_of(n.part).grown(skin)), past, memory);
+    }
+  }
 }
 
 /// What happens to those that are in `part` during the step. `memory`: what may be remembered by

@@ -66,6 +66,11 @@ class Behaviours {
     Box sure = everywhere;
   };
   /// A part that a set meets in a step.
+  struct Near {
+    Cell part;
+    Shape there;
+    bool is_reached;
+  };
   struct Met {
     Cell part{};
     bool stays = false;  ///< the set may turn on in it
@@ -114,6 +119,7 @@ class Behaviours {
   bool lost_ = false;
   std::vector<Turning> waiting_;
   std::vector<Return> returns_;
+  std::vector<Near> near_;  ///< what a step sweeps
   std::vector<Met> met_;
 };
 

@@ -106,10 +106,10 @@ void CrossingGraph::fly(const Parts& parts, const BehaviourOptions& options) {
         const Id id = fresh[k];
         Leaf& leaf = leaf_[id];
         const std::size_t s = section[k];
-        const BehaviourImage image = image_of_crossing(
-            parts, parts.place(s / sections_per_part), static_cast<PartSide>(s % sections_per_part),
-            leaf.begin / static_cast<double>(side_units),
-            end_of(id, s) / static_cast<double>(side_units), options);
+        const BehaviourImage image =
+            image_of_crossing(parts, parts.place(s / 4), static_cast<PartSide>(s % 4),
+                              leaf.begin / static_cast<double>(side_units),
+                              end_of(id, s) / static_cast<double>(side_units), options);
         leaf.state = LeafState::open;
         leaf.ends = image.ends;
         leaf.gave_up = image.gave_up;

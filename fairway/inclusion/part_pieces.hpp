@@ -20,27 +20,6 @@ inline Box grown_box(PartPlace p, double by = place_slack) {
   return {{p.ix - by, p.iy - by}, {p.ix + 1 + by, p.iy + 1 + by}};
 }
 
-/// Whether the set comes near a corner of `p` behind which another part lies between two obstacles.
-/// Nobody passes there without touching them; but whether a set seems to, hangs on the last bit,
-/// and whoever checks may see it pass.
-inline bool is_at_gap(const Parts& parts, const ConvexSet& set, PartPlace p, double near) {
-  for (const int right : {0, 1}) {
-    for (const int top : {0, 1}) {
-      const PartPlace beside{p.ix + 2 * right - 1, p.iy};
-      const PartPlace above{p.ix, p.iy + 2 * top - 1};
-      const PartPlace behind{beside.ix, above.iy};
-      if (is_flown_over(parts.kind(beside)) || is_flown_over(parts.kind(above)) ||
-          !is_flown_over(parts.kind(behind))) {
-        continue;
-      }
-      const Vec2 corner{static_cast<double>(p.ix + right), static_cast<double>(p.iy + top)};
-      const Vec2 by{near, near};
-      if (!set.within({corner - by, corner + by}).empty()) return true;
-    }
-  }
-  return false;
-}
-
 /// Calls body(part, kind, piece) for parts that together hold the set. A part over which behaviours
 /// fly is left out when the set only touches it, and lies within the slack of others there: a set
 /// that came out of a part must not count as being in it. Not so beside an obstacle: who passes so
@@ -48,9 +27,8 @@ inline bool is_at_gap(const Parts& parts, const ConvexSet& set, PartPlace p, dou
 template <typename Body>
 void for_parts(const Parts& parts, const ConvexSet& set, const Body& body) {
   const auto [lowest, highest] = set.box();
-  constexpr double near = 0x1p-12;  // of gaps
-  const auto below = [](double v) { return static_cast<int>(std::floor(v - near)); };
-  const auto above = [](double v) { return static_cast<int>(std::floor(v + near)); };
+  const auto below = [](double v) { return static_cast<int>(std::floor(v - place_slack)); };
+  const auto above = [](double v) { return static_cast<int>(std::floor(v + place_slack)); };
   const int x0 = below(lowest.x);
   const int y0 = below(lowest.y);
   const int x1 = above(highest.x);
@@ -83,11 +61,6 @@ void for_parts(const Parts& parts, const ConvexSet& set, const Body& body) {
       const PartPlace p{ix, iy};
       const PartKind kind = parts.kind(p);
       const ConvexSet grown = piece(p, place_slack);
-      if (is_flown_over(kind) && (grown.empty() || piece(p, -place_slack).empty()) &&
-          is_at_gap(parts, set, p, near)) {
-        choose(p, kind, piece(p, near));
-        continue;
-      }
       if (grown.empty()) continue;
       if (many || !is_flown_over(kind) || !piece(p, -place_slack).empty()) {
         choose(p, kind, grown);
