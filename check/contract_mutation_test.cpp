@@ -274,8 +274,10 @@ TEST_F(ContractMutation, AnotherContractIsRefused) {
   TakenApart parts(good_);
   parts.record["contract"].erase("wind_mps");
   expect_refused(parts, "unreadable");
-  // Under a tighter one all leaves are proved, but the shares are not those of its states.
-  expect_refused(with("turn_radius_m", {19.0, 21.0}), "volume_fraction");
+  // Under a tighter one it is as true.
+  TakenApart tighter = with("turn_radius_m", {19.0, 21.0});
+  tighter.sign();
+  EXPECT_EQ(refusal(tighter.file()), "");
 }
 
 TEST_F(ContractMutation, OtherPartsFormatsAndCellsAreRefused) {
@@ -311,9 +313,16 @@ TEST_F(ContractMutation, ClaimedSharesMustBeThoseOfSampledStates) {
   shares["reach"] = reached + open;
   shares["undecided"] = 0.0;
   if (open > 0.05) expect_refused(parts, "is claimed as");
-  shares["reach"] = 0.0;
-  shares["undecided"] = reached + open;
+  const double collided = shares["collide"];
+  shares["undecided"] = open;
+  shares["reach"] = reached - 0.2;
+  shares["collide"] = collided + 0.2;
   expect_refused(parts, "is claimed as");
+  // Less may be claimed than is true.
+  shares["collide"] = collided;
+  shares["undecided"] = open + 0.2;
+  parts.sign();
+  EXPECT_EQ(refusal(parts.file()), "");
 }
 
 }  // namespace
