@@ -31,6 +31,7 @@ build: setup
 	cmake --build --preset release --parallel $(JOBS) --target $(PROGRAMS)
 
 demo: build
+	build/release/bin/fairway run demo/contract.toml -o out/contract --force
 	build/release/bin/fairway run demo/demo.toml -o out/demo --force
 
 test: setup
