@@ -111,8 +111,7 @@ std::string defect_of_leaf(const ContractCertificate& c, Behaviours& behaviours,
                          c.end_of(section, leaf), outcome);
   share = {outcome.onwards_s, outcome.astray_rad};
   if (outcome.gave_up) return "its behaviours cannot be followed";
-  const bool nobody = outcome.told == 0;  // of nobody, every verdict but trapped holds
-  if (nobody ? verdict == trapped : outcome.verdict() != verdict) {
+  if (outcome.verdict() != verdict) {
     std::string told = "re-proved outcomes:";
     for (unsigned v = 0; v < verdict_count; ++v)
       told += (outcome.told >> v & 1U) != 0 ? fmt::format(" {}", verdict_name[v]) : "";

@@ -29,8 +29,11 @@ ContractAnswer contract_answer(const Parts& parts, const ContractVerdicts& verdi
     const auto last = verdicts.begin.begin() + verdicts.first[section + 1];
     auto at = std::upper_bound(first, last, crossing.lo * units,
                                [](double lo, std::uint32_t begin) { return lo < begin; });
+    if (first == last) found |= bit(0);
     if (at != first) --at;
-    for (; at != last && *at < crossing.hi * units; ++at) {
+    // The last that begins at `lo` or before, and those that begin before `hi`.
+    for (bool next = true; at != last && next; ++at) {
+      next = at + 1 != last && at[1] < crossing.hi * units;
       const auto leaf = static_cast<std::size_t>(at - verdicts.begin.begin());
       found |= bit(verdicts.verdict[leaf]);
       answer.worst_time_s =

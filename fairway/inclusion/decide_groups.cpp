@@ -151,10 +151,11 @@ class Decider {
     const bool progress =
         !all.comes_back || all.headings.width_rad < 2.0 * most_off_progress_rad - 1e-3;
     const bool known = !all.gave_up && all.waits_for == ~Id{0};
-    // Without an end or exit, behaviours that move on would have to come to one: there are none.
-    if (known && all.verdicts == 0 && progress) all.verdicts = bit(Verdict::reach);
+    // Behaviours that move on come to an end or an exit: where there is none, something is wrong,
+    // and nothing is claimed.
     const bool one = known && std::has_single_bit(all.verdicts);
-    const bool trapped = known && (all.verdicts == 0 || all.verdicts == bit(Verdict::trapped));
+    const bool trapped =
+        known && (all.verdicts == bit(Verdict::trapped) || (all.verdicts == 0 && !progress));
     if (trapped) return close(members, Verdict::trapped, 0);
     if (one && progress) {
       const auto verdict = static_cast<Verdict>(std::countr_zero(all.verdicts));
@@ -227,7 +228,8 @@ class Decider {
     }
     if (reason == Trouble::none && all.waits_for != ~Id{0}) {
       cause = result_.cause[all.waits_for];
-      reason = Trouble::waits;
+      // Of a leaf that nothing should cross nothing is known: the trouble is here.
+      if (cause != ~Id{0}) reason = Trouble::waits;
     }
     if (reason == Trouble::none) {  // its leaves have one verdict each, but not the same
       cause = members.front();

@@ -114,6 +114,70 @@ TEST(InclusionProver, NoBehaviourContradictsAVerdict) {
   EXPECT_GT(seen[static_cast<std::size_t>(Verdict::leave)], 10);
 }
 
+TEST(InclusionProver, StatesOnBordersAndCornersAreNotContradicted) {
+  Random random(8);
+  int decided = 0;
+  for (int round = 0; round < 16; ++round) {
+    const Plan plan = plan_to_a_goal(random);
+    const VehicleContract contract = some_contract(random, plan.vehicle);
+    const PlanFlow held(plan);
+    const Flow flow = held.flow();
+    const Proof proof(flow, contract, 1);
+    const auto commands = filled_commands(flow.grid, flow.heading_rad);
+    for (int k = 0; k < 80; ++k) {
+      // On a border of leaves, often on a corner; often along a side.
+      const Vec2 p{0.5 * static_cast<double>(2 + random.below(28)),
+                   0.5 * static_cast<double>(2 + random.below(24))};
+      const double heading =
+          std::remainder(0.25 * pi * static_cast<double>(random.below(8)), 2.0 * pi);
+      const ContractAnswer answer = proof.at(p, heading);
+      if (answer.verdict == Verdict::undecided || answer.verdict == Verdict::trapped) continue;
+      ++decided;
+      for (int flight = 0; flight < 12; ++flight) {
+        Behaviour behaviour(flow, commands, contract, p, heading, random.bits());
+        const double most_m = answer.worst_time_s * contract.speed_mps.least + 1.0;
+        ASSERT_EQ(fly(proof.parts, behaviour, most_m).first, answer.verdict)
+            << "round " << round << ", state " << p.x << ", " << p.y << ", " << heading;
+      }
+    }
+  }
+  EXPECT_GT(decided, 300);
+}
+
+TEST(InclusionProver, SomethingComesAfterEveryLeaf) {
+  // A leaf is never empty, so an image without an end or a crossing would have lost someone: with
+  // arcs that end just beside the direction of a side, sets stay within the slack of its places.
+  Random random(9);
+  int flown = 0;
+  for (int round = 0; round < 30; ++round) {
+    Plan plan = plan_to_a_goal(random);
+    for (float& command : plan.heading_rad) {
+      if (std::isnan(command) || random.below(2) == 0) continue;
+      const double axis = 0.5 * pi * static_cast<double>(random.below(4));
+      const double aside =
+          random.uniform(-1.0, 1.0) * std::pow(10.0, -1.0 - random.uniform(0.0, 6.0));
+      command = static_cast<float>(std::remainder(axis + aside, 2.0 * pi));
+    }
+    const VehicleContract contract = some_contract(random, plan.vehicle);
+    const PlanFlow held(plan);
+    const Parts parts(held.flow(), contract, 1);
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      const PartPlace place = parts.place(part);
+      if (parts.kind(place) != PartKind::ordinary) continue;
+      for (int side = 0; side < 4; ++side) {
+        if (!parts.arc(place).meets({0.5 * pi * (side - 1), pi})) continue;
+        const double lo = 0.25 * static_cast<double>(random.below(4));
+        const BehaviourImage image =
+            image_of_crossing(parts, place, static_cast<PartSide>(side), lo, lo + 0.25);
+        EXPECT_TRUE(image.gave_up || image.ends != 0 || !image.crossings.empty())
+            << "round " << round << ", part " << place.ix << ", " << place.iy << ", side " << side;
+        ++flown;
+      }
+    }
+  }
+  EXPECT_GT(flown, 5000);
+}
+
 TEST(InclusionProver, MoreLevelsKeepWhatIsProved) {
   Random random(6);
   for (int round = 0; round < 6; ++round) {

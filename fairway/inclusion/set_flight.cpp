@@ -128,7 +128,8 @@ void SetFlight::start(PartPlace part, const ArrivingSet& arriving, const Heading
   const HeadingArc& arc = parts_.arc(part);
   const HeadingArc starts{arriving.lo_rad, arriving.hi_rad - arriving.lo_rad};
   if (arc.widened(align_slack_rad).meets(starts)) {
-    align(part, arriving.set, {arriving.past.headings.with(starts), arriving.past.flown}, 0.0);
+    align(part, arriving.set, {arriving.past.headings.with(starts), arriving.past.flown},
+          arriving.slack);
   }
   // The smaller angle, and near opposite either side.
   const double half = pi + parts_.side_uncertain_rad() + heading_slack_rad;
@@ -186,11 +187,18 @@ BehaviourImage image_of_state(const Parts& parts, Vec2 place, double heading_rad
                               const BehaviourOptions& options) {
   BehaviourImage image;
   SetFlight flight(parts, options, image);
-  const PartPlace part{static_cast<int>(std::floor(place.x)),
-                       static_cast<int>(std::floor(place.y))};
   const ConvexSet set(place);
   flight.touch(set);
-  flight.start(part, {set, heading_rad, heading_rad, {{heading_rad, 0.0}, 0.0}}, nullptr);
+  const ArrivingSet arriving{
+      set, heading_rad, heading_rad, {{heading_rad, 0.0}, 0.0}, 16.0 * place_slack};
+  // In parts the place is rounded: so near a border it may be in either.
+  const auto below = [](double v) { return static_cast<int>(std::floor(v - place_slack)); };
+  const auto above = [](double v) { return static_cast<int>(std::floor(v + place_slack)); };
+  for (int iy = below(place.y); iy <= above(place.y); ++iy) {
+    for (int ix = below(place.x); ix <= above(place.x); ++ix) {
+      flight.start({ix, iy}, arriving, nullptr);
+    }
+  }
   flight.finish();
   return image;
 }

@@ -39,6 +39,7 @@ struct ArrivingSet {
   double lo_rad = 0.0;
   double hi_rad = 0.0;
   Past past;
+  double slack = 0.0;  ///< how far places may be off
 };
 
 class SetFlight {
