@@ -180,6 +180,42 @@ TEST(BehaviourFlight, AnImageOfABorderTellsOfBehavioursThatCrossIt) {
   EXPECT_GT(told, 3000);
 }
 
+TEST(BehaviourFlight, NobodyIsLostWithinTheSlackOfABorder) {
+  // Almost along a border, with commands that turn slowly from row to row and column to column: for
+  // many steps a set lies within the slack of both parts, and counts as in either.
+  Random random(13);
+  int flown = 0;
+  for (int round = 0; round < 400; ++round) {
+    Plan plan = empty_plan(12, 12, 1.0, random.uniform(1.2, 4.0));
+    const double by_row = random.uniform(0.0, 0.06);
+    const double by_column = random.uniform(0.0, 0.004);
+    for (std::size_t i = 0; i < plan.grid.size(); ++i) {
+      const Cell c = plan.grid.cell_at(i);
+      plan.heading_rad[i] = static_cast<float>(by_row * (5.5 - c.iy) + by_column * c.ix);
+    }
+    VehicleContract contract = VehicleContract::of(plan.vehicle);
+    contract.command_error_m = random.uniform(0.0, 0.8);
+    contract.heading_error_rad = random.uniform(0.0, 0.04);
+    const double r = plan.vehicle.turn_radius_m;
+    contract.turn_radius_m = {0.9 * r, 1.1 * r};
+    const PlanFlow held(plan);
+    const Parts parts(held.flow(), contract, 1);
+    for (int k = 0; k < 40; ++k) {
+      const auto tiny = [&](double least_power, double most_power) {
+        const double size = std::pow(10.0, -random.uniform(least_power, most_power));
+        return random.below(2) == 0 ? size : -size;
+      };
+      const Vec2 place{random.uniform(4.0, 8.0),
+                       static_cast<double>(4 + random.below(4)) + tiny(4.0, 9.0)};
+      const BehaviourImage image = image_of_state(parts, place, tiny(1.0, 6.0));
+      EXPECT_TRUE(image.gave_up || image.ends != 0 || !image.crossings.empty())
+          << "round " << round << ", " << place.x << ", " << place.y;
+      ++flown;
+    }
+  }
+  EXPECT_GT(flown, 10000);
+}
+
 TEST(BehaviourFlight, AnArrivalTouchesNoObstacleBefore) {
   // Eastwards along a wall, at a distance of half a part: no end is told, though the wall is near.
   Plan plan = empty_plan(8, 3, 1.0, 2.0);
