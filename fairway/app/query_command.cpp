@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "fairway/app/command.hpp"
-#include "fairway/app/ending.hpp"
 #include "fairway/app/places.hpp"
 #include "fairway/app/states_asked.hpp"
 #include "fairway/base/atomic_file.hpp"
@@ -141,9 +140,10 @@ int query_command(const QueryArguments& a, const Session& session) {
     return query_contract(a, session);
   }
   if (!a.witness.empty()) {
-    throw InputError(a.certificate.string(),
-                     "is no contract certificate: only under a contract are states at risk, with a "
-                     "witness");
+    throw InputError(
+        a.certificate.string(),
+        "is not a contract certificate: only under a contract is a state at risk, with a "
+        "witness");
   }
   if (kind_of_bytes(file.bytes()) == FileKind::bitmap) {
     const Bitmap bitmap = read_bitmap(a.certificate);

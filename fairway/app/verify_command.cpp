@@ -219,8 +219,7 @@ Action declare_verify(CLI::App& options) {
       .add_option(
           "--method", a.method,
           "certified: a proof for the exact vehicle, with a certificate; contract: a proof for "
-          "every "
-          "vehicle that keeps a contract (the default where there is one); bitmap: paper 2's "
+          "every vehicle that keeps a contract (the default where there is one); bitmap: paper 2's "
           "backward reachable set on samples of the borders, a picture that can be queried, not a "
           "proof")
       ->check(CLI::IsMember({"certified", "contract", "bitmap"}))

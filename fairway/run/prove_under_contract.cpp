@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -45,7 +44,8 @@ std::string time_words(const ContractShares& shares) {
 
 std::optional<ProvedUnderContract> prove_under_contract(const Plan& plan, const Scenario& scenario,
                                                         const RegionOfInterest& region,
-                                                        const fs::path& place, StageClock& clock) {
+                                                        const fs::path& place, StageClock& clock,
+                                                        std::vector<std::string>& warnings) {
   const std::optional<VehicleContract>& contract = plan.record.contract;
   if (!contract || scenario.verify.method != VerifyMethod::certified) return std::nullopt;
   const fs::path file = place / product::contract_certificate;
@@ -59,8 +59,13 @@ std::optional<ProvedUnderContract> prove_under_contract(const Plan& plan, const 
   clock.begin("checking the contract's certificate", unknown_time);
   const CheckRun check = run_checker({file.string(), "--quiet"}, true);
   if (check.exit_code == 1) {
-    throw std::runtime_error("the contract's certificate was refused by fairway-check: " +
-                             check.output);
+    fs::remove(file);
+    warnings.push_back(
+        "Under the contract nothing is claimed: the separate program refused the certificate, "
+        "which "
+        "is a fault of Fairway. It says: " +
+        check.output.substr(0, check.output.find('\n')));
+    return std::nullopt;
   }
   proved.checked = check.exit_code == 0;
   return proved;

@@ -24,11 +24,12 @@ struct ProvedUnderContract {
 };
 
 /// Nothing when the plan has no contract, or verify.method is not "certified"; else the certificate
-/// is in the folder `place`. Limits are the scenario's, for this proof alone. Throws
-/// std::runtime_error when the separate program refuses the certificate.
+/// is in the folder `place`. Limits are the scenario's, for this proof alone. When the separate
+/// program refuses the certificate, there is none, nothing is claimed, and a warning says why: what
+/// is proved of the exact vehicle does not depend on it.
 [[nodiscard]] std::optional<ProvedUnderContract> prove_under_contract(
     const Plan& plan, const Scenario& scenario, const RegionOfInterest& region,
-    const std::filesystem::path& place, StageClock& clock);
+    const std::filesystem::path& place, StageClock& clock, std::vector<std::string>& warnings);
 
 /// The lines after those about the exact vehicle. Their shares of all states sum to 1.
 [[nodiscard]] std::vector<Finding> findings(const Plan& plan, const ProvedUnderContract& proved);

@@ -158,8 +158,9 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
 
   const Verified verified =
       verify_and_check(plan, scenario, region, flown, place, clock, left.from_pictures());
+  std::vector<std::string> contract_warnings;
   const std::optional<ProvedUnderContract> under_contract =
-      prove_under_contract(plan, scenario, region, place, clock);
+      prove_under_contract(plan, scenario, region, place, clock, contract_warnings);
   const Plan as_asked = as_verified(plan, verified);
   const ExactFlights flights(as_asked);
 
@@ -177,6 +178,7 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   std::vector<Finding> found = findings_of(plan, flown, verified);
   RunResult result{
       false, plan_summary(scenario, plan), {}, warnings_of(scenario, map, plan, flown, verified)};
+  for (std::string& warning : contract_warnings) result.warnings.push_back(std::move(warning));
   if (under_contract) {
     for (Finding& finding : findings(plan, *under_contract)) found.push_back(std::move(finding));
     if (auto warning = limit_warning(*under_contract)) result.warnings.push_back(*warning);
