@@ -456,7 +456,10 @@ void Behaviours::meet_part(const Turning& set, double step, Cell part, const Sha
     };
     if (depth[side] <= skin + blur && outwards(set.clock) >= -0x1p-40 &&
         outwards(end) >= -0x1p-40) {
-      met_.push_back({part, true});
+      // There they are followed, unless they move along the side, so that the part beyond says the
+      // same of this one, or touch an obstacle from farther away than it tells of.
+      const bool clearly = std::max(outwards(set.clock), outwards(end)) > 0x1p-30;
+      met_.push_back({part, !clearly || kind_of(part.beyond(side)) != ordinary});
       return;
     }
   }
@@ -484,9 +487,10 @@ void Behaviours::meet_part(const Turning& set, double step, Cell part, const Sha
 /// parts. False: nothing is left.
 bool Behaviours::part_from(Turning& set) {
   const bool none_lost = std::all_of(met_.begin(), met_.end(), [&](const Met& m) {
-    return m.stays || clipped(set.at, box_of(m.part).grown(-touch)).empty();
+    return m.stays || clipped(set.at, box_of(m.part).grown(-skin - blur)).empty();
   });
-  if (none_lost || waiting_.size() > few_waiting) return true;
+  if (none_lost) return true;
+  const bool many = waiting_.size() > few_waiting;  // then they stay one set
   const Shape whole = set.at;
   bool first = true;
   for (std::size_t i = 0; i < met_.size();) {
@@ -498,10 +502,10 @@ bool Behaviours::part_from(Turning& set) {
       }
       Box run = box_of(met_[i].part);
       run.x1 = met_[next - 1].part.x + 1.0;
-      const Shape left = clipped(whole, run.grown(touch));
+      const Shape left = clipped(whole, run.grown(skin + blur));
       if (!left.empty()) {
-        if (!first) waiting_.push_back(set);
-        set.at = left;
+        if (!first && !many) waiting_.push_back(set);
+        set.at = first || !many ? left : hull(set.at, left);
         set.joining.clear();
         set.joined = set.clock;
         first = false;

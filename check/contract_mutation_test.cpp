@@ -31,6 +31,7 @@
 #include <fstream>
 #include <limits>
 #include <numbers>
+#include <random>
 
 #include "check/proof.hpp"
 #include "check/testing/taken_apart.hpp"
@@ -114,6 +115,36 @@ class ContractMutation : public testing::Test {
 };
 fs::path ContractMutation::folder_;
 std::string ContractMutation::good_;
+
+TEST_F(ContractMutation, WhateverTheProverProvesIsAccepted) {
+  // Obstacles that meet at corners, narrow arcs side by side, one radius, almost no error.
+  for (int round = 0; round < 5; ++round) {
+    std::mt19937_64 random(static_cast<unsigned>(round));
+    const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    fairway::Plan plan = a_plan(0.05 * round);
+    for (std::size_t i = 0; i < plan.grid.size(); ++i) {
+      if (plan.region[i] == fairway::Region::goal) continue;
+      if (below(8) == 0) plan.region[i] = fairway::Region::obstacle;
+      const fairway::Cell c = plan.grid.cell_at(i);
+      if (round % 2 == 0 && c.ix > 9) {
+        plan.heading_rad[i] = static_cast<float>(c.ix % 2 == 0 ? 1.5708 : 1.5);
+      }
+    }
+    fairway::VehicleContract contract = a_contract();
+    if (round % 4 < 2) contract.command_error_m = 0.0;
+    if (round % 4 != 1) contract.heading_error_rad = 0.0001;
+    if (round % 3 == 0) contract.turn_radius_m = {20.0, 20.0};
+    fairway::ContractVerifyOptions options;
+    options.parts_per_cell = 1 + round % 3;
+    options.samples = 1;
+    options.find_witnesses = false;
+    const auto made = fairway::verify_contract(plan, "plan", fairway::RegionOfInterest{}, contract,
+                                               options, [](const std::string&) {});
+    write_contract_certificate(made.certificate, folder_ / "made", fairway::Existing::replace);
+    nlohmann::ordered_json report;
+    EXPECT_EQ(judge(folder_ / "made", "", 0, report), "") << "round " << round;
+  }
+}
 
 TEST_F(ContractMutation, TheCertificateIsAcceptedWithItsPlanAndNoOther) {
   EXPECT_EQ(refusal(good_), "");

@@ -112,7 +112,8 @@ ContractSurvey survey(const Flow& flow, const std::vector<bool>& is_free, const 
   for (std::size_t i = 0; i < grid.size(); ++i) cells += flow.kind[i] == CellKind::ordinary ? 1 : 0;
   ContractSurvey made;
   if (cells == 0) return made;
-  const std::size_t per_cell = (options.samples + cells - 1) / cells;
+  constexpr std::size_t fewest = 1000;  // fewer say nothing of shares, and the checker refuses them
+  const std::size_t per_cell = (std::max(options.samples, fewest) + cells - 1) / cells;
   std::vector<Tally> rows(static_cast<std::size_t>(grid.ny));
   const Surveyor surveyor(flow, parts, verdicts, prover, speed_least_mps);
   for_ranges(rows.size(), 4, [&](std::size_t a, std::size_t b) {

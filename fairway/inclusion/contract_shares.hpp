@@ -44,7 +44,7 @@ struct ContractSurvey {
 };
 
 struct SurveyOptions {
-  std::size_t samples = 40000;  ///< at least one in each cell
+  std::size_t samples = 40000;  ///< at least 1000, and one in each cell
   std::uint64_t seed = 1;
   std::size_t most_chokes = 20;
 };

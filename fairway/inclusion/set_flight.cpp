@@ -152,9 +152,7 @@ void SetFlight::start(PartPlace part, const ArrivingSet& arriving, const Heading
 }
 
 void SetFlight::touch(const ConvexSet& set) {
-  for_parts(parts_, set, [&](PartPlace, PartKind kind, const ConvexSet&) {
-    if (kind == PartKind::obstacle || kind == PartKind::outside) ends_there(kind);
-  });
+  for_parts(parts_, set, [&](PartPlace, PartKind kind, const ConvexSet&) { ends_there(kind); });
 }
 
 void SetFlight::finish() {

@@ -50,7 +50,7 @@ class SetFlight {
   /// `from`: the arc of commands before, null when no side can be held.
   void start(PartPlace part, const ArrivingSet& arriving, const HeadingArc* from);
   void finish();
-  /// Ends what touches an obstacle or the outside at the start.
+  /// Tells of all ends that the set touches at the start.
   void touch(const ConvexSet& set);
 
  private:
