@@ -12,11 +12,12 @@
 namespace fairway {
 namespace {
 
-/// "command_error_m 6 there, 5 now, heading_error_rad ...".
+/// "command_error_m is 6.0 there and 5.0 now, ...".
 std::string contract_difference(const VehicleContract& earlier, const VehicleContract& now) {
   const nlohmann::json there = json_of(earlier);
+  const nlohmann::json here = json_of(now);
   std::string words;
-  for (const auto& [key, value] : json_of(now).items()) {
+  for (const auto& [key, value] : here.items()) {
     if (there[key] == value) continue;
     words += fmt::format("{}{} is {} there and {} now", words.empty() ? "" : ", ", key,
                          there[key].dump(), value.dump());
@@ -29,22 +30,23 @@ std::string plan_difference(const ContractCertificate& earlier, const ContractCe
   const Grid& a = earlier.grid;
   const Grid& b = now.grid;
   if (a.nx != b.nx || a.ny != b.ny) {
-    return fmt::format("a different plan, of {} x {} cells, not {} x {}", a.nx, a.ny, b.nx, b.ny);
+    return fmt::format("is of a different plan, of {} x {} cells, not {} x {}", a.nx, a.ny, b.nx,
+                       b.ny);
   }
   if (a.x0_m != b.x0_m || a.y0_m != b.y0_m || a.cell_m != b.cell_m) {
-    return "a different plan: its grid lies elsewhere, or has cells of another size";
+    return "is of a different plan: its grid lies elsewhere, or has cells of another size";
   }
-  if (earlier.plan.region != now.plan.region) return "a different plan: its regions differ";
+  if (earlier.plan.region != now.plan.region) return "is of a different plan: its regions differ";
   if (earlier.plan.heading_rad != now.plan.heading_rad) {
-    return "a different plan: its commands differ";
+    return "is of a different plan: its commands differ";
   }
-  if (earlier.plan.cost_m != now.plan.cost_m) return "a different plan: its costs differ";
+  if (earlier.plan.cost_m != now.plan.cost_m) return "is of a different plan: its costs differ";
   if (earlier.vehicle != now.vehicle) {
-    return fmt::format("another vehicle, of turning radius {:g} m and {:g} m/s",
+    return fmt::format("is of another vehicle, of turning radius {:g} m and {:g} m/s",
                        earlier.vehicle.turn_radius_m, earlier.vehicle.speed_mps);
   }
   if (earlier.frame.value_or(Frame{}) != now.frame.value_or(Frame{})) {
-    return "a plan that lies elsewhere: its frame differs";
+    return "is of a plan that lies elsewhere: its frame differs";
   }
   return {};
 }
@@ -66,13 +68,13 @@ bool is_all(const ContractVerdicts& v, std::size_t section, std::uint32_t begin,
 
 std::string difference(const ContractCertificate& earlier, const ContractCertificate& now) {
   if (std::string of_plan = plan_difference(earlier, now); !of_plan.empty()) return of_plan;
-  if (earlier.kind != now.kind) return "another region of interest (--region)";
+  if (earlier.kind != now.kind) return "is about another region of interest (--region)";
   if (earlier.contract != now.contract) {
-    return "another contract: " + contract_difference(earlier.contract, now.contract);
+    return "is of another contract: " + contract_difference(earlier.contract, now.contract);
   }
   if (earlier.parts_per_cell != now.parts_per_cell) {
-    return fmt::format("{} parts along the side of a cell, not {}: --parts {} continues it",
-                       earlier.parts_per_cell, now.parts_per_cell, earlier.parts_per_cell);
+    return fmt::format("was proved with --parts {}, not {}", earlier.parts_per_cell,
+                       now.parts_per_cell);
   }
   return {};
 }
@@ -80,7 +82,7 @@ std::string difference(const ContractCertificate& earlier, const ContractCertifi
 void require_same_proof(const EarlierContractProof& earlier, const ContractCertificate& now) {
   const std::string other = difference(earlier.certificate, now);
   if (!other.empty()) {
-    throw InputError(earlier.where, "is about " + other + "; cannot resume from it");
+    throw InputError(earlier.where, other + "; cannot resume from it");
   }
 }
 

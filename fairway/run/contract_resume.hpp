@@ -17,8 +17,8 @@ struct EarlierContractProof {
   std::string where;
 };
 
-/// What the earlier certificate is about that `now` is not, in words; empty when they are of the
-/// same proof.
+/// What the earlier certificate is that `now` is not: "is of another contract: ..."; empty when
+/// they are of the same proof.
 [[nodiscard]] std::string difference(const ContractCertificate& earlier,
                                      const ContractCertificate& now);
 

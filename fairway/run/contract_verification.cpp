@@ -141,11 +141,12 @@ int usual_parts_per_cell(const VehicleContract& contract, double cell_m) {
   return rho >= 0.1 * cell_m ? 2 : 4;
 }
 
-ContractVerification verify_contract(
-    const Plan& plan, const std::string& where, const RegionOfInterest& region,
-    const VehicleContract& contract, const ContractVerifyOptions& options,
-    const std::function<void(const std::string& doing)>& progress,
-    const EarlierContractProof* earlier) {
+ContractVerification verify_contract(const Plan& plan, const std::string& where,
+                                     const RegionOfInterest& region,
+                                     const VehicleContract& contract,
+                                     const ContractVerifyOptions& options,
+                                     const std::function<void(const std::string& doing)>& progress,
+                                     const EarlierContractProof* earlier) {
   if (!(plan.grid.cell_m < plan.vehicle.turn_radius_m)) {
     throw InputError(
         where, fmt::format("its cells of {:g} m are not smaller than the turning radius of {:g} m, "
@@ -233,6 +234,21 @@ std::vector<Finding> findings(const Plan& plan, const ContractVerification& made
                      "are proved to reach the " + goal});
   }
   return found;
+}
+
+std::optional<std::string> limit_warning(const ContractVerification& made) {
+  if (made.stopped_by_limit) {
+    return "The proof under the contract stopped at its limit of time or memory: raise the limit, "
+           "or a share of the states stays undecided.";
+  }
+  if (made.searched_states == made.undecided_states) return std::nullopt;
+  return fmt::format(
+      "The limit of time left no time to search for behaviours that fail from all undecided "
+      "states: "
+      "{}.",
+      made.searched ? fmt::format("the share at risk is that of {} of {}",
+                                  grouped(made.searched_states), grouped(made.undecided_states))
+                    : "which of them are at risk is not known");
 }
 
 std::string contract_notes(const ContractVerification& made) {

@@ -64,6 +64,9 @@ struct ContractVerification {
 /// The first line says how many of all states reach, whatever the vehicle does within the contract.
 [[nodiscard]] std::vector<Finding> findings(const Plan& plan, const ContractVerification& made);
 
+/// That a limit ended the proof, or the search for behaviours that fail.
+[[nodiscard]] std::optional<std::string> limit_warning(const ContractVerification& made);
+
 /// What was assumed, and the places that what is unproved waits for.
 [[nodiscard]] std::string contract_notes(const ContractVerification& made);
 
