@@ -102,9 +102,9 @@ class ContractResume(unittest.TestCase):
         self.assertEqual(again["contract"]["command_error_m"], 1.0)
 
     def test_parts_are_those_of_the_earlier_proof(self):
-        self.verify(0, "plain", "--contract", "c.toml", "--parts", "2", "-o", "fine.cert")
-        self.verify(0, "plain", "--resume", "fine.cert", "-o", "fine_on.cert")
-        self.assertEqual(self.summary("fine_on")["parts_per_cell"], 2)
+        self.verify(0, "plain", "--contract", "c.toml", "--parts", "1", "-o", "coarse.cert")
+        self.verify(0, "plain", "--resume", "coarse.cert", "-o", "coarse_on.cert")
+        self.assertEqual(self.summary("coarse_on")["parts_per_cell"], 1)
 
     def test_a_proof_of_something_else_is_refused_by_what_differs(self):
         (self.folder / "wider.toml").write_text(CONTRACT.replace("0.03", "0.05"))
@@ -114,7 +114,7 @@ class ContractResume(unittest.TestCase):
                 ("another contract: heading_error_rad is 0.03 there and 0.05 now",
                  ("plain", "--contract", "wider.toml", "--resume", "part.cert")),
                 ("another region of interest", ("plain", "--resume", "part.cert", "--region", "0,0,40,40")),
-                ("was proved with --parts 1, not 3", ("plain", "--resume", "part.cert", "--parts", "3")),
+                ("was proved with --parts 2, not 3", ("plain", "--resume", "part.cert", "--parts", "3")),
                 ("add --method certified", ("kept", "--resume", "exact.cert")),
                 ("leave out --method certified", ("kept", "--method", "certified", "--resume", "part.cert")),
                 ("is a plan", ("kept", "--resume", "plain")),

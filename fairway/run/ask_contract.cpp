@@ -9,6 +9,7 @@
 #include "fairway/behaviour/find_witness.hpp"
 #include "fairway/behaviour/witness_csv.hpp"
 #include "fairway/inclusion/contract_lookup.hpp"
+#include "fairway/run/ask_certificate.hpp"
 #include "fairway/vehicle/filled_commands.hpp"
 
 namespace fairway {
@@ -53,6 +54,20 @@ std::vector<ContractReply> ask(const ContractCertificate& certificate,
     }
   });
   return replies;
+}
+
+std::vector<ContractLayer> contract_layers(const ContractCertificate& certificate,
+                                           std::span<const Heading> headings) {
+  std::vector<ContractLayer> layers;
+  for (const Heading heading : headings) {
+    ContractLayer& layer = layers.emplace_back();
+    layer.heading = heading;
+    for (const ContractReply& reply :
+         ask(certificate, states_asked_at(certificate.grid, heading))) {
+      layer.code.push_back(reply.witness ? at_risk_code : static_cast<std::uint8_t>(reply.verdict));
+    }
+  }
+  return layers;
 }
 
 std::string witness_csv(const ContractCertificate& certificate, const BehaviourFlight& witness) {

@@ -1,6 +1,7 @@
 #include "fairway/run/contract_resume.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <vector>
 
 #include <fmt/format.h>
@@ -84,6 +85,17 @@ void require_same_proof(const EarlierContractProof& earlier, const ContractCerti
   if (!other.empty()) {
     throw InputError(earlier.where, other + "; cannot resume from it");
   }
+}
+
+int finest_level(const ContractVerdicts& v) {
+  std::uint32_t shortest = ~std::uint32_t{0};  // less one, so that a whole side fits
+  for (std::size_t s = 0; s + 1 < v.first.size(); ++s) {
+    for (std::size_t k = v.first[s]; k < v.first[s + 1]; ++k) {
+      const std::uint32_t end = k + 1 < v.first[s + 1] ? v.begin[k + 1] : 0U;
+      shortest = std::min(shortest, end - v.begin[k] - 1U);
+    }
+  }
+  return std::countl_zero(shortest);
 }
 
 Resumed taken_over(const EarlierContractProof& earlier, const ContractVerdicts& now, bool in_time) {

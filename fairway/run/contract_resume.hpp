@@ -25,6 +25,9 @@ struct EarlierContractProof {
 /// Throws InputError{earlier.where, ...} that names what differs.
 void require_same_proof(const EarlierContractProof& earlier, const ContractCertificate& now);
 
+/// The level of the shortest leaf: it is a side / 2^level long, or longer than the next.
+[[nodiscard]] int finest_level(const ContractVerdicts& verdicts);
+
 /// What became of the earlier leaves that had a verdict: of how many it does not hold any more.
 [[nodiscard]] Resumed taken_over(const EarlierContractProof& earlier, const ContractVerdicts& now,
                                  bool in_time);

@@ -1,6 +1,7 @@
 #include "fairway/run/contract_verification.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -171,6 +172,12 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
   limits.memory_bytes =
       static_cast<std::size_t>(options.limits.memory_limit_mb.value_or(0.0) * 1e6);
   limits.go_on = [&] { return watch.is_within(search ? share_of_the_proof * limit_s : limit_s); };
+  if (earlier != nullptr) {
+    // One finer than before, down to the finest that leaves are cut to.
+    constexpr int finest = std::bit_width(side_units) - 1;
+    const int next = finest_level(earlier->certificate.verdicts) + 1;
+    limits.last_level = std::clamp(next, limits.last_level, finest);
+  }
   const Parts parts = c.parts();
   InclusionProver prover(parts, limits);
   if (earlier != nullptr) prover.start_from(earlier->certificate.verdicts);
