@@ -157,6 +157,40 @@ class ContractResume(unittest.TestCase):
         self.run_there(0, "simulate", "plain", "--states", "f.csv", "--quiet")
         self.assertIn("at risk: may collide", (self.folder / "pictures/counterexamples.svg").read_text())
 
+    def test_a_raster_has_what_queries_say(self):
+        report = json.loads(self.run_there(0, "--json", "export", "whole.cert", "-o", "v.tif", "--heading", "90deg").stdout)
+        self.assertEqual(report["of"], "contract verdicts")
+        self.assertTrue((self.folder / "v.tif").is_file())
+        if shutil.which("gdalinfo"):
+            told = subprocess.run(["gdalinfo", "-hist", self.folder / "v.tif"], capture_output=True, text=True).stdout
+            self.assertIn("5 at_risk", told)
+            self.assertIn("every vehicle there that keeps the contract", told)
+
+    def test_draw_and_info_know_both_kinds(self):
+        self.run_there(0, "draw", "whole.cert", "-o", "drawn.svg")
+        self.assertIn("under the contract", (self.folder / "drawn.svg").read_text())
+        told = {}
+        for name, kind in (("plain", "plan"), ("exact.cert", "certificate"), ("whole.cert", "contract_certificate")):
+            told[kind] = json.loads(self.run_there(0, "info", name, "--json").stdout)
+            self.assertEqual(told[kind]["kind"], kind)
+            self.assertEqual(told[kind]["cells"], told["plan"]["cells"])
+            self.assertEqual(told[kind]["vehicle"], {"speed_mps": 10.0, "turn_radius_m": 12.0})
+        self.assertNotIn("volume_fraction", told["plan"])
+        self.assertEqual(told["contract_certificate"]["volume_fraction"], self.summary("whole")["volume_fraction"])
+        self.assertEqual(told["contract_certificate"]["contract"]["turn_radius_m"], [11.0, 13.0])
+        self.assertIsNone(told["certificate"]["contract"])
+        self.assertEqual(told["certificate"]["region_of_interest"], "goal")
+        words = self.run_there(0, "info", "whole.cert", "-o", "info.png").stdout
+        self.assertIn("holds for every vehicle that keeps the contract", words)
+        self.assertRegex(words, r"of all states +\d+ % reach")
+        self.assertIn("the command of a place within 1 m", words)
+        self.assertTrue((self.folder / "info.png").is_file())
+        self.assertIn("only --output goes with", self.run_there(65, "info", "plain", "--cell", "2").stderr)
+        cut = self.folder / "cut.cert"
+        cut.write_bytes((self.folder / "whole.cert").read_bytes()[:-1])
+        self.run_there(65, "info", "cut.cert")
+        cut.unlink()
+
     def test_a_contract_too_wide_for_every_cell_is_refused(self):
         (self.folder / "wild.toml").write_text(CONTRACT.replace("command_error_m = 1.0", "command_error_m = 5000.0"))
         before = sorted(self.folder.iterdir())
