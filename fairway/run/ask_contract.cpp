@@ -1,7 +1,6 @@
 #include "fairway/run/ask_contract.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "fairway/base/parallel.hpp"
 #include "fairway/behaviour/behaviour_choices.hpp"
@@ -13,32 +12,15 @@
 #include "fairway/vehicle/filled_commands.hpp"
 
 namespace fairway {
-namespace {
-
-/// So far outside, numbers of parts no longer fit.
-bool is_far(const Grid& grid, Vec2 p) {
-  const double far = 1e6 * grid.cell_m;
-  return std::abs(p.x - grid.x0_m) > far || std::abs(p.y - grid.y0_m) > far;
-}
-
-}  // namespace
-
 std::vector<ContractReply> ask(const ContractCertificate& certificate,
                                std::span<const State> states) {
   const Parts parts = certificate.parts();
-  const Grid& grid = certificate.grid;
   std::vector<ContractReply> replies(states.size());
   for_ranges(states.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Vec2 p = states[i].position_m;
-      if (is_far(grid, p)) {
-        replies[i].verdict = Verdict::leave;
-        continue;
-      }
-      const Vec2 place{(p.x - grid.x0_m) / parts.part_m(), (p.y - grid.y0_m) / parts.part_m()};
-      const ContractAnswer answer =
-          contract_answer(parts, certificate.verdicts, certificate.least_speed_mps(), place,
-                          states[i].heading.rad());
+      const ContractAnswer answer = contract_answer(certificate.grid, parts, certificate.verdicts,
+                                                    certificate.least_speed_mps(),
+                                                    states[i].position_m, states[i].heading.rad());
       replies[i].verdict = answer.verdict;
       replies[i].time_bound_s = answer.worst_time_s;
     }
