@@ -13,7 +13,7 @@ namespace fairway {
 
 struct ProductInfo {
   std::string words;      ///< lines in two columns
-  nlohmann::json report;  ///< docs/formats.md, "info"
+  nlohmann::json report;  ///< "kind", "cells", "vehicle", ...; shares as in summary.json
 };
 
 /// Reads the whole file, as whoever uses it does. Throws InputError when it is damaged. Shares are
