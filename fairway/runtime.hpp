@@ -14,6 +14,10 @@
 //     const fairway::runtime::CommandField commands(flow.grid, flow.heading_rad);
 //     fairway::runtime::TurnSide side;
 //
+// What is proved under a contract, from a contract certificate, is for a class of its own to
+// answer, which takes memory and is part of the library: ContractCertificate,
+// fairway/contract_runtime.hpp. A contract certificate is not a Certificate.
+//
 // open() reads the header like every other reader, and checks that every array is present and
 // fits, so that no query can read out of bounds. It neither checks digests nor proves anything:
 // `fairway check` does, once, on the ground. Properties that always hold:
@@ -44,7 +48,8 @@ enum class Status : std::uint8_t {
   ok,
   too_short,        ///< not even a header
   not_certificate,  ///< an array is missing, or has another type
-  misfit            ///< sizes, offsets or numbers do not match
+  misfit,           ///< sizes, offsets or numbers do not match
+  no_memory         ///< of a ContractCertificate alone
 };
 
 struct Answer {

@@ -1,4 +1,5 @@
-// fairway export: a plan, the verdicts of a certificate or the samples of a bitmap, as GeoTIFF.
+// fairway export: a plan, the verdicts of a certificate (of either kind) or the samples of a
+// bitmap, as GeoTIFF.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -12,10 +13,12 @@
 #include "fairway/base/error.hpp"
 #include "fairway/bitmap/bitmap_file.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/certificate/contract_certificate_file.hpp"
 #include "fairway/exchange/plan_rasters.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/run/ask_bitmap.hpp"
 #include "fairway/run/ask_certificate.hpp"
+#include "fairway/run/ask_contract.hpp"
 #include "fairway/run/product_file.hpp"
 
 namespace fairway {
@@ -72,6 +75,14 @@ Exported export_product(const ExportArguments& a, const std::vector<Heading>& he
     write_verdict_raster(certificate.grid, frame, verdict_layers(certificate, headings), a.output,
                          existing);
     return {"verdicts", layers_words("the verdicts", headings.size()), frame};
+  }
+  if (kind == ProductKind::contract_certificate) {
+    const ContractCertificate certificate = read_contract_certificate(a.product);
+    const Frame frame = certificate.frame.value_or(Frame{});
+    write_contract_raster(certificate.grid, frame, contract_layers(certificate, headings), a.output,
+                          existing);
+    return {"contract verdicts", layers_words("the verdicts under the contract", headings.size()),
+            frame};
   }
   if (kind == ProductKind::bitmap) {
     const Bitmap bitmap = read_bitmap(a.product);
@@ -149,11 +160,12 @@ Action declare_export(CLI::App& options) {
       ->allow_extra_args(false);
   options.footer(fmt::format(
       "A plan becomes the bands heading_rad, cost_m and region; a certificate, one band of\n"
-      "verdicts for each heading: {};\n"
+      "verdicts for each heading: {},\n"
+      "and of a contract certificate {} at_risk (some milliseconds a cell that is undecided);\n"
       "a bitmap, one band of sampled answers for each heading: 0 undecided, 1 sampled_reach,\n"
       "2 sampled_other. QGIS shows them all at the map's place.\n"
       "Example: fairway export out/demo/plan.safetensors -o demo.tif",
-      verdict_codes()));
+      verdict_codes(), at_risk_code));
   return [arguments](const Session& session) { return export_command(*arguments, session); };
 }
 

@@ -1,4 +1,4 @@
-// fairway info: describes a map, before there is a mission.
+// fairway info: describes a map, before there is a mission, or a product.
 #include <filesystem>
 #include <memory>
 
@@ -6,7 +6,11 @@
 #include "fairway/app/command.hpp"
 #include "fairway/app/map_arguments.hpp"
 #include "fairway/app/places.hpp"
+#include "fairway/base/error.hpp"
+#include "fairway/base/file_kind.hpp"
+#include "fairway/base/mapped_file.hpp"
 #include "fairway/run/map_survey.hpp"
+#include "fairway/run/product_info.hpp"
 #include "fairway/run/product_picture.hpp"
 
 namespace fairway {
@@ -19,8 +23,33 @@ struct InfoArguments {
   fs::path picture;
 };
 
+bool is_product(const fs::path& file) {
+  if (!fs::is_regular_file(file)) return false;
+  const MappedFile mapped(file);
+  const FileKind kind = kind_of_bytes(mapped.bytes());
+  return kind == FileKind::plan || kind == FileKind::certificate ||
+         kind == FileKind::contract_certificate || kind == FileKind::bitmap;
+}
+
+void describe_product_to(const InfoArguments& a, const Session& session) {
+  const MapArguments& m = a.map;
+  if (m.cell_m || m.resolution_m || m.altitude_m || m.turn_radius_m || !m.inclusion.empty()) {
+    throw InputError(m.file.string(),
+                     "is no map: of the options only --output goes with a plan or a certificate");
+  }
+  if (!a.picture.empty()) {
+    write_picture(picture_of_product(m.file).picture, a.picture, session.existing());
+  }
+  const ProductInfo info = describe_product(m.file, product_kind(m.file));
+  session.tell(info.report, info.words);
+}
+
 int info_command(const InfoArguments& a, const Session& session) {
   require_places({a.picture}, {a.map.file}, session.existing());
+  if (is_product(a.map.file)) {
+    describe_product_to(a, session);
+    return exit_done;
+  }
   MapRequest request = a.map.request();
   constexpr int cells_across = 500;
   if (!a.map.cell_m) request.cell_m = sensible_cell_m(request, cells_across);
@@ -42,10 +71,13 @@ Action declare_info(CLI::App& options) {
   auto arguments = std::make_shared<InfoArguments>();
   InfoArguments& a = *arguments;
   declare_map(options, a.map);
-  options.add_option("-o,--output", a.picture, "draw the map, .svg or .png")
+  options
+      .add_option("-o,--output", a.picture, "draw the map, the plan or the verdicts, .svg or .png")
       ->check(picture_argument())
       ->type_name("PICTURE");
   options.footer(
+      "Of a plan, a certificate (of either kind) or a bitmap it tells size, vehicle, contract,\n"
+      "region and the shares stored.\n"
       "With --turn-radius, cells in the buffer of such a vehicle do not count as free.\n"
       "Example: fairway info demo/basin.yaml -o basin.png");
   return [arguments](const Session& session) { return info_command(*arguments, session); };

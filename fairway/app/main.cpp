@@ -51,7 +51,7 @@ constexpr Command commands[] = {
     {"contract", "state what the vehicle keeps, from its numbers or its flight logs",
      declare_contract, true},
     {"view", "serve the interactive page of a run on this machine", declare_view, false},
-    {"info", "describe a map: its size, its free and connected parts, its largest clearance",
+    {"info", "describe a map (size, free and connected parts, clearance), a plan or a certificate",
      declare_info, true},
     {"init", "write a first scenario for a map, ready to run", declare_init, true},
 };

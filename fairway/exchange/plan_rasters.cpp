@@ -68,6 +68,21 @@ void write_verdict_raster(const Grid& grid, const Frame& frame,
   write_geotiff(grid, frame, bands, path, existing);
 }
 
+void write_contract_raster(const Grid& grid, const Frame& frame,
+                           std::span<const ContractLayer> layers, const std::filesystem::path& path,
+                           Existing existing) {
+  require(!layers.empty(), "a raster of verdicts has a heading");
+  const std::string meaning = fmt::format(
+      "what is proved for every vehicle there that keeps the contract: {}; {} at_risk: one that "
+      "fails is known",
+      codes_text<Verdict>(verdict_count), at_risk_code);
+  std::vector<RasterBand> bands;
+  for (const ContractLayer& layer : layers) {
+    bands.push_back(band_of("verdict", layer.heading, meaning, layer.code));
+  }
+  write_geotiff(grid, frame, bands, path, existing);
+}
+
 void write_sampled_raster(const Grid& grid, const Frame& frame,
                           std::span<const SampledLayer> layers, const std::filesystem::path& path,
                           Existing existing) {

@@ -1,6 +1,7 @@
 // Plans, verdicts and bitmaps as GeoTIFF for GIS programs.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <vector>
@@ -29,6 +30,21 @@ struct VerdictLayer {
 void write_verdict_raster(const Grid& grid, const Frame& frame,
                           std::span<const VerdictLayer> layers, const std::filesystem::path& path,
                           Existing existing);
+
+/// The code of `at_risk` in rasters, after those of Verdict.
+inline constexpr std::uint8_t at_risk_code = verdict_count;
+
+/// What is known of a grid under a contract at one heading, [iy][ix]: Verdict codes, or
+/// at_risk_code.
+struct ContractLayer {
+  Heading heading;
+  std::vector<std::uint8_t> code;
+};
+
+/// The same under a contract: a verdict is that of every behaviour within it.
+void write_contract_raster(const Grid& grid, const Frame& frame,
+                           std::span<const ContractLayer> layers, const std::filesystem::path& path,
+                           Existing existing);
 
 /// A bitmap's answers for a grid at one heading, [iy][ix].
 struct SampledLayer {

@@ -14,7 +14,7 @@ unsigned bit(std::uint8_t verdict) { return 1U << verdict; }
 
 }  // namespace
 
-ContractAnswer contract_answer(const Parts& parts, const ContractVerdicts& verdicts,
+ContractAnswer contract_answer(const Parts& parts, const ContractVerdictsView& verdicts,
                                double speed_least_mps, Vec2 place, double heading_rad,
                                const BehaviourOptions& options) {
   const BehaviourImage image = image_of_state(parts, place, heading_rad, options);
@@ -52,6 +52,21 @@ ContractAnswer contract_answer(const Parts& parts, const ContractVerdicts& verdi
     answer.worst_time_s = std::numeric_limits<double>::infinity();
   }
   return answer;
+}
+
+ContractAnswer contract_answer(const Grid& grid, const Parts& parts,
+                               const ContractVerdictsView& verdicts, double speed_least_mps,
+                               Vec2 position_m, double heading_rad) {
+  const Vec2 off_m = position_m - Vec2{grid.x0_m, grid.y0_m};
+  const double far_m = 1e6 * grid.cell_m;  // so far outside, numbers of parts no longer fit
+  if (std::abs(off_m.x) > far_m || std::abs(off_m.y) > far_m) {
+    ContractAnswer left;
+    left.verdict = Verdict::leave;
+    left.possible = static_cast<std::uint8_t>(bit(static_cast<std::uint8_t>(Verdict::leave)));
+    return left;
+  }
+  const Vec2 place{off_m.x / parts.part_m(), off_m.y / parts.part_m()};
+  return contract_answer(parts, verdicts, speed_least_mps, place, heading_rad);
 }
 
 }  // namespace fairway

@@ -1,6 +1,7 @@
 // What is proved of single states under a contract.
 #pragma once
 
+#include "fairway/base/grid.hpp"
 #include "fairway/base/vec2.hpp"
 #include "fairway/inclusion/behaviour_flight.hpp"
 #include "fairway/inclusion/contract_verdicts.hpp"
@@ -22,8 +23,15 @@ struct ContractAnswer {
 };
 
 /// `place`: in parts; no side is held. What holds for every behaviour within the contract.
-[[nodiscard]] ContractAnswer contract_answer(const Parts& parts, const ContractVerdicts& verdicts,
+[[nodiscard]] ContractAnswer contract_answer(const Parts& parts,
+                                             const ContractVerdictsView& verdicts,
                                              double speed_least_mps, Vec2 place, double heading_rad,
                                              const BehaviourOptions& options = {});
+
+/// The same for a state in metres, wherever it is: what lies a million cells off has left.
+[[nodiscard]] ContractAnswer contract_answer(const Grid& grid, const Parts& parts,
+                                             const ContractVerdictsView& verdicts,
+                                             double speed_least_mps, Vec2 position_m,
+                                             double heading_rad);
 
 }  // namespace fairway

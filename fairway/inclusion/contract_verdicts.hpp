@@ -19,6 +19,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "fairway/base/heading.hpp"
@@ -36,6 +37,23 @@ struct ContractVerdicts {
   std::vector<float> group_time_s;       ///< [groups]; +inf for group 0
 
   std::size_t leaves() const { return begin.size(); }
+};
+
+/// What a query needs of them, wherever it lies.
+struct ContractVerdictsView {
+  std::span<const std::uint32_t> first;
+  std::span<const std::uint32_t> begin;
+  std::span<const std::uint32_t> group;
+  std::span<const std::uint8_t> verdict;
+  std::span<const float> group_time_s;
+
+  ContractVerdictsView() = default;
+  ContractVerdictsView(const ContractVerdicts& v)  // NOLINT: a view of the same
+      : first(v.first),
+        begin(v.begin),
+        group(v.group),
+        verdict(v.verdict),
+        group_time_s(v.group_time_s) {}
 };
 
 }  // namespace fairway

@@ -84,7 +84,8 @@ CrossingGraph::Range CrossingGraph::leaves_of(std::size_t section, std::uint32_t
   return {low, end};
 }
 
-void CrossingGraph::fly(const Parts& parts, const BehaviourOptions& options) {
+void CrossingGraph::fly(const Parts& parts, const BehaviourOptions& options,
+                        const std::function<bool()>& go_on) {
   std::vector<Id> fresh;
   std::vector<std::uint32_t> section;
   for (std::size_t s = 0; s < sections(); ++s) {
@@ -101,7 +102,7 @@ void CrossingGraph::fly(const Parts& parts, const BehaviourOptions& options) {
   };
   std::vector<Flown> flown((fresh.size() + chunk - 1) / chunk);
   for_ranges(flown.size(), 1, [&](std::size_t a, std::size_t b) {
-    for (std::size_t c = a; c < b; ++c) {
+    for (std::size_t c = a; c < b && go_on(); ++c) {
       for (std::size_t k = c * chunk; k < std::min(fresh.size(), (c + 1) * chunk); ++k) {
         const Id id = fresh[k];
         Leaf& leaf = leaf_[id];

@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
 
 #include "fairway/inclusion/behaviour_flight.hpp"
+#include "fairway/inclusion/contract_verdicts.hpp"
 #include "fairway/inclusion/heading_arc.hpp"
 #include "fairway/verify/verdict.hpp"
 
@@ -93,8 +95,12 @@ class CrossingGraph {
     return leaves_of(link.section, link.lo, link.hi + 1U);
   }
 
-  /// Flies all fresh leaves.
-  void fly(const Parts& parts, const BehaviourOptions& options);
+  /// Cuts fresh leaves where those of an earlier proof of the same parts begin, too
+  /// (earlier_leaves.cpp). A hint: nothing of what was proved of them is believed.
+  void begin_as(const ContractVerdicts& earlier);
+  /// Flies all fresh leaves, for as long as `go_on` (asked by several threads at once) says so; the
+  /// others stay fresh.
+  void fly(const Parts& parts, const BehaviourOptions& options, const std::function<bool()>& go_on);
   /// Cuts these leaves in halves, which are fresh, and forgets the links of closed leaves.
   void cut(const std::vector<bool>& which);
 

@@ -171,7 +171,7 @@ bool FollowProver::measure(const std::vector<bool>& core, SizeRange speed_mps,
 std::optional<Following> FollowProver::find_core(SizeRange speed_mps) {
   std::vector<bool> stays;
   for (int level = 0;; ++level) {
-    graph_.fly(parts_, options_.limits.flight);
+    graph_.fly(parts_, options_.limits.flight, options_.limits.go_on);
     part_of_.clear();
     for (std::size_t s = 0; s < graph_.sections(); ++s) {
       for (Id id = graph_.first(s); id < graph_.first(s + 1); ++id) {

@@ -46,7 +46,7 @@ bool InclusionProver::run(const std::function<void(const InclusionLevel&)>& prog
   for (int level = limits_.first_level; level <= limits_.last_level; ++level) {
     // Within a level, until it decides next to nothing more.
     while (true) {
-      graph_.fly(parts_, limits_.flight);
+      graph_.fly(parts_, limits_.flight, limits_.go_on);
       last_ = decide_groups(parts_, graph_, groups_);
       const InclusionLevel now = level_now(level);
       progress(now);

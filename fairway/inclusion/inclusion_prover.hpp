@@ -28,7 +28,7 @@ struct InclusionLimits {
   std::size_t memory_bytes = 0;  ///< 0: none
   /// A level that decides less than this share of all sides is the last.
   double least_gain = 0.0005;
-  std::function<bool()> go_on = [] { return true; };
+  std::function<bool()> go_on = [] { return true; };  ///< asked by several threads at once
   BehaviourOptions flight;
 };
 
@@ -48,6 +48,10 @@ class InclusionProver {
   InclusionProver(const Parts& parts, const InclusionLimits& limits, CrossingGraph graph,
                   GroupRecord groups)
       : parts_(parts), limits_(limits), graph_(std::move(graph)), groups_(std::move(groups)) {}
+
+  /// Leaves begin as in an earlier proof of the same parts, whose verdicts are found again. Before
+  /// run().
+  void start_from(const ContractVerdicts& earlier) { graph_.begin_as(earlier); }
 
   /// False: a limit stopped it.
   bool run(const std::function<void(const InclusionLevel&)>& progress);

@@ -81,6 +81,7 @@ Parts::Parts(const Flow& flow, const VehicleContract& contract, int per_cell)
                                                : PartKind::ordinary;
         if (kind_[at] != PartKind::ordinary) continue;
         headings.clear();
+        std::size_t enough = 256;
         const auto [x0, x1] = cells_within(ix, ix + 1.0, grid.nx);
         const auto [y0, y1] = cells_within(iy, iy + 1.0, grid.ny);
         for (int cy = y0; cy <= y1; ++cy) {
@@ -91,6 +92,10 @@ Parts::Parts(const Flow& flow, const VehicleContract& contract, int per_cell)
             headings.push_back(
                 counted_from_zero(static_cast<double>(command[grid.index({cx, cy})])));
           }
+          // Of many cells: those so far may be too wide, and more make it wider.
+          if (headings.size() < enough) continue;
+          enough = 2 * headings.size();
+          if (smallest_arc(headings).widened(band).width_rad >= widest) break;
         }
         if (std::isnan(headings.front())) {  // no cell has a command
           kind_[at] = PartKind::wild;

@@ -1,7 +1,6 @@
 #include "fairway/run/ask_contract.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "fairway/base/parallel.hpp"
 #include "fairway/behaviour/behaviour_choices.hpp"
@@ -9,35 +8,19 @@
 #include "fairway/behaviour/find_witness.hpp"
 #include "fairway/behaviour/witness_csv.hpp"
 #include "fairway/inclusion/contract_lookup.hpp"
+#include "fairway/run/ask_certificate.hpp"
 #include "fairway/vehicle/filled_commands.hpp"
 
 namespace fairway {
-namespace {
-
-/// So far outside, numbers of parts no longer fit.
-bool is_far(const Grid& grid, Vec2 p) {
-  const double far = 1e6 * grid.cell_m;
-  return std::abs(p.x - grid.x0_m) > far || std::abs(p.y - grid.y0_m) > far;
-}
-
-}  // namespace
-
 std::vector<ContractReply> ask(const ContractCertificate& certificate,
                                std::span<const State> states) {
   const Parts parts = certificate.parts();
-  const Grid& grid = certificate.grid;
   std::vector<ContractReply> replies(states.size());
   for_ranges(states.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Vec2 p = states[i].position_m;
-      if (is_far(grid, p)) {
-        replies[i].verdict = Verdict::leave;
-        continue;
-      }
-      const Vec2 place{(p.x - grid.x0_m) / parts.part_m(), (p.y - grid.y0_m) / parts.part_m()};
-      const ContractAnswer answer =
-          contract_answer(parts, certificate.verdicts, certificate.least_speed_mps(), place,
-                          states[i].heading.rad());
+      const ContractAnswer answer = contract_answer(certificate.grid, parts, certificate.verdicts,
+                                                    certificate.least_speed_mps(),
+                                                    states[i].position_m, states[i].heading.rad());
       replies[i].verdict = answer.verdict;
       replies[i].time_bound_s = answer.worst_time_s;
     }
@@ -53,6 +36,20 @@ std::vector<ContractReply> ask(const ContractCertificate& certificate,
     }
   });
   return replies;
+}
+
+std::vector<ContractLayer> contract_layers(const ContractCertificate& certificate,
+                                           std::span<const Heading> headings) {
+  std::vector<ContractLayer> layers;
+  for (const Heading heading : headings) {
+    ContractLayer& layer = layers.emplace_back();
+    layer.heading = heading;
+    for (const ContractReply& reply :
+         ask(certificate, states_asked_at(certificate.grid, heading))) {
+      layer.code.push_back(reply.witness ? at_risk_code : static_cast<std::uint8_t>(reply.verdict));
+    }
+  }
+  return layers;
 }
 
 std::string witness_csv(const ContractCertificate& certificate, const BehaviourFlight& witness) {

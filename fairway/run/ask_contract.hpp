@@ -11,6 +11,7 @@
 
 #include "fairway/behaviour/behaviour_flight.hpp"
 #include "fairway/certificate/contract_certificate.hpp"
+#include "fairway/exchange/plan_rasters.hpp"
 #include "fairway/vehicle/vehicle.hpp"
 #include "fairway/verify/verdict.hpp"
 
@@ -28,6 +29,11 @@ struct ContractReply {
 /// Reply [i] belongs to state [i].
 [[nodiscard]] std::vector<ContractReply> ask(const ContractCertificate& certificate,
                                              std::span<const State> states);
+
+/// What is known near each cell's middle with (nearly) these headings (states_asked_at()), in an
+/// obstacle and in the goal as verdicts_at() has it.
+[[nodiscard]] std::vector<ContractLayer> contract_layers(const ContractCertificate& certificate,
+                                                         std::span<const Heading> headings);
 
 /// The flight as CSV (docs/formats.md, "Witness").
 [[nodiscard]] std::string witness_csv(const ContractCertificate& certificate,

@@ -1,19 +1,17 @@
 #include "fairway/run/contract_verification.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
-#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/share_text.hpp"
-#include "fairway/behaviour/behaviour_choices.hpp"
-#include "fairway/behaviour/failure_guide.hpp"
-#include "fairway/behaviour/find_witness.hpp"
 #include "fairway/plan/plan_digests.hpp"
+#include "fairway/run/at_risk_search.hpp"
 #include "fairway/run/contract_file.hpp"
 #include "fairway/run/contract_warning.hpp"
 #include "fairway/run/summary.hpp"
@@ -49,41 +47,73 @@ json evidence_of(const ContractVerifyOptions& options, const ContractVerificatio
                       {"undecided_sides", level.undecided_share}});
   }
   const ContractShares& s = made.survey.shares;
-  return {{"program", program_version},
-          {"options",
-           {{"time_limit_s",
-             options.limits.time_limit_s > 0.0 ? json(options.limits.time_limit_s) : json()},
-            {"memory_limit_mb",
-             options.limits.memory_limit_mb ? json(*options.limits.memory_limit_mb) : json()},
-            {"samples", options.samples},
-            {"seed", options.seed}}},
-          {"volume_fraction", shares_json(s.all)},
-          {"volume_fraction_free", shares_json(s.free)},
-          {"volume_fraction_buffer", shares_json(s.buffer)},
-          {"at_risk", made.searched ? json(s.at_risk) : json()},
-          {"at_risk_free", made.searched ? json(s.at_risk_free) : json()},
-          {"samples", s.samples},
-          {"worst_time_s", s.worst_time_s},
-          {"chokes", chokes_json(made)},
-          {"levels", std::move(levels)},
-          {"stopped_by", made.stopped_by_limit ? "limit" : "done"}};
+  json evidence = {
+      {"program", program_version},
+      {"options",
+       {{"time_limit_s",
+         options.limits.time_limit_s > 0.0 ? json(options.limits.time_limit_s) : json()},
+        {"memory_limit_mb",
+         options.limits.memory_limit_mb ? json(*options.limits.memory_limit_mb) : json()},
+        {"samples", options.samples},
+        {"seed", options.seed}}},
+      {"volume_fraction", shares_json(s.all)},
+      {"volume_fraction_free", shares_json(s.free)},
+      {"volume_fraction_buffer", shares_json(s.buffer)},
+      {"at_risk", made.searched ? json(s.at_risk) : json()},
+      {"at_risk_free", made.searched ? json(s.at_risk_free) : json()},
+      {"samples", s.samples},
+      {"worst_time_s", s.worst_time_s},
+      {"chokes", chokes_json(made)},
+      {"levels", std::move(levels)},
+      {"stopped_by", made.stopped_by_limit ? "limit" : "done"}};
+  // Only when the limit of time ended the search: of all else the share is counted.
+  if (made.searched && made.searched_states < made.undecided_states) {
+    evidence["at_risk_samples"] = made.searched_states;
+  }
+  return evidence;
 }
 
-/// A search for each thread, over what they share.
-struct WitnessTools {
-  WitnessTools(const Flow& flow, const VehicleContract& contract)
-      : choices(flow, contract), guide(choices) {}
-  BehaviourChoices choices;
-  FailureGuide guide;
+/// Seconds so far, against a limit; 0 is none.
+class Stopwatch {
+ public:
+  bool is_within(double limit_s) const {
+    const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - began_;
+    return limit_s <= 0.0 || so_far.count() < limit_s;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
-std::function<IsAtRisk()> searches(const std::shared_ptr<WitnessTools>& tools, std::uint64_t seed) {
-  return [tools, seed]() -> IsAtRisk {
-    const auto search = std::make_shared<WitnessSearch>(tools->choices, tools->guide);
-    return [tools, search, seed](const State& state) {
-      return search->find(state, {}, seed).has_value();
-    };
-  };
+/// What is to be proved, of nothing yet.
+ContractCertificate question(const Plan& plan, const RegionOfInterest& region,
+                             const VehicleContract& contract, int parts_per_cell) {
+  ContractCertificate c;
+  c.grid = plan.grid;
+  c.vehicle = plan.vehicle;
+  c.contract = contract;
+  c.parts_per_cell =
+      parts_per_cell > 0 ? parts_per_cell : usual_parts_per_cell(contract, plan.grid.cell_m);
+  c.region_of_interest = region;
+  c.heading_rad = plan.heading_rad;
+  c.region = plan.region;
+  c.kind = cell_kinds(plan.grid, plan.region, region);
+  c.plan = plan_digests(plan);
+  c.frame = plan.record.frame;
+  return c;
+}
+
+void measure(const Parts& parts, const InclusionProver& prover,
+             const ContractVerifyOptions& options, UndecidedStates& undecided,
+             ContractVerification& made) {
+  const ContractCertificate& c = made.certificate;
+  std::vector<bool> is_free(c.grid.size());
+  for (std::size_t i = 0; i < is_free.size(); ++i) is_free[i] = c.region[i] == Region::free;
+  SurveyOptions sampled;
+  sampled.samples = options.samples;
+  sampled.seed = options.seed;
+  made.survey = survey(c.flow(), is_free, parts, c.verdicts, prover, c.least_speed_mps(), sampled,
+                       undecided.gatherer());
 }
 
 double share_of(const std::array<double, verdict_count>& shares, Verdict verdict) {
@@ -112,10 +142,12 @@ int usual_parts_per_cell(const VehicleContract& contract, double cell_m) {
   return rho >= 0.1 * cell_m ? 2 : 4;
 }
 
-ContractVerification verify_contract(
-    const Plan& plan, const std::string& where, const RegionOfInterest& region,
-    const VehicleContract& contract, const ContractVerifyOptions& options,
-    const std::function<void(const std::string& doing)>& progress) {
+ContractVerification verify_contract(const Plan& plan, const std::string& where,
+                                     const RegionOfInterest& region,
+                                     const VehicleContract& contract,
+                                     const ContractVerifyOptions& options,
+                                     const std::function<void(const std::string& doing)>& progress,
+                                     const EarlierContractProof* earlier) {
   if (!(plan.grid.cell_m < plan.vehicle.turn_radius_m)) {
     throw InputError(
         where, fmt::format("its cells of {:g} m are not smaller than the turning radius of {:g} m, "
@@ -125,46 +157,51 @@ ContractVerification verify_contract(
   require_contract(contract, plan.vehicle, where + ": contract");
   ContractVerification made;
   ContractCertificate& c = made.certificate;
-  c.grid = plan.grid;
-  c.vehicle = plan.vehicle;
-  c.contract = contract;
-  c.parts_per_cell = options.parts_per_cell > 0 ? options.parts_per_cell
-                                                : usual_parts_per_cell(contract, plan.grid.cell_m);
-  c.region_of_interest = region;
-  c.heading_rad = plan.heading_rad;
-  c.region = plan.region;
-  c.kind = cell_kinds(plan.grid, plan.region, region);
-  c.plan = plan_digests(plan);
-  c.frame = plan.record.frame;
+  const int parts_asked = options.parts_per_cell == 0 && earlier
+                              ? earlier->certificate.parts_per_cell
+                              : options.parts_per_cell;
+  c = question(plan, region, contract, parts_asked);
+  if (earlier != nullptr) require_same_proof(*earlier, c);
+  // Where most states are undecided, a search in each takes too long.
+  const bool search = options.find_witnesses && wild_share(plan, contract) <= most_wild_unwarned;
 
-  const auto began = std::chrono::steady_clock::now();
+  constexpr double share_of_the_proof = 0.8;
+  const Stopwatch watch;
+  const double limit_s = options.limits.time_limit_s;
   InclusionLimits limits;
   limits.memory_bytes =
       static_cast<std::size_t>(options.limits.memory_limit_mb.value_or(0.0) * 1e6);
-  limits.go_on = [&] {
-    const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - began;
-    return options.limits.time_limit_s <= 0.0 || so_far.count() < options.limits.time_limit_s;
-  };
-  const Flow flow = c.flow();
+  limits.go_on = [&] { return watch.is_within(search ? share_of_the_proof * limit_s : limit_s); };
+  if (earlier != nullptr) {
+    // One finer than before, down to the finest that leaves are cut to.
+    constexpr int finest = std::bit_width(side_units) - 1;
+    const int next = finest_level(earlier->certificate.verdicts) + 1;
+    limits.last_level = std::clamp(next, limits.last_level, finest);
+  }
   const Parts parts = c.parts();
   InclusionProver prover(parts, limits);
+  if (earlier != nullptr) prover.start_from(earlier->certificate.verdicts);
+  bool in_time = true;  // to prove the earlier leaves again
   made.stopped_by_limit = !prover.run([&](const InclusionLevel& level) {
+    if (made.levels.empty()) in_time = limits.go_on();
     made.levels.push_back(level);
     progress(fmt::format("verifying under the contract, {:.1f} % of sides undecided",
                          100.0 * level.undecided_share));
   });
   c.verdicts = prover.verdicts(c.least_speed_mps());
+  if (earlier != nullptr) made.resumed = taken_over(*earlier, c.verdicts, in_time);
   progress("measuring shares of states");
-  std::vector<bool> is_free(plan.grid.size());
-  for (std::size_t i = 0; i < is_free.size(); ++i) is_free[i] = plan.region[i] == Region::free;
-  // Where most states are undecided, a search in each takes too long.
-  made.searched = options.find_witnesses && wild_share(plan, contract) <= most_wild_unwarned;
-  const auto tools = made.searched ? std::make_shared<WitnessTools>(flow, contract) : nullptr;
-  SurveyOptions sampled;
-  sampled.samples = options.samples;
-  sampled.seed = options.seed;
-  made.survey = survey(flow, is_free, parts, c.verdicts, prover, c.least_speed_mps(), sampled,
-                       tools ? searches(tools, options.seed) : std::function<IsAtRisk()>{});
+  UndecidedStates undecided;
+  measure(parts, prover, options, undecided, made);
+  if (search) {
+    progress("searching for behaviours that fail");
+    const std::vector<State> states = undecided.in_random_order(options.seed);
+    const RiskCount found =
+        search_for_failures(c, states, options.seed, [&] { return watch.is_within(limit_s); });
+    made.undecided_states = states.size();
+    made.searched_states = found.asked;
+    made.searched = add_at_risk(made.survey.shares, states.size(), found);
+  }
   c.evidence_json = evidence_of(options, made).dump();
   return made;
 }
@@ -204,6 +241,21 @@ std::vector<Finding> findings(const Plan& plan, const ContractVerification& made
                      "are proved to reach the " + goal});
   }
   return found;
+}
+
+std::optional<std::string> limit_warning(const ContractVerification& made) {
+  if (made.stopped_by_limit) {
+    return "The proof under the contract stopped at its limit of time or memory: raise the limit, "
+           "or a share of the states stays undecided.";
+  }
+  if (made.searched_states == made.undecided_states) return std::nullopt;
+  return fmt::format(
+      "The limit of time left no time to search for behaviours that fail from all undecided "
+      "states: "
+      "{}.",
+      made.searched ? fmt::format("the share at risk is that of {} of {}",
+                                  grouped(made.searched_states), grouped(made.undecided_states))
+                    : "which of them are at risk is not known");
 }
 
 std::string contract_notes(const ContractVerification& made) {

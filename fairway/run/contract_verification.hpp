@@ -13,6 +13,7 @@
 #include "fairway/inclusion/contract_shares.hpp"
 #include "fairway/inclusion/inclusion_prover.hpp"
 #include "fairway/plan/plan.hpp"
+#include "fairway/run/contract_resume.hpp"
 #include "fairway/run/findings.hpp"
 #include "fairway/run/verify_limits.hpp"
 #include "fairway/verify/region_of_interest.hpp"
@@ -33,14 +34,25 @@ struct ContractVerification {
   std::vector<InclusionLevel> levels;
   bool stopped_by_limit = false;
   bool searched = false;  ///< for behaviours that fail; else nothing is known to be at risk
+  /// Of the sampled states that are undecided, and how many of them were searched from.
+  std::size_t undecided_states = 0;
+  std::size_t searched_states = 0;
+  std::optional<Resumed> resumed;  ///< when it went on from an earlier one
 };
 
-/// Proves what all behaviours within `contract` do under `plan`. Throws InputError{where, ...} when
-/// the plan cannot be verified or the contract is none of its vehicle.
+/// Proves what all behaviours within `contract` do under `plan`. `earlier`: a contract certificate
+/// of the same proof, to go on cutting where it ended; all of it is proved again. Throws
+/// InputError{earlier->where, ...} when it is of another one, and InputError{where, ...} when the
+/// plan cannot be verified or the contract is none of its vehicle.
+///
+/// A limit of time holds for the proof, of which it gets at most four fifths when witnesses are
+/// searched for, and for that search. Measuring shares comes in addition: its work does not depend
+/// on how hard the proof is.
 [[nodiscard]] ContractVerification verify_contract(
     const Plan& plan, const std::string& where, const RegionOfInterest& region,
     const VehicleContract& contract, const ContractVerifyOptions& options,
-    const std::function<void(const std::string& doing)>& progress);
+    const std::function<void(const std::string& doing)>& progress,
+    const EarlierContractProof* earlier = nullptr);
 
 /// Parts along the side of a cell: the finer, the less the commands of neighbours are mixed, down
 /// to the command error, which mixes them anyway.
@@ -51,6 +63,9 @@ struct ContractVerification {
 
 /// The first line says how many of all states reach, whatever the vehicle does within the contract.
 [[nodiscard]] std::vector<Finding> findings(const Plan& plan, const ContractVerification& made);
+
+/// That a limit ended the proof, or the search for behaviours that fail.
+[[nodiscard]] std::optional<std::string> limit_warning(const ContractVerification& made);
 
 /// What was assumed, and the places that what is unproved waits for.
 [[nodiscard]] std::string contract_notes(const ContractVerification& made);

@@ -108,6 +108,10 @@ double wild_share(const Plan& plan, const VehicleContract& contract) {
                     widest_deg(contract));
 }
 
+bool is_wild_everywhere(const Plan& plan, const VehicleContract& contract) {
+  return wild_share(plan, contract) >= 1.0;
+}
+
 std::optional<std::string> contract_warning(const Plan& plan, const VehicleContract& contract) {
   const double share = wild_share(plan, contract);
   if (share <= most_wild_unwarned) return std::nullopt;

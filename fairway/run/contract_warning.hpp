@@ -19,6 +19,9 @@ namespace fairway {
 /// Share that may be wild before a warning says so.
 inline constexpr double most_wild_unwarned = 0.1;
 
+/// Whether all are: then hardly anything can be proved, and the work is not worth beginning.
+[[nodiscard]] bool is_wild_everywhere(const Plan& plan, const VehicleContract& contract);
+
 /// The warning that more are, with the command error that leaves hardly any.
 [[nodiscard]] std::optional<std::string> contract_warning(const Plan& plan,
                                                           const VehicleContract& contract);

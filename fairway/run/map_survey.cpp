@@ -59,6 +59,8 @@ std::string place_words(const MapSurvey& s, Vec2 place_m) {
          (degrees ? ", in degrees " + lat_lon_text(degrees(place_m), a_metre) : std::string());
 }
 
+}  // namespace
+
 std::string earth_words(const Frame& frame) {
   if (frame.geo) {
     return fmt::format("(0, 0) is latitude {} longitude {}; x east, y north",
@@ -68,8 +70,6 @@ std::string earth_words(const Frame& frame) {
   return frame.projected_crs ? "in a projected system; goals and states may be in degrees"
                              : "not georeferenced: metres only";
 }
-
-}  // namespace
 
 double sensible_cell_m(MapRequest request, int across) {
   request.cell_m = 1e4;

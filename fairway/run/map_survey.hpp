@@ -35,6 +35,8 @@ struct MapSurvey {
 /// With a radius, free cells are those outside its buffer at the default alpha.
 [[nodiscard]] MapSurvey survey_map(const MapRequest& request, std::optional<double> turn_radius_m);
 
+/// Where a frame lies: "not georeferenced: metres only".
+[[nodiscard]] std::string earth_words(const Frame& frame);
 [[nodiscard]] std::string survey_words(const MapSurvey& survey, const std::string& name);
 [[nodiscard]] nlohmann::json survey_json(const MapSurvey& survey);
 [[nodiscard]] Picture survey_picture(const MapSurvey& survey, const std::string& title);

@@ -21,6 +21,9 @@ ProductKind kind_of_product(const MappedFile& mapped, const std::string& where) 
   const nlohmann::json record = parse_strict_json(text->second, where + ": fairway");
   if (!record.is_object() || !record.contains("format")) return ProductKind::plan;
   if (record["format"] == "fairway-certificate") return ProductKind::certificate;
+  if (record["format"] == "fairway-contract-certificate") {
+    return ProductKind::contract_certificate;
+  }
   if (record["format"] == "fairway-bitmap") return ProductKind::bitmap;
   throw InputError(where, "is " + shown(record["format"]) + ", expected a plan or a certificate");
 }

@@ -6,7 +6,7 @@
 
 namespace fairway {
 
-enum class ProductKind : std::uint8_t { plan, certificate, bitmap };
+enum class ProductKind : std::uint8_t { plan, certificate, contract_certificate, bitmap };
 
 /// By its metadata alone; whoever reads it then checks the rest. Throws InputError for a file of
 /// another kind.

@@ -1,9 +1,11 @@
 #include "fairway/run/product_picture.hpp"
 
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/certificate/contract_certificate_file.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/report/draw_plan.hpp"
 #include "fairway/report/draw_verdicts.hpp"
+#include "fairway/run/contract_pictures.hpp"
 #include "fairway/run/product_file.hpp"
 #include "fairway/verify/sample_verdicts.hpp"
 
@@ -15,8 +17,13 @@ Picture picture_of_plan(const Plan& plan, const std::string& title) {
 
 ProductPicture picture_of_product(const std::filesystem::path& file) {
   const std::string title = file.stem().string();
-  if (product_kind(file) == ProductKind::plan) {
+  const ProductKind kind = product_kind(file);
+  if (kind == ProductKind::plan) {
     return {picture_of_plan(read_plan(file), title), "plan"};
+  }
+  if (kind == ProductKind::contract_certificate) {
+    const VerdictMap map = contract_verdict_map(read_contract_certificate(file));
+    return {draw_verdicts(map, {.title = title + ": under the contract"}), "verdicts"};
   }
   const Certificate certificate = read_certificate(file);
   const VerdictMap map = verdict_map_of(certificate.flow(), certificate.sections.view(), {});

@@ -10,6 +10,7 @@
 #include "fairway/base/share_text.hpp"
 #include "fairway/certificate/contract_certificate_file.hpp"
 #include "fairway/run/checker.hpp"
+#include "fairway/run/contract_warning.hpp"
 #include "fairway/run/products.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/run/verify_progress.hpp"
@@ -48,6 +49,12 @@ std::optional<ProvedUnderContract> prove_under_contract(const Plan& plan, const 
                                                         std::vector<std::string>& warnings) {
   const std::optional<VehicleContract>& contract = plan.record.contract;
   if (!contract || scenario.verify.method != VerifyMethod::certified) return std::nullopt;
+  if (is_wild_everywhere(plan, *contract)) {
+    // A warning about the plan has said how wide it is, and what would do.
+    warnings.push_back(
+        "Nothing was proved under the contract: it is too wide for this plan at every cell.");
+    return std::nullopt;
+  }
   const fs::path file = place / product::contract_certificate;
   ContractVerifyOptions options;
   options.limits = scenario.verify.limits;
@@ -121,9 +128,7 @@ std::string words_of(const Plan& plan, const ProvedUnderContract& proved) {
 }
 
 std::optional<std::string> limit_warning(const ProvedUnderContract& proved) {
-  if (!proved.verification.stopped_by_limit) return std::nullopt;
-  return "The proof under the contract stopped at its limit of time or memory: raise the limit, or "
-         "a share of the states stays undecided.";
+  return limit_warning(proved.verification);
 }
 
 json json_of(const ProvedUnderContract& proved) {

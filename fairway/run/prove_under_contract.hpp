@@ -23,10 +23,11 @@ struct ProvedUnderContract {
   bool checked = false;  ///< by the separate program
 };
 
-/// Nothing when the plan has no contract, or verify.method is not "certified"; else the certificate
-/// is in the folder `place`. Limits are the scenario's, for this proof alone. When the separate
-/// program refuses the certificate, there is none, nothing is claimed, and a warning says why: what
-/// is proved of the exact vehicle does not depend on it.
+/// Nothing when the plan has no contract, or verify.method is not "certified", or, with a warning,
+/// when the contract is too wide for every cell; else the certificate is in the folder `place`.
+/// Limits are the scenario's, for this proof alone. When the separate program refuses the
+/// certificate, there is none, nothing is claimed, and a warning says why: what is proved of the
+/// exact vehicle does not depend on it.
 [[nodiscard]] std::optional<ProvedUnderContract> prove_under_contract(
     const Plan& plan, const Scenario& scenario, const RegionOfInterest& region,
     const std::filesystem::path& place, StageClock& clock, std::vector<std::string>& warnings);
@@ -41,7 +42,7 @@ struct ProvedUnderContract {
 /// The same in prose.
 [[nodiscard]] std::string words_of(const Plan& plan, const ProvedUnderContract& proved);
 
-/// That a limit ended the proof.
+/// That a limit ended the proof, or the search for behaviours that fail.
 [[nodiscard]] std::optional<std::string> limit_warning(const ProvedUnderContract& proved);
 
 /// The member `contract` of summary.json.

@@ -1,5 +1,7 @@
 #include "fairway/run/verdict_pictures.hpp"
 
+#include <utility>
+
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/report/draw_flights.hpp"
 #include "fairway/report/draw_verdicts.hpp"
@@ -20,8 +22,12 @@ std::string titled(const std::string& title, const char* what) {
 }  // namespace
 
 Plan as_verified(Plan plan, const Certificate& certificate) {
+  return as_verified(std::move(plan), certificate.kind);
+}
+
+Plan as_verified(Plan plan, const std::vector<CellKind>& kind) {
   for (std::size_t i = 0; i < plan.region.size(); ++i) {
-    if (certificate.kind[i] == CellKind::target) {
+    if (kind[i] == CellKind::target) {
       plan.region[i] = Region::goal;
     } else if (plan.region[i] == Region::goal) {
       plan.region[i] = Region::free;

@@ -20,6 +20,8 @@ namespace fairway {
 /// The plan with the certificate's target as its goal: what its verdicts are about. It equals
 /// `plan` when the certificate is about the plan's own goal.
 [[nodiscard]] Plan as_verified(Plan plan, const Certificate& certificate);
+/// The same by what the cells mean, [iy][ix].
+[[nodiscard]] Plan as_verified(Plan plan, const std::vector<CellKind>& kind);
 
 /// Writes NAME.svg and NAME.png into `folder` for every picture; "counterexamples" only when there
 /// are some. `plan`: as verified; `counterexamples`: a flight over it to each kind of failure;

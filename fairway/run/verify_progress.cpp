@@ -29,8 +29,8 @@ std::function<void(const std::string& doing)> begin_verifying_contract(StageCloc
   clock.begin("verifying under the contract", TimeLeft{unknown_time, limit_s});
   return [&clock, limit_s](const std::string& doing) {
     TimeLeft left;
-    const bool is_proof = doing.starts_with("verifying");  // what follows has no limit
-    if (limit_s >= 0.0 && is_proof) left.limit_s = std::max(0.0, limit_s - clock.seconds());
+    const bool is_limited = !doing.starts_with("measuring");
+    if (limit_s >= 0.0 && is_limited) left.limit_s = std::max(0.0, limit_s - clock.seconds());
     clock.rename(doing);
     clock.tell(left);
   };

@@ -1,0 +1,41 @@
+// Where to begin from an earlier proof. Its verdicts are not looked at: leaves begin where they
+// began there, and what follows from them is found again.
+#include "fairway/base/error.hpp"
+#include "fairway/inclusion/contract_verdicts.hpp"
+#include "fairway/inclusion/crossing_graph.hpp"
+
+namespace fairway {
+
+void CrossingGraph::begin_as(const ContractVerdicts& earlier) {
+  require(earlier.first.size() == first_.size(), "earlier leaves are of the same parts");
+  require(link_.empty(), "leaves are cut as earlier before they fly");
+  constexpr std::uint64_t whole_side = 0x100000000U;
+  constexpr auto unit = static_cast<std::uint32_t>(whole_side / side_units);
+  std::vector<Leaf> leaf;
+  leaf.reserve(std::max(leaf_.size(), earlier.leaves()));
+  for (std::size_t s = 0; s < sections(); ++s) {
+    const Id begin = first_[s];
+    const Id end = first_[s + 1];
+    const auto new_first = static_cast<Id>(leaf.size());
+    std::size_t next = earlier.first[s];
+    for (Id id = begin; id < end; ++id) {
+      leaf.push_back(leaf_[id]);
+      if (leaf_[id].state == LeafState::idle) continue;
+      const std::uint32_t until = id + 1 < end ? leaf_[id + 1].begin : side_units;
+      for (; next < earlier.first[s + 1] && earlier.begin[next] / unit < until; ++next) {
+        const std::uint32_t at = earlier.begin[next] / unit;
+        if (at <= leaf.back().begin) continue;
+        Leaf rest = leaf_[id];
+        rest.begin = at;
+        leaf.push_back(rest);
+      }
+    }
+    first_[s] = new_first;  // read no more: ends are taken before
+  }
+  first_.back() = static_cast<Id>(leaf.size());
+  require(leaf.size() < ~Id{0}, "a plan has fewer than 2^32 leaves");
+  leaf_ = std::move(leaf);
+  first_link_.assign(leaf_.size() + 1, 0);
+}
+
+}  // namespace fairway

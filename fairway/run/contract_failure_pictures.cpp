@@ -1,0 +1,67 @@
+#include "fairway/run/contract_failure_pictures.hpp"
+
+#include <cstddef>
+
+#include "fairway/base/atomic_file.hpp"
+#include "fairway/base/parallel.hpp"
+#include "fairway/base/random.hpp"
+#include "fairway/inclusion/contract_lookup.hpp"
+#include "fairway/report/draw_flights.hpp"
+#include "fairway/report/draw_verdicts.hpp"
+#include "fairway/run/contract_pictures.hpp"
+
+namespace fairway {
+namespace {
+
+void write(const Picture& picture, const std::filesystem::path& folder, const std::string& name) {
+  write_whole(folder / (name + ".svg"), Existing::keep, picture.svg);
+  write_whole(folder / (name + ".png"), Existing::keep, picture.png);
+}
+
+/// Counts verdicts over all headings and places of each sample's cell, headings in even strata.
+void count_verdicts(const ContractCertificate& certificate, std::uint64_t seed, VerdictMap& map) {
+  constexpr int states = 8;
+  map.states_per_sample = states;
+  const Grid& grid = certificate.grid;
+  const Parts parts = certificate.parts();
+  const double per_cell = certificate.parts_per_cell;
+  for_ranges(map.samples(), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (map.kind[i] != CellKind::ordinary) continue;
+      const Cell cell = map.cell_of_sample(i);
+      Random random = Random::stream(seed, grid.index(cell));
+      for (int k = 0; k < states; ++k) {
+        const Vec2 place{(cell.ix + random.unit()) * per_cell,
+                         (cell.iy + random.unit()) * per_cell};
+        const double heading_rad = -pi + two_pi * (k + random.unit()) / states;
+        const ContractAnswer answer = contract_answer(
+            parts, certificate.verdicts, certificate.least_speed_mps(), place, heading_rad);
+        ++map.count[i][static_cast<std::size_t>(answer.verdict)];
+      }
+    }
+  });
+}
+
+}  // namespace
+
+void write_contract_verdict_pictures(const Plan& plan, const ContractCertificate& certificate,
+                                     const NamedFlights& counterexamples, std::uint64_t seed,
+                                     const std::string& title,
+                                     const std::filesystem::path& folder) {
+  VerdictMap map = contract_verdict_map(certificate);
+  count_verdicts(certificate, seed, map);
+  write(draw_verdicts(map, {.title = title + ": verdicts under the contract, near the cells' "
+                                             "middles"}),
+        folder, "verdicts");
+  write(draw_proved_shares(map, {.title = title + ": verdicts under the contract, over all "
+                                                  "headings"}),
+        folder, "proved");
+  if (counterexamples.flights.empty()) return;
+  write(draw_flights(plan, counterexamples.flights,
+                     {.title = title + ": a flight to each kind of failure under the contract",
+                      .mission = {},
+                      .names = counterexamples.names}),
+        folder, "counterexamples");
+}
+
+}  // namespace fairway

@@ -1,0 +1,209 @@
+#include "fairway/run/product_info.hpp"
+
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "fairway/base/number_text.hpp"
+#include "fairway/base/share_text.hpp"
+#include "fairway/bitmap/bitmap_file.hpp"
+#include "fairway/certificate/certificate_file.hpp"
+#include "fairway/certificate/contract_certificate_file.hpp"
+#include "fairway/plan/plan_file.hpp"
+#include "fairway/run/contract_file.hpp"
+#include "fairway/run/findings.hpp"
+#include "fairway/run/map_survey.hpp"
+#include "fairway/run/summary.hpp"
+#include "fairway/vehicle/contract_json.hpp"
+#include "fairway/verify/region_of_interest_json.hpp"
+
+namespace fairway {
+namespace {
+
+using nlohmann::json;
+
+/// Lines of words, and the same as members.
+class Description {
+ public:
+  Description(const std::filesystem::path& file, const char* kind, const char* says) {
+    info_.words = fmt::format("{}\n", file.string());
+    info_.report = {{"file", file.string()}, {"kind", kind}};
+    line("kind", says);
+  }
+
+  void line(const char* key, const std::string& words) {
+    info_.words += fmt::format("  {:<20}{}\n", key, words);
+  }
+  json& report() { return info_.report; }
+
+  void grid(const Grid& g, const Frame& frame) {
+    line("size", fmt::format("{} m x {} m: {} x {} cells of {} m", length_text(g.width_m()),
+                             length_text(g.height_m()), g.nx, g.ny, length_text(g.cell_m)));
+    line("frame", fmt::format("x from {} to {}, y from {} to {}", coordinate_text(g.x0_m),
+                              coordinate_text(g.x0_m + g.width_m()), coordinate_text(g.y0_m),
+                              coordinate_text(g.y0_m + g.height_m())));
+    line("on Earth", earth_words(frame));
+    info_.report["cells"] = {g.nx, g.ny};
+    info_.report["cell_m"] = g.cell_m;
+    info_.report["origin_m"] = {g.x0_m, g.y0_m};
+    info_.report["on_earth"] = frame.is_on_earth();
+  }
+  void vehicle(const Vehicle& v, const VehicleContract* contract) {
+    line("vehicle",
+         fmt::format("turning radius {} m, {:g} m/s", length_text(v.turn_radius_m), v.speed_mps));
+    info_.report["vehicle"] = {{"turn_radius_m", v.turn_radius_m}, {"speed_mps", v.speed_mps}};
+    info_.report["contract"] = contract != nullptr ? json_of(*contract) : json();
+    if (contract != nullptr) line("", contract_words(*contract));
+  }
+  void region(const RegionOfInterest& region) {
+    const json asked = json_of(region);
+    info_.report["region_of_interest"] = asked;
+    line("to be reached", asked.is_string()
+                              ? "the " + asked.get<std::string>()
+                              : fmt::format("the cells wholly inside {} m", asked.dump()));
+  }
+  /// What the file's own record says, which anybody may have written.
+  void evidence(const json& record) {
+    const auto& known = record.is_object() ? record : json::object();
+    for (const char* key : {"volume_fraction", "volume_fraction_free", "at_risk", "at_risk_free",
+                            "samples", "stopped_by", "program"}) {
+      if (known.contains(key)) info_.report[key] = known[key];
+    }
+    const bool some = tell_shares(known, "of all states", "volume_fraction", "at_risk");
+    tell_shares(known, "of safe starts", "volume_fraction_free", "at_risk_free");
+    if (!some) line("shares", "none are stored");
+    line("checked", "no; `fairway check` proves it again");
+    if (const auto by = known.find("stopped_by"); by != known.end() && by->is_string()) {
+      line("ended by", by->get<std::string>());
+    }
+    made_by(known);
+  }
+  void made_by(const json& record) {
+    if (const auto by = record.find("program"); by != record.end() && by->is_string()) {
+      line("made by", by->get<std::string>());
+    }
+  }
+  ProductInfo info() {
+    info_.words.pop_back();
+    return std::move(info_);
+  }
+
+ private:
+  /// False when there are none.
+  bool tell_shares(const json& known, const char* title, const char* key, const char* risk_key) {
+    const auto shares = known.find(key);
+    if (shares == known.end() || !shares->is_object()) return false;
+    const auto samples = known.find("samples");
+    const bool sampled = samples != known.end() && samples->is_number_unsigned();
+    const int decimals = sampled ? decimals_of_sample(samples->get<std::size_t>()) : 0;
+    std::string words;
+    const auto add = [&](const char* name, double share) {
+      if (!(share > 0.0)) return;
+      words += words.empty() ? "" : ", ";
+      words += percent_text(share, decimals) + " " + name;
+    };
+    const double risk = number_in(known, risk_key);
+    for (const Verdict verdict : verdicts_in_order) {
+      const bool open = verdict == Verdict::undecided;
+      if (open) add("at risk", risk);
+      add(name_of(verdict), number_in(*shares, name_of(verdict)) - (open ? risk : 0.0));
+    }
+    if (!words.empty()) line(title, words);
+    return !words.empty();
+  }
+  /// 0 when there is none.
+  static double number_in(const json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_number() ? found->get<double>() : 0.0;
+  }
+
+  ProductInfo info_;
+};
+
+std::string mission_words(const std::optional<Mission>& mission) {
+  if (!mission) return "not recorded";
+  if (const auto* path = std::get_if<PathMission>(&*mission)) {
+    return fmt::format("a{} path of {}", path->closed ? " closed" : "n open",
+                       plural(path->vertices_m.size(), "waypoint"));
+  }
+  const Vec2 at = std::get<GoalMission>(*mission).goal_m;
+  return fmt::format("a goal at ({:g}, {:g})", at.x, at.y);
+}
+
+ProductInfo describe(const std::filesystem::path& file, const Plan& plan) {
+  Description d(file, "plan", "a plan: a command for each cell; nothing is proved of it");
+  d.grid(plan.grid, frame_in(plan.record));
+  d.vehicle(plan.vehicle, plan.record.contract ? &*plan.record.contract : nullptr);
+  d.line("mission", mission_words(plan.record.mission));
+  const RegionCells cells = count_regions(plan);
+  const std::size_t all = plan.grid.size();
+  d.line("cells", fmt::format("{} free, {} buffer, {} obstacle, {}", percent_text(cells.free, all),
+                              percent_text(cells.buffer, all), percent_text(cells.obstacle, all),
+                              plural(cells.goal, "goal cell")));
+  for (const Finding& f : plan_findings(plan)) {
+    d.line("", fmt::format("{} of {} {}", f.share, f.of, f.what));
+  }
+  d.report()["region_cells"] = {{"free", cells.free},
+                                {"buffer", cells.buffer},
+                                {"obstacle", cells.obstacle},
+                                {"goal", cells.goal}};
+  d.report()["unreachable_free_cells"] = cells.unreachable;
+  const json record = json::parse(json_text(plan.record));
+  if (plan.record.program) d.report()["program"] = *plan.record.program;
+  d.made_by(record);
+  return d.info();
+}
+
+ProductInfo describe(const std::filesystem::path& file, const Certificate& c) {
+  Description d(file, "certificate", "a certificate of the exact vehicle");
+  d.grid(c.grid, c.frame.value_or(Frame{}));
+  d.vehicle(c.vehicle, nullptr);
+  d.region(c.region_of_interest);
+  d.line("leaves", grouped(c.sections.verdict.size()));
+  d.report()["leaves"] = c.sections.verdict.size();
+  d.evidence(json::parse(record_text(c)));
+  return d.info();
+}
+
+ProductInfo describe(const std::filesystem::path& file, const ContractCertificate& c) {
+  Description d(file, "contract_certificate",
+                "a contract certificate: it holds for every vehicle that keeps the contract");
+  d.grid(c.grid, c.frame.value_or(Frame{}));
+  d.vehicle(c.vehicle, &c.contract);
+  d.region(c.region_of_interest);
+  d.line("leaves", fmt::format("{}; cells of {} x {} parts", grouped(c.verdicts.leaves()),
+                               c.parts_per_cell, c.parts_per_cell));
+  d.report()["leaves"] = c.verdicts.leaves();
+  d.report()["parts_per_cell"] = c.parts_per_cell;
+  d.evidence(json::parse(record_text(c)));
+  return d.info();
+}
+
+ProductInfo describe(const std::filesystem::path& file, const Bitmap& b) {
+  Description d(file, "bitmap", "a bitmap: a picture drawn from samples, not a proof");
+  d.grid(b.grid(), b.frame.value_or(Frame{}));
+  d.vehicle(b.vehicle, nullptr);
+  d.region(b.region_of_interest);
+  d.made_by(json::parse(record_text(b)));
+  return d.info();
+}
+
+}  // namespace
+
+ProductInfo describe_product(const std::filesystem::path& file, ProductKind kind) {
+  switch (kind) {
+    case ProductKind::certificate:
+      return describe(file, read_certificate(file));
+    case ProductKind::contract_certificate:
+      return describe(file, read_contract_certificate(file));
+    case ProductKind::bitmap:
+      return describe(file, read_bitmap(file));
+    case ProductKind::plan:
+      break;
+  }
+  return describe(file, read_plan(file));
+}
+
+}  // namespace fairway
