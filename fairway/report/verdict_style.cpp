@@ -23,6 +23,10 @@ VerdictStyle style_of(Verdict verdict) {
   return {};
 }
 
+VerdictStyle at_risk_style() {
+  return {color_of_oklch(0.80, 0.11, 10.0), {palette::ink, 0.5, {}}, true, false};
+}
+
 Color share_color(int share, int rank) {
   if (rank == 0) return palette::white;
   static constexpr std::array<double, 3> hue{255.0, 40.0, 105.0};
