@@ -1,5 +1,6 @@
 #include "fairway/run/contract_pictures.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "fairway/base/atomic_file.hpp"
@@ -8,12 +9,42 @@
 #include "fairway/report/draw_verdicts.hpp"
 
 namespace fairway {
+namespace {
 
-VerdictMap contract_verdict_map(const ContractCertificate& certificate) {
-  constexpr int headings = 8;
-  constexpr int most_across = 64;
+constexpr int most_across = 64;
+
+/// As many as some seconds allow, and each also one of the exact vehicle's on the page.
+int headings_for(std::size_t samples, int most) {
+  constexpr std::size_t most_states = 40'000;
+  for (const int headings : {72, 36, 24, 12}) {
+    const bool is_little = static_cast<std::size_t>(headings) * samples <= most_states;
+    if (headings <= most && (is_little || headings == 12)) return headings;
+  }
+  return most;
+}
+
+/// The same with at most twelve headings, evenly spaced.
+VerdictMap for_a_picture(const VerdictMap& map) {
+  constexpr std::size_t most = 12;
+  const std::size_t step = std::max<std::size_t>(1, map.heading_rad.size() / most);
+  VerdictMap few = map;
+  few.heading_rad.clear();
+  few.verdict.clear();
+  for (std::size_t h = 0; h < map.heading_rad.size(); h += step) {
+    few.heading_rad.push_back(map.heading_rad[h]);
+    const auto begin = map.verdict.begin() + static_cast<std::ptrdiff_t>(h * map.samples());
+    few.verdict.insert(few.verdict.end(), begin,
+                       begin + static_cast<std::ptrdiff_t>(map.samples()));
+  }
+  return few;
+}
+
+}  // namespace
+
+VerdictMap contract_verdict_map(const ContractCertificate& certificate, int most_headings) {
   const Grid& grid = certificate.grid;
-  VerdictMap map = VerdictMap::over(grid, headings, most_across);
+  VerdictMap map = VerdictMap::over(grid, 1, most_across);
+  map = VerdictMap::over(grid, headings_for(map.samples(), most_headings), most_across);
   const Flow flow = certificate.flow();
   const Parts parts = certificate.parts();
   const double speed_mps = certificate.least_speed_mps();
@@ -39,8 +70,9 @@ std::vector<std::string> contract_picture_files() { return {"contract.svg", "con
 
 void write_contract_pictures(const VerdictMap& map, const std::string& title,
                              const std::filesystem::path& folder) {
-  const Picture picture = draw_verdicts(
-      map, {.title = title + ": verdicts under the contract, near the cells' middles"});
+  const Picture picture =
+      draw_verdicts(for_a_picture(map),
+                    {.title = title + ": verdicts under the contract, near the cells' middles"});
   write_whole(folder / "contract.svg", Existing::keep, picture.svg);
   write_whole(folder / "contract.png", Existing::keep, picture.png);
 }
