@@ -24,7 +24,7 @@ VerdictStyle style_of(Verdict verdict) {
 }
 
 VerdictStyle at_risk_style() {
-  return {color_of_oklch(0.80, 0.11, 10.0), {palette::ink, 0.5, {}}, true, false};
+  return {color_of_oklch(0.78, 0.12, 5.0), {palette::ink, 0.6, {2.2, 1.2}}, true, false};
 }
 
 Color share_color(int share, int rank) {
@@ -40,6 +40,11 @@ LegendEntry verdict_entry(Verdict verdict) {
   const std::string proved = verdict == Verdict::undecided ? "" : "proved: ";
   return hatched_entry(proved + name_of(verdict), style.ground, style.pen, style.rising,
                        style.falling);
+}
+
+LegendEntry at_risk_entry() {
+  const VerdictStyle style = at_risk_style();
+  return hatched_entry("at risk", style.ground, style.pen, style.rising, style.falling);
 }
 
 }  // namespace fairway

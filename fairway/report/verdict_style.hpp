@@ -27,5 +27,6 @@ inline constexpr int share_classes = 6;
 
 /// "proved: collide", "undecided", with a sample.
 [[nodiscard]] LegendEntry verdict_entry(Verdict verdict);
+[[nodiscard]] LegendEntry at_risk_entry();
 
 }  // namespace fairway

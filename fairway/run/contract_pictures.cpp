@@ -23,18 +23,13 @@ int headings_for(std::size_t samples, int most) {
   return most;
 }
 
-/// The same with at most twelve headings, evenly spaced.
-VerdictMap for_a_picture(const VerdictMap& map) {
-  constexpr std::size_t most = 12;
-  const std::size_t step = std::max<std::size_t>(1, map.heading_rad.size() / most);
-  VerdictMap few = map;
-  few.heading_rad.clear();
-  few.verdict.clear();
-  for (std::size_t h = 0; h < map.heading_rad.size(); h += step) {
-    few.heading_rad.push_back(map.heading_rad[h]);
-    const auto begin = map.verdict.begin() + static_cast<std::ptrdiff_t>(h * map.samples());
-    few.verdict.insert(few.verdict.end(), begin,
-                       begin + static_cast<std::ptrdiff_t>(map.samples()));
+/// The rows [heading][samples] of every `step`th heading.
+template <typename Value>
+std::vector<Value> thinned(const std::vector<Value>& rows, std::size_t samples, std::size_t step) {
+  std::vector<Value> few;
+  for (std::size_t begin = 0; begin < rows.size(); begin += step * samples) {
+    const auto row = rows.begin() + static_cast<std::ptrdiff_t>(begin);
+    few.insert(few.end(), row, row + static_cast<std::ptrdiff_t>(samples));
   }
   return few;
 }
@@ -68,11 +63,21 @@ VerdictMap contract_verdict_map(const ContractCertificate& certificate, int most
 
 std::vector<std::string> contract_picture_files() { return {"contract.svg", "contract.png"}; }
 
-void write_contract_pictures(const VerdictMap& map, const std::string& title,
-                             const std::filesystem::path& folder) {
-  const Picture picture =
-      draw_verdicts(for_a_picture(map),
-                    {.title = title + ": verdicts under the contract, near the cells' middles"});
+void write_contract_pictures(const VerdictMap& map, const std::vector<std::uint8_t>* at_risk,
+                             const std::string& title, const std::filesystem::path& folder) {
+  constexpr std::size_t most_panels = 12;
+  const std::size_t step = std::max<std::size_t>(1, map.heading_rad.size() / most_panels);
+  VerdictMap few = map;
+  few.heading_rad = thinned(map.heading_rad, 1, step);
+  few.verdict = thinned(map.verdict, map.samples(), step);
+  VerdictPictureOptions options;
+  options.title = title + ": verdicts under the contract, near the cells' middles";
+  std::vector<std::uint8_t> few_at_risk;
+  if (at_risk != nullptr) {
+    few_at_risk = thinned(*at_risk, map.samples(), step);
+    options.at_risk = &few_at_risk;
+  }
+  const Picture picture = draw_verdicts(few, options);
   write_whole(folder / "contract.svg", Existing::keep, picture.svg);
   write_whole(folder / "contract.png", Existing::keep, picture.png);
 }

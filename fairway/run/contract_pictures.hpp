@@ -1,6 +1,7 @@
 // What a contract certificate says at every place, sampled: for a picture and for the page.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -19,8 +20,9 @@ namespace fairway {
 /// Every file that write_contract_pictures writes.
 [[nodiscard]] std::vector<std::string> contract_picture_files();
 
-/// The verdicts at no more than 12 of the headings, into `folder`.
-void write_contract_pictures(const VerdictMap& map, const std::string& title,
-                             const std::filesystem::path& folder);
+/// The verdicts at no more than 12 of the headings, into `folder`. `at_risk`: as in PageWitnesses;
+/// none: not known.
+void write_contract_pictures(const VerdictMap& map, const std::vector<std::uint8_t>* at_risk,
+                             const std::string& title, const std::filesystem::path& folder);
 
 }  // namespace fairway

@@ -178,8 +178,8 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
     constexpr int most_headings = 72;  // those of the exact vehicle on the page
     const ContractVerification& made = under_contract->verification;
     contract_map = contract_verdict_map(made.certificate, most_headings);
-    write_contract_pictures(*contract_map, title, place);
     if (made.searched) witnesses = find_at_risk(made.certificate, *contract_map);
+    write_contract_pictures(*contract_map, witnesses ? &witnesses->at_risk : nullptr, title, place);
   }
 
   clock.begin("making the page", left.page_s);

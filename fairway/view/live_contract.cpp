@@ -64,7 +64,9 @@ json steps_json(const ExplainedBehaviour& behaviour) {
 }  // namespace
 
 LiveContract::LiveContract(const fs::path& file, const Plan& plan)
-    : certificate_(certificate_for(plan, file)), queries_(certificate_) {}
+    : certificate_(certificate_for(plan, file)),
+      queries_(certificate_),
+      prepared_(std::async(std::launch::async, [this] { queries_.prepare_searches(); })) {}
 
 json LiveContract::contract() const { return json_of(certificate_.contract); }
 

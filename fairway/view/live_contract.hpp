@@ -3,10 +3,12 @@
 //
 // Properties that always hold: an answer is a pure function of the certificate and the state, the
 // same as `fairway query` gives; several threads may ask at once. Cost: a tenth of a millisecond
-// where something is proved, else some milliseconds for the search; the first takes longer.
+// where something is proved, else some milliseconds for the search; what searches share is made in
+// the background once the certificate is read, which the first search waits for.
 #pragma once
 
 #include <filesystem>
+#include <future>
 
 #include <nlohmann/json.hpp>
 
@@ -33,6 +35,7 @@ class LiveContract {
  private:
   const ContractCertificate certificate_;
   const ContractQueries queries_;
+  std::future<void> prepared_;  // last: it ends before what it uses
 };
 
 }  // namespace fairway

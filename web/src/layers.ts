@@ -45,7 +45,11 @@ export class Tiles {
     for (let y = 0; y < size; ++y) {
       for (let x = 0; x < size; ++x) {
         let ink = 0;
-        if (look.rising) ink = Math.max(ink, cover(x + y + 0.5));
+        if (look.rising) {
+          // Dashes: two to a period on each line.
+          const step = ((x - y) % (size / 2) + size / 2) % (size / 2);
+          ink = Math.max(ink, !look.dotted || look.falling || step < 2.6 * ratio ? cover(x + y + 0.5) : 0);
+        }
         if (look.falling && look.dotted) {
           // Dots: two to a period on each line.
           const step = ((x + y) % (size / 2) + size / 2) % (size / 2);
