@@ -87,12 +87,37 @@ void SetFlight::exits(PartPlace part, const ConvexSet& set, const HeadingArc& ar
   }
 }
 
+/// Flights to and fro along a border would leak past the end of a leaf otherwise, by the slack of
+/// every turn.
+void SetFlight::keep_ahead_of_start(Crossing& crossing) const {
+  if (!start_) return;
+  const double along_rad =
+      side_axes[static_cast<std::size_t>(crossing.side)].heading_rad + 0.5 * pi;
+  const auto only_towards = [&](double heading_rad) {
+    const double right = heading_rad - 0.5 * pi + heading_slack_rad;
+    return counted_from_zero(crossing.headings.lo_rad - right) + crossing.headings.width_rad <=
+           pi - 2.0 * heading_slack_rad;
+  };
+  const bool is_level = crossing.side == PartSide::north || crossing.side == PartSide::south;
+  const int corner = is_level ? crossing.part.ix : crossing.part.iy;
+  const double from = (is_level ? start_->lowest.x : start_->lowest.y) - corner;
+  const double to = (is_level ? start_->highest.x : start_->highest.y) - corner;
+  const bool counts_up = crossing.side == PartSide::east || crossing.side == PartSide::south;
+  const double first = counts_up ? from : 1.0 - to;
+  const double last = counts_up ? to : 1.0 - from;
+  if (only_towards(along_rad)) crossing.lo = std::min(std::max(crossing.lo, first), crossing.hi);
+  if (only_towards(along_rad + pi)) {
+    crossing.hi = std::max(std::min(crossing.hi, last), crossing.lo);
+  }
+}
+
 /// Aligned behaviours stay so until they leave the part.
 void SetFlight::align(PartPlace part, const ConvexSet& set, const Past& past, double slack) {
   const HeadingArc& arc = parts_.arc(part);
   const double most = longest_way(arc);
   exits(part, set, arc, slack, [&](PartSide side, double lo, double hi) {
     image_.crossings.push_back({part, side, lo, hi, past.headings.with(arc), past.flown + most});
+    keep_ahead_of_start(image_.crossings.back());
   });
 }
 
@@ -171,6 +196,7 @@ BehaviourImage image_of_crossing(const Parts& parts, PartPlace part, PartSide si
   SetFlight flight(parts, options, image);
   const ConvexSet set = segment_of_side(part, side, lo, hi);
   flight.touch(set);
+  flight.starts_within(set.box());
   // The headings of the arc that point outwards: one range of them, or two.
   const HeadingArc& arc = parts.arc(part);
   const double right = side_axes[static_cast<std::size_t>(side)].heading_rad - 0.5 * pi;

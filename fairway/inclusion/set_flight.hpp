@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "fairway/inclusion/behaviour_flight.hpp"
@@ -52,6 +53,9 @@ class SetFlight {
   void finish();
   /// Tells of all ends that the set touches at the start.
   void touch(const ConvexSet& set);
+  /// The set at the start lies within `box`, exactly: who never moves against one direction of an
+  /// axis does not come back behind it, however far the sets on the way are off.
+  void starts_within(const Box& box) { start_ = box; }
 
  private:
   enum class Turn : int { left = 1, right = -1 };
@@ -81,6 +85,7 @@ class SetFlight {
 
   static double beyond(const HeadingArc& arc, double heading_rad, Turn turn);
   bool ends_there(PartKind kind);
+  void keep_ahead_of_start(Crossing& crossing) const;
   template <typename Body>
   void exits(PartPlace part, const ConvexSet& set, const HeadingArc& arc, double slack,
              const Body& body) const;
@@ -96,6 +101,7 @@ class SetFlight {
   const Parts& parts_;
   const BehaviourOptions& options_;
   BehaviourImage& image_;
+  std::optional<Box> start_;
   std::vector<TurningSet> turning_;
   std::vector<PartPiece> pieces_;  ///< of the present step
   int steps_ = 0;

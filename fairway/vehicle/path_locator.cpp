@@ -82,11 +82,48 @@ void PathLocator::search(Vec2 point, std::size_t node, std::size_t first, std::s
   }
 }
 
-PathPoint PathLocator::nearest(Vec2 point_m) const {
+PathLocator::Found PathLocator::find(Vec2 point_m) const {
   Found found;
   found.nearest.distance_m = std::numeric_limits<double>::infinity();
   if (!pieces_.empty()) search(point_m, 0, 0, pieces_.size(), found);
-  return found.nearest;
+  return found;
+}
+
+PathPoint PathLocator::nearest(Vec2 point_m) const { return find(point_m).nearest; }
+
+/// The nearest point is a vertex, or an open end.
+PathFrame PathLocator::frame_at_vertex(Vec2 point_m, const Found& found) const {
+  const std::size_t n = pieces_.size();
+  const std::size_t piece = found.piece;
+  const bool at_its_end = found.nearest.along_m > before_m_[piece];
+  const bool open_end = !path_.closed && (at_its_end ? piece + 1 == n : piece == 0);
+  const Vec2 way = point_m - found.nearest.position_m;
+  const Vec2 before = pieces_[at_its_end ? piece : (piece + n - 1) % n].tangent();
+  const Vec2 after = pieces_[at_its_end ? (piece + 1) % n : piece].tangent();
+  PathFrame out{found.nearest.along_m, found.nearest.distance_m, before, 0.0};
+  if (open_end) {
+    out.tangent = at_its_end ? before : after;
+    out.beyond_m = std::max(0.0, at_its_end ? dot(way, before) : -dot(way, after));
+    if (cross(out.tangent, way) < 0.0) out.offset_m = -out.offset_m;
+    return out;
+  }
+  // The wedge lies on the outer side of the turn. Where the path turns back on itself it is the
+  // half plane beyond, and the turn counts as one to the left.
+  const bool on_right = cross(before, after) >= 0.0;
+  if (out.offset_m > 0.0) out.tangent = (on_right ? 1.0 : -1.0) / out.offset_m * left_of(way);
+  if (on_right) out.offset_m = -out.offset_m;
+  return out;
+}
+
+PathFrame PathLocator::frame(Vec2 point_m) const {
+  const Found found = find(point_m);
+  if (pieces_.empty()) return {0.0, found.nearest.distance_m, {1.0, 0.0}, 0.0};
+  const PathPiece& piece = pieces_[found.piece];
+  const double along_m = dot(point_m - piece.from, piece.tangent());
+  if (along_m <= 0.0 || along_m >= piece.length_m) return frame_at_vertex(point_m, found);
+  const bool on_left = cross(piece.tangent(), point_m - piece.from) >= 0.0;
+  const double distance_m = found.nearest.distance_m;
+  return {found.nearest.along_m, on_left ? distance_m : -distance_m, piece.tangent(), 0.0};
 }
 
 bool PathLocator::any_on(const State& state, std::size_t node, std::size_t first,

@@ -7,6 +7,7 @@
 
 #include "fairway/base/vec2.hpp"
 #include "fairway/vehicle/mission.hpp"
+#include "fairway/vehicle/path_frame.hpp"
 #include "fairway/vehicle/path_geometry.hpp"
 
 namespace fairway {
@@ -18,6 +19,8 @@ class PathLocator {
 
   /// nearest_on_path, but for ties that rounding decides.
   [[nodiscard]] PathPoint nearest(Vec2 point_m) const;
+  /// The same point as a frame, with the side on which the place lies.
+  [[nodiscard]] PathFrame frame(Vec2 point_m) const;
   /// on_path (paper 1, Eq. 5).
   [[nodiscard]] bool on_path(const State& state) const;
 
@@ -31,6 +34,8 @@ class PathLocator {
   };
   struct Found;
 
+  PathFrame frame_at_vertex(Vec2 point_m, const Found& found) const;
+  Found find(Vec2 point_m) const;
   Box box_over(std::size_t node, std::size_t first, std::size_t last);
   void search(Vec2 point, std::size_t node, std::size_t first, std::size_t last,
               Found& found) const;
