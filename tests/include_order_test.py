@@ -19,7 +19,7 @@ NOUNS = {
     "simulate": {"flight.hpp", "flight_measures.hpp"},
     "verify": {"verdict.hpp", "flow.hpp", "region_of_interest.hpp", "region_of_interest_json.hpp", "section_view.hpp",
                "section_verdicts.hpp", "verdict_map.hpp"},
-    "behaviour": {"behaviour_flight.hpp"},
+    "behaviour": {"behaviour_flight.hpp", "explained_behaviour.hpp"},
     "inclusion": {"parts.hpp", "contract_verdicts.hpp"},
     "certificate": {"certificate.hpp", "contract_certificate.hpp"},
     "cellular": {"border_heading_set.hpp", "cell_sets.hpp"},

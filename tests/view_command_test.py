@@ -118,6 +118,33 @@ class View(unittest.TestCase):
         self.assertEqual(server.wait(10), 0)
         self.assertIn("xdg-open could not be run", server.stderr.read())
 
+    def test_a_contract_certificate_is_found_or_given_and_must_be_of_this_plan(self):
+        kept = self.folder / "kept"
+        shutil.copytree(self.folder / "run", kept)
+        (self.folder / "c.toml").write_text("[vehicle.contract]\ncommand_error_m = 0.5\n")
+        own = kept / "contract.certificate.safetensors"
+        subprocess.run([FAIRWAY, "verify", kept / "plan.safetensors", "--contract", "c.toml", "-o", own],
+                       cwd=self.folder, check=True, capture_output=True)
+        given = self.folder / "given.safetensors"
+        shutil.copy(own, given)
+        for arguments in (("kept",), ("run", "--contract-certificate", given)):
+            server, said = self.start(*arguments, "--port", "0")
+            with urllib.request.urlopen(said["address"] + "api/state?x=20&y=20&h=0.5", timeout=30) as answer:
+                found = json.load(answer)
+            self.assertEqual((found["verdict"], found["contract"]["verdict"]), ("reach", "reach"))
+            self.assertGreater(found["contract"]["time_bound_s"], 0)
+            server.send_signal(signal.SIGINT)
+            self.assertEqual(server.wait(10), 0)
+        (self.folder / "other.toml").write_text(SCENARIO.replace("45.0, 30.0", "30.0, 45.0"))
+        subprocess.run([FAIRWAY, "run", "other.toml", "-o", "other"], cwd=self.folder, check=True, capture_output=True)
+        (self.folder / "other/report.html").touch()
+        self.assertIn("given.safetensors: belongs to a different plan or vehicle than plan.safetensors",
+                      self.refused(65, "other", "--contract-certificate", given))
+        self.assertIn("is a certificate", self.refused(65, "kept", "--contract-certificate",
+                                                       kept / "certificate.safetensors"))
+        own.write_bytes(own.read_bytes()[:-1])
+        self.assertIn("contract.certificate.safetensors", self.refused(65, "kept"))
+
     def test_what_is_not_the_folder_of_a_run_is_refused(self):
         self.assertIn("is not a folder", self.refused(65, "nowhere"))
         self.assertIn("is not a folder", self.refused(65, "s.toml"))

@@ -29,6 +29,7 @@ constexpr int usual_port = 8642;
 
 struct ViewArguments {
   fs::path folder;
+  fs::path contract_certificate;
   int port = usual_port;
   bool port_given = false;
   bool open = false;
@@ -81,7 +82,7 @@ int view_command(const ViewArguments& a, const Session& session) {
         "not found; expected the output folder of a `fairway run` whose build includes the page "
         "(docs/report.md)");
   }
-  const LiveEngine engine(a.folder);
+  const LiveEngine engine(a.folder, {}, a.contract_certificate);
   const std::unique_ptr<PageServer> server = server_for(a, engine);
   const EndsGently gently([&server] { server->stop(); });
   session.tell({{"address", server->address()}, {"port", server->port()}},
@@ -101,6 +102,10 @@ Action declare_view(CLI::App& options) {
       ->required()
       ->type_name("DIR");
   options
+      .add_option("--contract-certificate", arguments->contract_certificate,
+                  "a contract certificate of the folder's plan, instead of the run's own")
+      ->type_name("CERT");
+  options
       .add_option(
           "--port", arguments->port,
           fmt::format("port on 127.0.0.1, 0 for a free one (default: {}, or a free one if that "
@@ -112,7 +117,9 @@ Action declare_view(CLI::App& options) {
   options.add_flag("--open", arguments->open, "open the page in a browser, using xdg-open");
   options.footer(
       "Serves DIR/report.html and the run's other products to this machine only, and answers the\n"
-      "page's queries: verdicts, flights and paths to a pose. Prints the address.\n"
+      "page's queries: verdicts, of the exact vehicle and under its contract, flights and paths "
+      "to\n"
+      "a pose. Prints the address.\n"
       "Example: fairway view out/demo");
   return [arguments](const Session& session) { return view_command(*arguments, session); };
 }

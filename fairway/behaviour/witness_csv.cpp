@@ -1,56 +1,26 @@
 #include "fairway/behaviour/witness_csv.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
+#include "fairway/behaviour/explain_behaviour.hpp"
+
 namespace fairway {
-namespace {
-
-/// The point of the cell nearest to the vehicle, or to the point ahead of it.
-Vec2 place_in(const Grid& grid, std::size_t cell, Vec2 p) {
-  const Vec2 low = grid.corner(grid.cell_at(cell));
-  const double inset = 0x1p-20 * grid.cell_m;
-  return {std::clamp(p.x, low.x + inset, low.x + grid.cell_m - inset),
-          std::clamp(p.y, low.y + inset, low.y + grid.cell_m - inset)};
-}
-
-}  // namespace
 
 std::string witness_csv(const Flow& flow, std::span<const float> commands,
                         const VehicleContract& contract, const BehaviourFlight& flight) {
-  const Grid& grid = flow.grid;
+  const ExplainedBehaviour behaviour = explained(flow, commands, contract, flight);
   std::string text =
       "time_s,x_m,y_m,heading_rad,curvature_per_m,radius_m,command_rad,command_x_m,command_y_m\n";
-  Vec2 place = flight.start.position_m;
-  double heading_rad = flight.start.heading.rad();
-  double time_s = 0.0;
-  const auto add_state = [&] {
-    text += fmt::format("{},{},{},{}", time_s, place.x, place.y, heading_rad);
+  const auto add_state = [&](double time_s, const State& s) {
+    text += fmt::format("{},{},{},{}", time_s, s.position_m.x, s.position_m.y, s.heading.rad());
   };
-  for (const BehaviourStep& step : flight.steps) {
-    const Vec2 ahead =
-        place + contract.look_ahead_m * Vec2{std::cos(heading_rad), std::sin(heading_rad)};
-    const Cell own = grid.cell_of(ahead);
-    const std::size_t cell = step.cell != own_cell ? step.cell
-                             : grid.contains(own)  ? grid.index(own)
-                                                   : commands.size();
-    const bool known = cell < commands.size();
-    const Vec2 asked = known && step.cell != own_cell ? place_in(grid, cell, ahead) : ahead;
-    double command_rad = heading_rad;
-    if (step.turn != 0 && known) {
-      command_rad = Heading::from_rad(static_cast<double>(commands[cell]) + step.error_rad).rad();
-    }
-    add_state();
+  for (const ExplainedStep& step : behaviour.steps) {
+    add_state(step.time_s, step.start);
     text +=
         step.turn == 0 ? ",0," : fmt::format(",{},{}", step.turn / step.radius_m, step.radius_m);
-    text += fmt::format(",{},{},{}\n", command_rad, asked.x, asked.y);
-    time_s += length_of(step, heading_rad) / flow.vehicle.speed_mps;
-    place = place + move_of(step, heading_rad);
-    heading_rad = step.heading_rad;
+    text += fmt::format(",{},{},{}\n", step.command_rad, step.command_m.x, step.command_m.y);
   }
-  add_state();
+  add_state(behaviour.time_s, behaviour.end);
   return text + ",,,,,\n";
 }
 

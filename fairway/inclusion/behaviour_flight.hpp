@@ -25,6 +25,8 @@
 
 namespace fairway {
 
+class Tube;
+
 /// Sides of a part, in the order of their outward headings 0, 90, 180, 270 degrees. Places along a
 /// side count from the right of one who looks outwards, 0 to 1.
 enum class PartSide : std::uint8_t { east, north, west, south };
@@ -44,6 +46,10 @@ struct BehaviourImage {
   std::uint8_t ends = 0;  ///< bit v: some behaviour may end with Verdict v
   double flown = 0.0;     ///< at most, in parts, by those that end
   bool gave_up = false;
+  // With a tube, over all parts on the way (tube.hpp):
+  float distance_m = 0.0F;    ///< of the farthest
+  double off_rad = 0.0;       ///< between a heading and the path, at the middle of a part
+  double most_off_rad = 0.0;  ///< anywhere
 
   bool may_end(Verdict v) const { return (ends >> static_cast<unsigned>(v) & 1U) != 0; }
 };
@@ -51,6 +57,7 @@ struct BehaviourImage {
 struct BehaviourOptions {
   double step_rad = 0.0872664625997165;  ///< of the heading, while turning
   int most_steps = 600;                  ///< of all sets of one image, before it is given up
+  const Tube* tube = nullptr;            ///< to tell how far from the path an image leads
 };
 
 /// Of all that leave `part`, an ordinary one, over places [lo, hi] of `side`, aligned with it.

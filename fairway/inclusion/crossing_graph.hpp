@@ -59,7 +59,10 @@ struct Leaf {
   LeafState state = LeafState::fresh;
   std::uint8_t ends = 0;  ///< of the image: bit v, Verdict v
   bool gave_up = false;
-  float end_flown = 0.0F;  ///< by behaviours that end, in parts
+  float end_flown = 0.0F;   ///< by behaviours that end, in parts
+  float distance_m = 0.0F;  ///< as in the image
+  float off_rad = 0.0F;
+  float most_off_rad = 0.0F;
 };
 
 class CrossingGraph {

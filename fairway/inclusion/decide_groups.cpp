@@ -7,6 +7,7 @@
 #include <span>
 
 #include "fairway/inclusion/contract_verdicts.hpp"
+#include "fairway/inclusion/leaf_components.hpp"
 #include "fairway/inclusion/set_flight.hpp"
 
 namespace fairway {
@@ -15,78 +16,6 @@ namespace {
 using Id = CrossingGraph::Id;
 
 constexpr unsigned bit(Verdict v) { return 1U << static_cast<unsigned>(v); }
-
-/// Tarjan's algorithm, without recursion: calls body(members) for every strongly connected
-/// component of the open leaves, those that others lead to first.
-class Components {
- public:
-  explicit Components(const CrossingGraph& graph)
-      : graph_(graph), number_(graph.leaves(), 0), low_(graph.leaves(), 0) {}
-
-  template <typename Body>
-  void for_each(const Body& body) {
-    for (Id root = 0; root < graph_.leaves(); ++root) {
-      if (number_[root] != 0 || graph_.leaf(root).state != LeafState::open) continue;
-      enter(root);
-      while (!way_.empty()) {
-        Visit& visit = way_.back();
-        if (next_target(visit)) {
-          const Id to = visit.target++;
-          if (graph_.leaf(to).state != LeafState::open) continue;
-          if (number_[to] == 0) {
-            enter(to);
-          } else if (number_[to] != done) {
-            low_[visit.leaf] = std::min(low_[visit.leaf], number_[to]);
-          }
-          continue;
-        }
-        const Id left = visit.leaf;
-        way_.pop_back();
-        if (!way_.empty()) low_[way_.back().leaf] = std::min(low_[way_.back().leaf], low_[left]);
-        if (low_[left] != number_[left]) continue;
-        auto first = stack_.end();
-        while (*--first != left) {
-        }
-        const std::span<const Id> members(first, stack_.end());
-        body(members);
-        for (const Id id : members) number_[id] = done;
-        stack_.erase(first, stack_.end());
-      }
-    }
-  }
-
- private:
-  static constexpr std::uint32_t done = ~std::uint32_t{0};
-  struct Visit {
-    Id leaf;
-    Id target;
-    Id last;
-    std::uint32_t link;  // the next one
-  };
-
-  void enter(Id id) {
-    number_[id] = low_[id] = ++count_;
-    stack_.push_back(id);
-    way_.push_back({id, 0, 0, 0});
-  }
-  bool next_target(Visit& visit) const {
-    const auto links = graph_.links(visit.leaf);
-    while (visit.target >= visit.last) {
-      if (visit.link >= links.size()) return false;
-      const CrossingGraph::Range range = graph_.leaves_of(links[visit.link++]);
-      visit.target = range.first;
-      visit.last = range.last;
-    }
-    return true;
-  }
-
-  const CrossingGraph& graph_;
-  std::vector<std::uint32_t> number_;
-  std::vector<std::uint32_t> low_;
-  std::vector<Id> stack_;
-  std::vector<Visit> way_;
-  std::uint32_t count_ = 0;
-};
 
 /// What is known of one group before it is decided.
 struct Prospect {
@@ -113,7 +42,9 @@ class Decider {
   }
 
   Deciding run() {
-    Components(graph_).for_each([&](std::span<const Id> members) { decide(members); });
+    for_components(
+        graph_, [this](Id id) { return graph_.leaf(id).state == LeafState::open; },
+        [this](std::span<const Id> members) { decide(members); });
     return std::move(result_);
   }
 

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "fairway/inclusion/behaviour_flight.hpp"
@@ -42,6 +43,11 @@ class InclusionProver {
  public:
   /// Keeps a reference to `parts`.
   InclusionProver(const Parts& parts, const InclusionLimits& limits);
+
+  /// Goes on from a graph with leaves that are decided, and their groups.
+  InclusionProver(const Parts& parts, const InclusionLimits& limits, CrossingGraph graph,
+                  GroupRecord groups)
+      : parts_(parts), limits_(limits), graph_(std::move(graph)), groups_(std::move(groups)) {}
 
   /// Leaves begin as in an earlier proof of the same parts, whose verdicts are found again. Before
   /// run().

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fairway/inclusion/part_pieces.hpp"
+#include "fairway/inclusion/tube.hpp"
 
 namespace fairway {
 namespace {
@@ -114,6 +115,7 @@ void SetFlight::keep_ahead_of_start(Crossing& crossing) const {
 /// Aligned behaviours stay so until they leave the part.
 void SetFlight::align(PartPlace part, const ConvexSet& set, const Past& past, double slack) {
   const HeadingArc& arc = parts_.arc(part);
+  note(part, arc);
   const double most = longest_way(arc);
   exits(part, set, arc, slack, [&](PartSide side, double lo, double hi) {
     image_.crossings.push_back({part, side, lo, hi, past.headings.with(arc), past.flown + most});
@@ -129,6 +131,15 @@ void SetFlight::add_turning(const ArrivingSet& arriving, HeadingArc wanted, Turn
     past.headings = past.headings.with({lo, hi - lo});
     turning_.push_back({{arriving.set, lo, hi, past}, side});
   });
+}
+
+void SetFlight::note(PartPlace part, const HeadingArc& headings) {
+  if (options_.tube == nullptr) return;
+  const std::size_t at = parts_.index(part);
+  image_.distance_m = std::max(image_.distance_m, options_.tube->distance_m(at));
+  if (image_.distance_m == Tube::outside) return;
+  image_.off_rad = std::max(image_.off_rad, options_.tube->off_rad(at, headings));
+  image_.most_off_rad = std::max(image_.most_off_rad, options_.tube->most_off_rad(at, headings));
 }
 
 /// Ends where nothing flies on.
@@ -152,6 +163,7 @@ void SetFlight::start(PartPlace part, const ArrivingSet& arriving, const Heading
   }
   const HeadingArc& arc = parts_.arc(part);
   const HeadingArc starts{arriving.lo_rad, arriving.hi_rad - arriving.lo_rad};
+  note(part, starts);
   if (arc.widened(align_slack_rad).meets(starts)) {
     align(part, arriving.set, {arriving.past.headings.with(starts), arriving.past.flown},
           arriving.slack);
@@ -201,6 +213,7 @@ BehaviourImage image_of_crossing(const Parts& parts, PartPlace part, PartSide si
   const HeadingArc& arc = parts.arc(part);
   const double right = side_axes[static_cast<std::size_t>(side)].heading_rad - 0.5 * pi;
   for_common(arc, right, right + pi, [&](double from, double to) {
+    flight.note(part, {from, to - from});
     flight.start(part_beyond(part, side), {set, from, to, {{from, to - from}, 0.0}}, &arc);
   });
   flight.finish();

@@ -56,6 +56,8 @@ class SetFlight {
   /// The set at the start lies within `box`, exactly: who never moves against one direction of an
   /// axis does not come back behind it, however far the sets on the way are off.
   void starts_within(const Box& box) { start_ = box; }
+  /// Where behaviours are, and with which headings: for the tube, if there is one.
+  void note(PartPlace part, const HeadingArc& headings);
 
  private:
   enum class Turn : int { left = 1, right = -1 };

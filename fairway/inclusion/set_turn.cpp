@@ -128,6 +128,7 @@ void SetFlight::turn(const TurningSet& set) {
         image_.flown = std::max(image_.flown, past.flown);
         continue;
       }
+      note(p, these);
       const HeadingArc& arc = parts_.arc(p);
       if (arc.widened(align_slack_rad).meets(these)) align(p, piece, past, 16.0 * place_slack);
       const double x = behind(arc);

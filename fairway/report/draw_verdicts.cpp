@@ -1,9 +1,11 @@
 #include "fairway/report/draw_verdicts.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "fairway/base/error.hpp"
 #include "fairway/base/share_text.hpp"
 #include "fairway/report/map_panels.hpp"
 #include "fairway/report/share_panels.hpp"
@@ -27,9 +29,59 @@ std::size_t states_of(const VerdictMap& map, std::size_t sample, Share share) {
   return states;
 }
 
+/// What a picture shows of a state: its verdict, or that it is at risk.
+class Shown {
+ public:
+  Shown(const VerdictMap& map, const std::vector<std::uint8_t>* at_risk)
+      : map_(map), at_risk_(at_risk) {
+    require(at_risk == nullptr || at_risk->size() == map.verdict.size(),
+            "states at risk are those of the verdict map");
+  }
+
+  bool at_risk(std::size_t heading, std::size_t sample) const {
+    return at_risk_ != nullptr && (*at_risk_)[heading * map_.samples() + sample] != 0;
+  }
+  Color ground(std::size_t heading, std::size_t sample) const {
+    return at_risk(heading, sample) ? at_risk_style().ground
+                                    : style_of(map_.verdict_at(heading, sample)).ground;
+  }
+
+  std::vector<LegendEntry> legend() const {
+    std::vector<LegendEntry> entries;
+    for (const Verdict verdict : verdicts_in_order) {
+      if (at_risk_ != nullptr && verdict == Verdict::undecided) entries.push_back(at_risk_entry());
+      entries.push_back(verdict_entry(verdict));
+    }
+    return entries;
+  }
+
+  std::vector<SamplePattern> patterns(std::size_t heading) const {
+    std::vector<SamplePattern> patterns;
+    const auto add = [&](const VerdictStyle& style, const auto& covers) {
+      patterns.push_back({style.pen, style.rising, style.falling, [this, covers](std::size_t i) {
+                            return map_.kind[i] == CellKind::ordinary && covers(i);
+                          }});
+    };
+    for (const Verdict verdict : verdicts_in_order) {
+      add(style_of(verdict), [this, heading, verdict](std::size_t i) {
+        return map_.verdict_at(heading, i) == verdict && !at_risk(heading, i);
+      });
+    }
+    if (at_risk_ != nullptr) {
+      add(at_risk_style(), [this, heading](std::size_t i) { return at_risk(heading, i); });
+    }
+    return patterns;
+  }
+
+ private:
+  const VerdictMap& map_;
+  const std::vector<std::uint8_t>* at_risk_;
+};
+
 }  // namespace
 
 Picture draw_verdicts(const VerdictMap& map, const VerdictPictureOptions& options) {
+  const Shown shown(map, options.at_risk);
   const std::size_t of = ordinary_samples(map);
   std::vector<PanelCaption> captions;
   for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
@@ -40,24 +92,12 @@ Picture draw_verdicts(const VerdictMap& map, const VerdictPictureOptions& option
     captions.push_back({heading_text(map.heading_rad[h]), map.heading_rad[h],
                         of > 0 ? percent_text(reaching, of) + " reach" : ""});
   }
-  std::vector<LegendEntry> entries;
-  for (const Verdict verdict : verdicts_in_order) {
-    entries.push_back(verdict_entry(verdict));
-  }
   const double panel_pt = options.panel_pt > 0.0 ? options.panel_pt : 150.0;
   MapPanels page(map, {options.title, 4, panel_pt, options.pixels_per_pt}, std::move(captions),
-                 std::move(entries));
+                 shown.legend());
   for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
-    std::vector<SamplePattern> patterns;
-    for (const Verdict verdict : verdicts_in_order) {
-      const VerdictStyle style = style_of(verdict);
-      patterns.push_back(
-          {style.pen, style.rising, style.falling, [&map, h, verdict](std::size_t i) {
-             return map.kind[i] == CellKind::ordinary && map.verdict_at(h, i) == verdict;
-           }});
-    }
     page.draw_panel(
-        h, [&](std::size_t i) { return style_of(map.verdict_at(h, i)).ground; }, patterns);
+        h, [&](std::size_t i) { return shown.ground(h, i); }, shown.patterns(h));
   }
   return page.finish();
 }

@@ -1,7 +1,9 @@
 // Pictures of a verdict map.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "fairway/report/picture.hpp"
 #include "fairway/verify/verdict_map.hpp"
@@ -12,6 +14,9 @@ struct VerdictPictureOptions {
   std::string title = {};
   double panel_pt = 0.0;  ///< longer side of a panel, points, 30..1000; 0: chosen to suit a page
   double pixels_per_pt = 2.0;  ///< resolution of the PNG, 0.5..8
+  /// Of draw_verdicts: [headings][ny][nx], 1 for undecided states that are at risk; none: not
+  /// known.
+  const std::vector<std::uint8_t>* at_risk = nullptr;
 };
 
 /// A panel for each heading, four in a row: the verdict of a vehicle at each cell's centre with

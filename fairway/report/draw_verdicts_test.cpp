@@ -107,6 +107,43 @@ TEST(VerdictStyle, EveryVerdictHasItsOwnPattern) {
   }
 }
 
+TEST(VerdictStyle, StatesAtRiskHaveAPatternOfTheirOwnAndDifferInGreyFromThoseAround) {
+  const VerdictStyle s = at_risk_style();
+  for (const Verdict verdict : all_verdicts) {
+    const VerdictStyle other = style_of(verdict);
+    EXPECT_NE(std::tuple(s.rising, s.falling, s.pen.dash_pt.empty()),
+              std::tuple(other.rising, other.falling, other.pen.dash_pt.empty()));
+    if (verdict == Verdict::leave || verdict == Verdict::trapped) continue;  // both are rare
+    EXPECT_GT(std::abs(grey_lightness(s.ground) - grey_lightness(other.ground)), 8.0)
+        << name_of(verdict);
+  }
+}
+
+TEST(DrawVerdicts, StatesAtRiskHaveALookAndALineOfTheLegendOfTheirOwn) {
+  const VerdictMap map =
+      map_of(10, 10, 2, with_rock_and_goal, [](int, int, int) { return Verdict::undecided; });
+  std::vector<std::uint8_t> at_risk(map.verdict.size());
+  at_risk[23] = 1;  // of the first heading
+  const Picture plain = draw_verdicts(map, {.panel_pt = 200.0});
+  const Picture risky = draw_verdicts(map, {.panel_pt = 200.0, .at_risk = &at_risk});
+  EXPECT_FALSE(has_text(plain.svg, "at risk"));
+  EXPECT_TRUE(has_text(risky.svg, "at risk"));
+  const testing::PngPicture png = read_png(risky.png);
+  // Between the strokes of the pattern.
+  const auto lightest = [&](int ix, int iy) {
+    Color best{};
+    for (double dx = 0.1; dx < 1.0; dx += 0.1) {
+      const Color c = color_at(png, map, 200.0, {ix + dx, iy + 0.5});
+      if (grey_lightness(c) > grey_lightness(best)) best = c;
+    }
+    return best;
+  };
+  EXPECT_EQ(lightest(3, 2), at_risk_style().ground);
+  EXPECT_EQ(lightest(5, 2), style_of(Verdict::undecided).ground);
+  at_risk.pop_back();
+  EXPECT_THROW((void)draw_verdicts(map, {.at_risk = &at_risk}), PreconditionViolation);
+}
+
 TEST(DrawVerdicts, HasAPanelForEachHeadingAndNamesAll) {
   const Picture picture = draw_verdicts(stripes(), {.title = "A plan & its <verdicts>"});
   for (int k = 1; k <= 8; ++k) {

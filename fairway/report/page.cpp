@@ -30,20 +30,23 @@ std::string hex(const Color& c) {
   return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue);
 }
 
+json style_json(const char* name, const VerdictStyle& style) {
+  return {{"name", name},
+          {"words", name},
+          {"ground", hex(style.ground)},
+          {"pen", hex(style.pen.color)},
+          {"pen_pt", style.pen.width_pt},
+          {"dotted", !style.pen.dash_pt.empty()},
+          {"rising", style.rising},
+          {"falling", style.falling}};
+}
+
 /// The pictures' own colours and patterns, so that page and pictures agree.
 json styles_json() {
   json verdicts = json::array();
   for (int v = 0; v < verdict_count; ++v) {
     const auto verdict = static_cast<Verdict>(v);
-    const VerdictStyle style = style_of(verdict);
-    verdicts.push_back({{"name", name_of(verdict)},
-                        {"words", name_of(verdict)},
-                        {"ground", hex(style.ground)},
-                        {"pen", hex(style.pen.color)},
-                        {"pen_pt", style.pen.width_pt},
-                        {"dotted", !style.pen.dash_pt.empty()},
-                        {"rising", style.rising},
-                        {"falling", style.falling}});
+    verdicts.push_back(style_json(name_of(verdict), style_of(verdict)));
   }
   json outcomes = json::object();
   for (const Outcome outcome : outcomes_in_order) {
@@ -146,7 +149,12 @@ json record_of(const PageContent& content) {
       {"assumptions", content.assumptions},
       {"summary", json::parse(content.summary_json)}};
   if (content.contract_verdicts != nullptr) {
-    record["contract_verdicts"] = json::parse(page_verdicts_json(*content.contract_verdicts));
+    record["contract_verdicts"] =
+        json::parse(page_verdicts_json(*content.contract_verdicts, content.witnesses));
+    if (content.witnesses != nullptr) {
+      record["styles"]["at_risk"] = style_json("at risk", at_risk_style());
+      record["codes"]["at_risk"] = page_at_risk;
+    }
   }
   return record;
 }
@@ -205,7 +213,9 @@ std::string page_html(const PageContent& content, std::string_view html) {
   add_plan_arrays(content.plan, payload);
   if (content.verdicts != nullptr) add_verdict_arrays(*content.verdicts, payload);
   if (content.contract_verdicts != nullptr) {
-    add_verdict_arrays(*content.contract_verdicts, payload, "contract_verdict");
+    const VerdictMap& map = *content.contract_verdicts;
+    add_verdict_arrays(map, payload, "contract_verdict", content.witnesses);
+    if (content.witnesses != nullptr) add_witness_arrays(map, *content.witnesses, payload);
   }
   add_flight_arrays(content, payload);
   const std::array<std::pair<std::string_view, std::string>, 3> marks{

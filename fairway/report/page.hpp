@@ -18,6 +18,7 @@
 
 #include "fairway/base/frame.hpp"
 #include "fairway/plan/plan.hpp"
+#include "fairway/report/page_witnesses.hpp"
 #include "fairway/simulate/flight.hpp"
 #include "fairway/vehicle/mission.hpp"
 #include "fairway/verify/verdict_map.hpp"
@@ -43,6 +44,7 @@ struct PageContent {
   std::vector<std::string> assumptions = {};  ///< what a proof rests on
   LonLatOf lon_lat = {};                      ///< none: the map is not georeferenced
   const VerdictMap* contract_verdicts = nullptr;  ///< besides `verdicts`, under a contract; or none
+  const PageWitnesses* witnesses = nullptr;  ///< of contract_verdicts; none: none were searched for
 };
 
 /// Throws PreconditionViolation when there is no template (page_template.hpp) or arrays do not fit.

@@ -132,6 +132,11 @@ std::vector<double> page_contour_levels_m(const Plan& plan) {
   return levels;
 }
 
+std::uint16_t page_turn_code(double heading_rad) {
+  const double turns = heading_rad / two_pi;
+  return static_cast<std::uint16_t>(std::lround((turns < 0.0 ? turns + 1.0 : turns) * none) % none);
+}
+
 void add_plan_arrays(const Plan& plan, PagePayload& payload) {
   const Grid& g = plan.grid;
   require(plan.heading_rad.size() == g.size() && plan.cost_m.size() == g.size() &&
@@ -148,11 +153,8 @@ void add_plan_arrays(const Plan& plan, PagePayload& payload) {
     const std::size_t i =
         g.index(values.cell_of(static_cast<int>(k % nx), static_cast<int>(k / nx), g));
     region[k] = static_cast<std::uint8_t>(static_cast<int>(plan.region[i]) + 1);
-    const double turns = static_cast<double>(plan.heading_rad[i]) / two_pi;
-    heading[k] = std::isfinite(turns)
-                     ? static_cast<std::uint16_t>(
-                           std::lround((turns < 0.0 ? turns + 1.0 : turns) * none) % none)
-                     : none;
+    const auto heading_rad = static_cast<double>(plan.heading_rad[i]);
+    heading[k] = std::isfinite(heading_rad) ? page_turn_code(heading_rad) : none;
     cost[k] = std::isfinite(plan.cost_m[i])
                   ? static_cast<std::uint16_t>(std::lround(plan.cost_m[i] / step_m))
                   : none;
@@ -164,10 +166,13 @@ void add_plan_arrays(const Plan& plan, PagePayload& payload) {
   add_contours(plan, payload);
 }
 
-void add_verdict_arrays(const VerdictMap& map, PagePayload& payload, const std::string& name) {
+void add_verdict_arrays(const VerdictMap& map, PagePayload& payload, const std::string& name,
+                        const PageWitnesses* witnesses) {
   std::vector<std::uint8_t> code(map.heading_rad.size() * map.samples());
   require(map.kind.size() == map.samples() && map.verdict.size() == code.size(),
           "a verdict map's arrays fit its samples and headings");
+  require(witnesses == nullptr || witnesses->at_risk.size() == code.size(),
+          "states at risk are those of the verdict map");
   for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
     for (std::size_t i = 0; i < map.samples(); ++i) {
       code[h * map.samples() + i] = map.kind[i] == CellKind::obstacle ? page_obstacle
@@ -175,6 +180,9 @@ void add_verdict_arrays(const VerdictMap& map, PagePayload& payload, const std::
                                         ? page_target
                                         : static_cast<std::uint8_t>(map.verdict_at(h, i));
     }
+  }
+  for (std::size_t k = 0; witnesses != nullptr && k < code.size(); ++k) {
+    if (witnesses->at_risk[k] != 0) code[k] = page_at_risk;
   }
   payload.add_layers(
       name,

@@ -7,6 +7,7 @@
 
 #include "fairway/report/page.hpp"
 #include "fairway/report/page_payload.hpp"
+#include "fairway/report/page_witnesses.hpp"
 #include "fairway/verify/verdict.hpp"
 
 namespace fairway {
@@ -27,11 +28,18 @@ void add_plan_arrays(const Plan& plan, PagePayload& payload);
 /// Codes of the array `verdict` where there are no states, distinct from any verdict's.
 inline constexpr std::uint8_t page_obstacle = 250;
 inline constexpr std::uint8_t page_target = 249;
-static_assert(verdict_count <= page_target);
+/// Undecided, and a behaviour within the contract is known that fails.
+inline constexpr std::uint8_t page_at_risk = 248;
+static_assert(verdict_count <= page_at_risk);
 
-/// NAME [headings][ny][nx]: a code of Verdict, page_obstacle or page_target; and NAME_count.
+/// NAME [headings][ny][nx]: a code of Verdict, page_obstacle, page_target or, with `witnesses`,
+/// page_at_risk; and NAME_count, in which states at risk are among the undecided ones.
 void add_verdict_arrays(const VerdictMap& map, PagePayload& payload,
-                        const std::string& name = "verdict");
+                        const std::string& name = "verdict",
+                        const PageWitnesses* witnesses = nullptr);
+
+/// A heading in 65535ths of a turn, below 65535.
+[[nodiscard]] std::uint16_t page_turn_code(double heading_rad);
 
 /// `piece_*` of all flights shown, one flight after the other, each followed by its final leg.
 void add_flight_arrays(const PageContent& content, PagePayload& payload);

@@ -295,6 +295,95 @@ TEST(Page, VerdictsUnderAContractAreASecondLayerAndWithoutThemNothingChanges) {
             arrays_of(without).array<std::uint8_t>("verdict", 1));
 }
 
+/// Two witnesses: of three steps, and of none.
+PageWitnesses witnesses_of(const VerdictMap& map) {
+  PageWitnesses made;
+  made.at_risk.assign(map.verdict.size(), 0);
+  for (std::size_t k = 0; k < map.verdict.size(); k += 3) {
+    made.at_risk[k] = map.verdict[k] == Verdict::undecided ? 1 : 0;
+  }
+  made.not_searched = 7;
+  const State start{map.place_m(3), Heading::from_rad(map.heading_rad[1])};
+  ExplainedBehaviour behaviour{{}, start, 1.0};
+  behaviour.steps.push_back({start, 0.0, 4.0, 18.0, +1, 1.25, map.grid.center({2, 3})});
+  behaviour.steps.push_back({start, 0.4, 2.5, 0.0, 0, -1.25, map.grid.center({3, 3})});
+  behaviour.steps.push_back({start, 0.65, 3.0, 22.0, -1, pi, Vec2{-1e3, 1e9}});
+  made.shown = {{1, 3, Verdict::leave, behaviour}, {0, 5, Verdict::collide, {{}, start, 0.0}}};
+  return made;
+}
+
+TEST(Page, StatesAtRiskHaveACodeOfTheirOwnAndAreCounted) {
+  const Plan plan = island_plan({14, 12, -3.0, 5.0, 6.0}, {60.0, 40.0}, {4, 6});
+  const VerdictMap exact = verdicts_of(plan);
+  VerdictMap under = VerdictMap::over(plan.grid, 2, 5);
+  under.kind.assign(under.samples(), CellKind::ordinary);
+  for (std::size_t i = 0; i < under.verdict.size(); ++i) {
+    under.verdict[i] = static_cast<Verdict>(i % 2);
+  }
+  const PageWitnesses witnesses = witnesses_of(under);
+  PageContent content{"t", plan, goal, {}, &exact};
+  content.contract_verdicts = &under;
+  const json plain = record_of(page_html(content, bare));
+  EXPECT_FALSE(plain["codes"].contains("at_risk") || plain["styles"].contains("at_risk"));
+  content.witnesses = &witnesses;
+  const std::string page = page_html(content, bare);
+  const json record = record_of(page);
+  const Decoded arrays = arrays_of(page);
+  const std::uint8_t code = record["codes"]["at_risk"];
+  EXPECT_GE(code, verdict_count);
+  EXPECT_NE(record["styles"]["at_risk"]["ground"], record["styles"]["verdict"][0]["ground"]);
+  std::vector<std::size_t> by_heading(2);
+  std::vector<std::uint8_t> by_sample(under.samples());
+  for (std::size_t k = 0; k < under.verdict.size(); ++k) {
+    const auto layer = arrays.array<std::uint8_t>("contract_verdict", k / under.samples());
+    const bool at_risk = witnesses.at_risk[k] != 0;
+    EXPECT_EQ(layer[k % under.samples()], at_risk ? code : static_cast<int>(under.verdict[k]));
+    by_heading[k / under.samples()] += at_risk ? 1 : 0;
+    if (at_risk) ++by_sample[k % under.samples()];
+  }
+  EXPECT_GT(by_heading[0], 0U);
+  EXPECT_EQ(record["contract_verdicts"]["at_risk"], json(by_heading));
+  EXPECT_EQ(record["contract_verdicts"]["count"], plain["contract_verdicts"]["count"]);
+  EXPECT_EQ(record["contract_verdicts"]["not_searched"], 7);
+  EXPECT_EQ(arrays.array<std::uint8_t>("contract_at_risk_count"), by_sample);
+}
+
+TEST(Page, WitnessesComeStepByStepWithTheCellWhoseCommandIsInForce) {
+  const Plan plan = island_plan({14, 12, -3.0, 5.0, 6.0}, {60.0, 40.0}, {4, 6});
+  const VerdictMap exact = verdicts_of(plan);
+  const PageWitnesses witnesses = witnesses_of(exact);
+  PageContent content{"t", plan, goal, {}, &exact};
+  content.contract_verdicts = &exact;
+  content.witnesses = &witnesses;
+  const Decoded arrays = arrays_of(page_html(content, bare));
+  EXPECT_EQ(arrays.array<std::uint32_t>("witness_sample"), (std::vector<std::uint32_t>{3, 5}));
+  EXPECT_EQ(arrays.array<std::uint8_t>("witness_heading"), (std::vector<std::uint8_t>{1, 0}));
+  EXPECT_EQ(arrays.array<std::uint8_t>("witness_end"),
+            (std::vector<std::uint8_t>{static_cast<std::uint8_t>(Verdict::leave),
+                                       static_cast<std::uint8_t>(Verdict::collide)}));
+  EXPECT_EQ(arrays.array<std::uint32_t>("witness_begin"), (std::vector<std::uint32_t>{0, 3, 3}));
+  EXPECT_EQ(arrays.array<float>("witness_length_m"), (std::vector<float>{4.0F, 2.5F, 3.0F}));
+  EXPECT_EQ(arrays.array<float>("witness_curvature_per_m"),
+            (std::vector<float>{1.0F / 18.0F, 0.0F, -1.0F / 22.0F}));
+  const auto command = arrays.array<std::uint16_t>("witness_command");
+  EXPECT_NEAR(command[0] * two_pi / 65535, 1.25, 1e-4);
+  EXPECT_NEAR(command[1] * two_pi / 65535, two_pi - 1.25, 1e-4);
+  const Grid& g = plan.grid;
+  EXPECT_EQ(arrays.array<std::uint32_t>("witness_cell"),
+            (std::vector<std::uint32_t>{static_cast<std::uint32_t>(g.index({2, 3})),
+                                        static_cast<std::uint32_t>(g.index({3, 3})),
+                                        static_cast<std::uint32_t>(g.index({0, g.ny - 1}))}))
+      << "of a place outside the grid, the nearest";
+
+  PageWitnesses wrong = witnesses;
+  wrong.at_risk.pop_back();
+  content.witnesses = &wrong;
+  EXPECT_THROW((void)page_html(content, bare), PreconditionViolation);
+  wrong = witnesses;
+  wrong.shown[0].sample = exact.samples();
+  EXPECT_THROW((void)page_html(content, bare), PreconditionViolation);
+}
+
 TEST(Page, TheRecordListsEveryVerdictAndOutcomeOnce) {
   const Plan plan = island_plan({14, 12, -3.0, 5.0, 6.0}, {60.0, 40.0}, {4, 6});
   const json record = record_of(page_html({"t", plan, goal, {}}, bare));

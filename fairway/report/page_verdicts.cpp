@@ -3,12 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 namespace fairway {
 
-std::string page_verdicts_json(const VerdictMap& map) {
+std::string page_verdicts_json(const VerdictMap& map, const PageWitnesses* witnesses) {
   using nlohmann::json;
   // The offset of place_m() from the middle of a cell, which is the same for all.
   const Vec2 middle = map.grid.center(map.cell_of_sample(0));
@@ -22,13 +23,21 @@ std::string page_verdicts_json(const VerdictMap& map) {
     }
     counts.push_back(count);
   }
-  return json{{"nx", map.nx},
-              {"ny", map.ny},
-              {"cells_per_sample", map.cells_per_sample},
-              {"heading_rad", map.heading_rad},
-              {"offset_m", {offset.x, offset.y}},
-              {"count", std::move(counts)}}
-      .dump();
+  json info = {{"nx", map.nx},
+               {"ny", map.ny},
+               {"cells_per_sample", map.cells_per_sample},
+               {"heading_rad", map.heading_rad},
+               {"offset_m", {offset.x, offset.y}},
+               {"count", std::move(counts)}};
+  if (witnesses != nullptr) {
+    std::vector<std::size_t> at_risk(map.heading_rad.size());
+    for (std::size_t k = 0; k < witnesses->at_risk.size(); ++k) {
+      at_risk[k / map.samples()] += witnesses->at_risk[k];
+    }
+    info["at_risk"] = at_risk;
+    info["not_searched"] = witnesses->not_searched;
+  }
+  return info.dump();
 }
 
 }  // namespace fairway

@@ -3,11 +3,14 @@
 
 #include <string>
 
+#include "fairway/report/page_witnesses.hpp"
 #include "fairway/verify/verdict_map.hpp"
 
 namespace fairway {
 
-/// One JSON object: samples, headings, and how many samples have each verdict at each heading.
-[[nodiscard]] std::string page_verdicts_json(const VerdictMap& map);
+/// One JSON object: samples, headings, and how many samples have each verdict at each heading;
+/// with `witnesses` also how many are at risk (`at_risk`), which are among the undecided ones.
+[[nodiscard]] std::string page_verdicts_json(const VerdictMap& map,
+                                             const PageWitnesses* witnesses = nullptr);
 
 }  // namespace fairway

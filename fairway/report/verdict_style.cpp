@@ -23,6 +23,10 @@ VerdictStyle style_of(Verdict verdict) {
   return {};
 }
 
+VerdictStyle at_risk_style() {
+  return {color_of_oklch(0.78, 0.12, 5.0), {palette::ink, 0.6, {2.2, 1.2}}, true, false};
+}
+
 Color share_color(int share, int rank) {
   if (rank == 0) return palette::white;
   static constexpr std::array<double, 3> hue{255.0, 40.0, 105.0};
@@ -36,6 +40,11 @@ LegendEntry verdict_entry(Verdict verdict) {
   const std::string proved = verdict == Verdict::undecided ? "" : "proved: ";
   return hatched_entry(proved + name_of(verdict), style.ground, style.pen, style.rising,
                        style.falling);
+}
+
+LegendEntry at_risk_entry() {
+  const VerdictStyle style = at_risk_style();
+  return hatched_entry("at risk", style.ground, style.pen, style.rising, style.falling);
 }
 
 }  // namespace fairway

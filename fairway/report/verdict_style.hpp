@@ -16,6 +16,9 @@ struct VerdictStyle {
 
 [[nodiscard]] VerdictStyle style_of(Verdict verdict);
 
+/// Of undecided states from which a behaviour within a contract is known to fail.
+[[nodiscard]] VerdictStyle at_risk_style();
+
 /// Of the shares proved to reach (0), proved to fail (1) and undecided (2), the colour of class
 /// `rank`: none, up to an eighth, a half, seven eighths, not quite all, all (5). White to the deep
 /// colour of the share, lightness falling evenly: it works in grey print.
@@ -24,5 +27,6 @@ inline constexpr int share_classes = 6;
 
 /// "proved: collide", "undecided", with a sample.
 [[nodiscard]] LegendEntry verdict_entry(Verdict verdict);
+[[nodiscard]] LegendEntry at_risk_entry();
 
 }  // namespace fairway

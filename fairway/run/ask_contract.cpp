@@ -1,36 +1,81 @@
 #include "fairway/run/ask_contract.hpp"
 
 #include <algorithm>
+#include <mutex>
 
 #include "fairway/base/parallel.hpp"
 #include "fairway/behaviour/behaviour_choices.hpp"
+#include "fairway/behaviour/explain_behaviour.hpp"
 #include "fairway/behaviour/failure_guide.hpp"
-#include "fairway/behaviour/find_witness.hpp"
 #include "fairway/behaviour/witness_csv.hpp"
 #include "fairway/inclusion/contract_lookup.hpp"
 #include "fairway/run/ask_certificate.hpp"
 #include "fairway/vehicle/filled_commands.hpp"
 
 namespace fairway {
+
+/// For searches, which take seconds to prepare on large plans.
+struct SearchTools {
+  explicit SearchTools(const ContractCertificate& certificate)
+      : choices(certificate.flow(), certificate.contract), guide(choices) {}
+  BehaviourChoices choices;
+  FailureGuide guide;
+};
+
+struct ContractQueries::Parts {
+  explicit Parts(const ContractCertificate& asked) : certificate(asked), parts(asked.parts()) {}
+
+  const SearchTools& tools() {
+    std::call_once(made, [this] { made_tools = std::make_unique<SearchTools>(certificate); });
+    return *made_tools;
+  }
+
+  const ContractCertificate& certificate;
+  fairway::Parts parts;
+  std::once_flag made;
+  std::unique_ptr<SearchTools> made_tools;
+};
+
+ContractQueries::ContractQueries(const ContractCertificate& certificate)
+    : parts_(std::make_unique<Parts>(certificate)) {}
+ContractQueries::~ContractQueries() = default;
+
+ContractReply ContractQueries::proved(const State& state) const {
+  const ContractCertificate& certificate = parts_->certificate;
+  const ContractAnswer answer =
+      contract_answer(certificate.grid, parts_->parts, certificate.verdicts,
+                      certificate.least_speed_mps(), state.position_m, state.heading.rad());
+  ContractReply reply;
+  reply.verdict = answer.verdict;
+  reply.time_bound_s = answer.worst_time_s;
+  return reply;
+}
+
+void ContractQueries::prepare_searches() const { parts_->tools(); }
+
+WitnessSearch ContractQueries::search() const {
+  const SearchTools& tools = parts_->tools();
+  return WitnessSearch(tools.choices, tools.guide);
+}
+
+ExplainedBehaviour ContractQueries::explained(const BehaviourFlight& flight) const {
+  const ContractCertificate& certificate = parts_->certificate;
+  return fairway::explained(certificate.flow(), parts_->tools().choices.commands(),
+                            certificate.contract, flight);
+}
+
 std::vector<ContractReply> ask(const ContractCertificate& certificate,
                                std::span<const State> states) {
-  const Parts parts = certificate.parts();
+  const ContractQueries queries(certificate);
   std::vector<ContractReply> replies(states.size());
   for_ranges(states.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const ContractAnswer answer = contract_answer(certificate.grid, parts, certificate.verdicts,
-                                                    certificate.least_speed_mps(),
-                                                    states[i].position_m, states[i].heading.rad());
-      replies[i].verdict = answer.verdict;
-      replies[i].time_bound_s = answer.worst_time_s;
-    }
+    for (std::size_t i = begin; i < end; ++i) replies[i] = queries.proved(states[i]);
   });
   const auto is_open = [](const ContractReply& r) { return r.verdict == Verdict::undecided; };
   if (std::none_of(replies.begin(), replies.end(), is_open)) return replies;
-  const BehaviourChoices choices(certificate.flow(), certificate.contract);
-  const FailureGuide guide(choices);
+  queries.prepare_searches();
   for_ranges(states.size(), 4, [&](std::size_t begin, std::size_t end) {
-    WitnessSearch search(choices, guide);
+    WitnessSearch search = queries.search();
     for (std::size_t i = begin; i < end; ++i) {
       if (is_open(replies[i])) replies[i].witness = search.find(states[i]);
     }

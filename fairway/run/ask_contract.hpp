@@ -4,12 +4,15 @@
 // state is at risk, and the behaviour shows it. Answers do not depend on threads.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "fairway/behaviour/behaviour_flight.hpp"
+#include "fairway/behaviour/explained_behaviour.hpp"
+#include "fairway/behaviour/find_witness.hpp"
 #include "fairway/certificate/contract_certificate.hpp"
 #include "fairway/exchange/plan_rasters.hpp"
 #include "fairway/vehicle/vehicle.hpp"
@@ -24,6 +27,34 @@ struct ContractReply {
 
   /// The verdict's name, or "at_risk".
   const char* word() const { return witness ? "at_risk" : name_of(verdict); }
+};
+
+/// What questions about one certificate have in common, made once; what searches for witnesses
+/// have, when the first is made: on plans of a million cells, some seconds. Several threads may ask
+/// at once.
+class ContractQueries {
+ public:
+  /// `certificate` must outlive this.
+  explicit ContractQueries(const ContractCertificate& certificate);
+  ~ContractQueries();
+  ContractQueries(const ContractQueries&) = delete;
+  ContractQueries& operator=(const ContractQueries&) = delete;
+
+  /// What is proved of a state, anywhere; never with a witness.
+  [[nodiscard]] ContractReply proved(const State& state) const;
+
+  /// To be called before a parallel loop in which searches are made: their preparation is parallel
+  /// itself.
+  void prepare_searches() const;
+
+  /// To search for witnesses of states that are undecided; one for each thread.
+  [[nodiscard]] WitnessSearch search() const;
+
+  [[nodiscard]] ExplainedBehaviour explained(const BehaviourFlight& flight) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
 };
 
 /// Reply [i] belongs to state [i].

@@ -77,7 +77,8 @@ std::string write_report_page(const Plan& plan, const Mission& mission,
       page.summary.dump(-1, ' ', true),
       verdicts ? proof_assumptions() : nothing_proved(),
       lon_lat_of(frame_in(plan.record), page.title),
-      page.contract_verdicts};
+      page.contract_verdicts,
+      page.witnesses};
   write_whole(folder / product::report_page, Existing::keep, page_html(content));
   return {};
 }

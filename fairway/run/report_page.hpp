@@ -10,6 +10,7 @@
 
 #include "fairway/certificate/certificate.hpp"
 #include "fairway/plan/plan.hpp"
+#include "fairway/report/page_witnesses.hpp"
 #include "fairway/run/failing_flights.hpp"
 #include "fairway/run/scenario_flights.hpp"
 #include "fairway/vehicle/mission.hpp"
@@ -24,6 +25,7 @@ struct ReportPage {
   const Certificate* certificate = nullptr;
   std::vector<FailingFlights> failing;
   const VerdictMap* contract_verdicts = nullptr;  ///< under the contract, or none
+  const PageWitnesses* witnesses = nullptr;       ///< of contract_verdicts, or none
 };
 
 /// Writes `folder`/report.html. Empty when it did; else why this build has no page, one sentence

@@ -17,6 +17,7 @@
 #include "fairway/run/contract_pictures.hpp"
 #include "fairway/run/design_warnings.hpp"
 #include "fairway/run/failing_flights.hpp"
+#include "fairway/run/find_at_risk.hpp"
 #include "fairway/run/findings.hpp"
 #include "fairway/run/flight_engine.hpp"
 #include "fairway/run/flight_summary.hpp"
@@ -93,8 +94,9 @@ void write_flights(const ScenarioFlights& flown, const Plan& plan, const std::st
 /// report.html; where this build has none, a warning says why.
 void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights& flown,
                 const Verified& verified, const std::optional<ProvedUnderContract>& under_contract,
-                const VerdictMap* contract_map, const ExactFlights& flights,
-                const std::string& title, const fs::path& place, RunResult& result) {
+                const VerdictMap* contract_map, const std::optional<PageWitnesses>& witnesses,
+                const ExactFlights& flights, const std::string& title, const fs::path& place,
+                RunResult& result) {
   constexpr std::size_t failing_of_each = 4;
   const auto* proved = std::get_if<Proved>(&verified);
   ReportPage page{title,
@@ -104,7 +106,8 @@ void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights&
                   proved != nullptr ? &proved->verification.certificate : nullptr,
                   proved != nullptr ? failing_flights(flights, proved->failing, failing_of_each)
                                     : std::vector<FailingFlights>{},
-                  contract_map};
+                  contract_map,
+                  witnesses ? &*witnesses : nullptr};
   if (under_contract) page.words.push_back(words_of(plan, *under_contract));
   const std::string absent = write_report_page(plan, mission, flown, page, place);
   if (!absent.empty()) result.warnings.push_back(absent);
@@ -169,9 +172,14 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   write_run_pictures(plan, mission, flown, title, place);
   write_verified_pictures(as_asked, flights, verified, scenario.simulate.seed, title, place);
   std::optional<VerdictMap> contract_map;
+  std::optional<PageWitnesses> witnesses;
   if (under_contract) {
-    contract_map = contract_verdict_map(under_contract->verification.certificate);
-    write_contract_pictures(*contract_map, title, place);
+    clock.begin("sampling verdicts under the contract", left.page_s);
+    constexpr int most_headings = 72;  // those of the exact vehicle on the page
+    const ContractVerification& made = under_contract->verification;
+    contract_map = contract_verdict_map(made.certificate, most_headings);
+    if (made.searched) witnesses = find_at_risk(made.certificate, *contract_map);
+    write_contract_pictures(*contract_map, witnesses ? &witnesses->at_risk : nullptr, title, place);
   }
 
   clock.begin("making the page", left.page_s);
@@ -180,9 +188,11 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
       false, plan_summary(scenario, plan), {}, warnings_of(scenario, map, plan, flown, verified)};
   for (std::string& warning : contract_warnings) result.warnings.push_back(std::move(warning));
   if (under_contract) {
-    for (Finding& finding : findings(plan, *under_contract)) found.push_back(std::move(finding));
+    const std::vector<Finding> under = findings(plan, *under_contract);
+    found.insert(found.end(), under.begin(), under.end());
     if (auto warning = limit_warning(*under_contract)) result.warnings.push_back(*warning);
     result.summary["contract"] = json_of(*under_contract);
+    result.summary["contract"]["findings"] = findings_json(under);
   }
   add_overrides(result.summary, scenario);
   result.summary["findings"] = findings_json(found);
@@ -191,7 +201,7 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   result.summary["verify"] = json_of(verified);
   result.summary["products"] = product_digests(place);
   write_page(plan, mission, flown, verified, under_contract,
-             contract_map ? &*contract_map : nullptr, flights, title, place, result);
+             contract_map ? &*contract_map : nullptr, witnesses, flights, title, place, result);
   clock.end();
   result.summary["products"] = product_digests(place);
   add_cost(result.summary, clock);

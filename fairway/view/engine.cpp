@@ -66,7 +66,7 @@ Flight left_at_once(const State& start) {
 
 json state_json(const FlightEngine& flights, const Grid& grid,
                 const runtime::Certificate* certificate, const State& start) {
-  json answer = {{"verdict", nullptr}, {"time_bound_s", nullptr}};
+  json answer = {{"verdict", nullptr}, {"time_bound_s", nullptr}, {"contract", nullptr}};
   if (certificate != nullptr) {
     const runtime::Answer found =
         certificate->query(start.position_m.x, start.position_m.y, start.heading.rad());
@@ -104,11 +104,21 @@ const Plan& with_mission(const Plan& plan, const std::string& where) {
 
 }  // namespace
 
-LiveEngine::LiveEngine(const fs::path& folder, const ReplanLimits& limits)
+LiveEngine::LiveEngine(const fs::path& folder, const ReplanLimits& limits,
+                       const fs::path& contract_certificate)
     : plan_(read_plan(folder / product::plan)),
       flights_(with_mission(plan_, (folder / product::plan).string())),
       moved_(plan_, limits) {
-  const fs::path file = folder / product::certificate;
+  read_exact(folder / product::certificate);
+  const fs::path of_run = folder / product::contract_certificate;
+  if (!contract_certificate.empty()) {
+    contract_ = std::make_unique<LiveContract>(contract_certificate, plan_);
+  } else if (fs::exists(of_run)) {
+    contract_ = std::make_unique<LiveContract>(of_run, plan_);
+  }
+}
+
+void LiveEngine::read_exact(const fs::path& file) {
   if (!fs::exists(file)) return;
   // Read once as a whole, which checks digests. The answers then come from the file's bytes, read
   // rather than mapped, so that changes to the file while the page is open do not matter.
@@ -127,13 +137,18 @@ json LiveEngine::info() const {
   return {{"live", true},
           {"program", program_version},
           {"verdicts", file_ != nullptr},
+          {"contract", contract_ ? contract_->contract() : json()},
           {"replan", fixed.empty()},
           {"replan_refused", fixed.empty() ? json() : json(fixed)},
           {"plan_sha256", json::parse(json_text(plan_digests(plan_)))}};
 }
 
 json LiveEngine::state(const State& start, std::optional<Vec2> goal_m) const {
-  if (!goal_m) return state_json(flights_, plan_.grid, file_ ? &certificate_ : nullptr, start);
+  if (!goal_m) {
+    json own = state_json(flights_, plan_.grid, file_ ? &certificate_ : nullptr, start);
+    if (contract_) own["contract"] = contract_->state(start);
+    return own;
+  }
   auto answer = moved_.plan_to(*goal_m);
   if (const auto* refused = std::get_if<MissionRefusal>(&answer)) {
     throw BadQuestion(refused->message);

@@ -25,9 +25,12 @@
 #include "fairway/base/error.hpp"
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/certificate/contract_certificate_file.hpp"
 #include "fairway/map/testing/scratch_folder.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/report/testing/plans_to_draw.hpp"
+#include "fairway/run/ask_contract.hpp"
+#include "fairway/run/contract_verification.hpp"
 #include "fairway/run/plan_map.hpp"
 #include "fairway/run/verification.hpp"
 #include "fairway/runtime.hpp"
@@ -562,6 +565,124 @@ TEST_F(Served, AnswersStayTheSameWhenTheCertificateIsTruncatedMeanwhile) {
   fs::resize_file(place_ / "plan.safetensors", 100);
   EXPECT_EQ(answer(question, 200), before);
   EXPECT_FALSE(before["verdict"].is_null());
+}
+
+/// A run's folder with a plan that carries a contract; not proved as long as nobody asks.
+class UnderContract : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    plan_.record.contract = contract();
+    place_ = fs::path(folder_.file(""));
+    write_plan(plan_, place_ / "plan.safetensors", Existing::keep);
+  }
+  static VehicleContract contract() {
+    VehicleContract kept = VehicleContract::of(island().vehicle);
+    kept.command_error_m = 2.0;
+    kept.heading_error_rad = 0.05;
+    kept.turn_radius_m = {8.0, 10.0};
+    return kept;
+  }
+  static ContractCertificate certificate_under(const VehicleContract& kept) {
+    ContractVerifyOptions options;
+    options.find_witnesses = false;
+    options.samples = 1000;
+    return verify_contract(island(), "test", {}, kept, options, [](const std::string&) {})
+        .certificate;
+  }
+  static const ContractCertificate& certificate() {
+    static const ContractCertificate made = certificate_under(contract());
+    return made;
+  }
+  fs::path write(const ContractCertificate& made, const std::string& name) const {
+    write_contract_certificate(made, place_ / name, Existing::replace);
+    return place_ / name;
+  }
+  std::string refusal(const fs::path& given = {}) const {
+    try {
+      const LiveEngine engine(place_, {}, given);
+    } catch (const InputError& error) {
+      return error.where() + ": " + error.what();
+    }
+    return "none";
+  }
+
+  const ScratchFolder folder_;
+  fs::path place_;
+  Plan plan_ = island();
+};
+
+TEST_F(UnderContract, StatesGetTheRepliesOfAQueryBesideTheExactAnswer) {
+  const LiveEngine without(place_);
+  EXPECT_TRUE(without.info()["contract"].is_null());
+  EXPECT_TRUE(without.state({{20.0, 30.0}, Heading()})["contract"].is_null());
+
+  write(certificate(), "contract.certificate.safetensors");
+  const LiveEngine engine(place_);
+  EXPECT_EQ(engine.info()["contract"]["command_error_m"], 2.0);
+  Random random = Random::stream(9, 0);
+  std::vector<State> states{{{1e300, 0.0}, Heading()}, {{-9.0, 50.0}, Heading()}};
+  for (int k = 0; k < 300; ++k) {
+    states.push_back({{random.uniform(-8.0, 111.9), random.uniform(4.0, 99.9)},
+                      Heading::from_rad(random.uniform(-3.0, 3.0))});
+  }
+  const std::vector<ContractReply> replies = ask(certificate(), states);
+  int reached = 0;
+  int at_risk = 0;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const json whole = engine.state(states[k]);
+    const json& found = whole["contract"];
+    EXPECT_TRUE(whole.contains("flight"));
+    EXPECT_EQ(found["verdict"], replies[k].word());
+    EXPECT_EQ(found["time_bound_s"].is_null(), replies[k].verdict != Verdict::reach);
+    EXPECT_EQ(found["witness"].is_null(), !replies[k].witness.has_value());
+    if (replies[k].verdict == Verdict::reach) {
+      ++reached;
+      EXPECT_EQ(found["time_bound_s"], replies[k].time_bound_s);
+    }
+    if (!replies[k].witness) continue;
+    ++at_risk;
+    const json& steps = found["witness"]["steps"];
+    ASSERT_EQ(steps.size(), replies[k].witness->steps.size());
+    EXPECT_EQ(steps[0][0], states[k].position_m.x);
+    EXPECT_EQ(steps[0][2], states[k].heading.rad());
+    EXPECT_EQ(steps[0].size(), 8U);
+    const std::string end = found["witness"]["end"];
+    EXPECT_TRUE(end == "collide" || end == "leave");
+    EXPECT_GT(found["witness"]["time_s"].get<double>(), 0.0);
+  }
+  EXPECT_GT(reached, 10);
+  EXPECT_GT(at_risk, 5);
+}
+
+TEST_F(UnderContract, ACertificateGivenIsUsedInsteadOfTheRunsOwn) {
+  const fs::path given = write(certificate(), "other.safetensors");
+  std::ofstream(place_ / "contract.certificate.safetensors") << "broken";
+  EXPECT_NE(refusal().find("contract.certificate.safetensors"), std::string::npos);
+  EXPECT_EQ(refusal(given), "none");
+  EXPECT_NE(refusal(place_ / "missing.safetensors").find("missing.safetensors"), std::string::npos);
+  EXPECT_NE(refusal(place_ / "plan.safetensors").find("is a plan"), std::string::npos);
+}
+
+TEST_F(UnderContract, RefusesACertificateOfAnotherPlanOrVehicleOrContractAndSaysWhich) {
+  const fs::path given = write(certificate(), "other.safetensors");
+  VehicleContract wider = contract();
+  wider.command_error_m = 2.5;
+  const std::string other = refusal(write(certificate_under(wider), "wider.safetensors"));
+  EXPECT_NE(other.find("another contract"), std::string::npos) << other;
+  EXPECT_NE(other.find("command_error_m is 2.5, the plan's is 2.0"), std::string::npos) << other;
+  EXPECT_EQ(other.find("heading_error_rad"), std::string::npos) << other;
+
+  Plan changed = plan_;
+  changed.record.contract.reset();  // then any contract will do
+  write_plan(changed, place_ / "plan.safetensors", Existing::replace);
+  EXPECT_EQ(refusal(given), "none");
+  changed.vehicle.turn_radius_m += 0.5;
+  write_plan(changed, place_ / "plan.safetensors", Existing::replace);
+  EXPECT_NE(refusal(given).find("different plan or vehicle"), std::string::npos);
+  changed.vehicle = plan_.vehicle;
+  changed.cost_m[0] += 1.0F;
+  write_plan(changed, place_ / "plan.safetensors", Existing::replace);
+  EXPECT_NE(refusal(given).find("different plan or vehicle"), std::string::npos);
 }
 
 TEST(LiveEngine, RefusesACertificateOfAnotherPlan) {

@@ -1,7 +1,7 @@
 // The heading of the vehicle: a slider with, above it, the shares of verdicts at every heading.
-import { byId, cssVariable, degrees, fitted, headingWords, percent, turnOf, wind } from "./dom";
+import { byId, cssVariable, degrees, el, fitted, headingWords, percent, turnOf, wind } from "./dom";
 import { bearingWords, courseWords, northUp } from "./earth";
-import type { PageRecord } from "./record";
+import { codesInOrder, countsAt, nearestHeading, type PageRecord, type VerdictInfo } from "./record";
 import type { Tiles } from "./layers";
 
 export class HeadingSlider {
@@ -10,7 +10,8 @@ export class HeadingSlider {
   private last = 0;
   private shares: ImageData | null = null;
 
-  constructor(private readonly record: PageRecord, private readonly tiles: () => Tiles, private readonly changed: () => void) {
+  /** `strips`: whose shares the strips above the slider show, one above the other. */
+  constructor(private readonly record: PageRecord, private readonly tiles: () => Tiles, private readonly strips: () => VerdictInfo[], private readonly changed: () => void) {
     const range = byId<HTMLInputElement>("heading-range");
     this.count();
     range.addEventListener("input", () => { this.stop(); this.turnTo(Number(range.value)); });
@@ -28,7 +29,15 @@ export class HeadingSlider {
   }
 
   private count(): void {
-    byId<HTMLInputElement>("heading-range").max = String((this.record.verdicts?.heading_rad.length ?? 72) - 1);
+    const n = this.record.verdicts?.heading_rad.length ?? 72;
+    byId<HTMLInputElement>("heading-range").max = String(n - 1);
+    // Where the thumb is at these headings: half a thumb short of the ends.
+    const ticks = [0, 90, 180, 270].map((degrees) => degrees / 360 * n).filter(Number.isInteger).concat(n > 4 ? [n - 1] : []);
+    byId("heading-ticks").replaceChildren(...ticks.map((k) => {
+      const tick = el("span", {}, `${Math.round(360 * k / n)}°`);
+      tick.style.left = `calc(8px + ${k / Math.max(1, n - 1)} * (100% - 16px))`;
+      return tick;
+    }));
   }
 
   /** For other verdicts, or none: keeps the heading as near as possible. */
@@ -103,8 +112,12 @@ export class HeadingSlider {
     const shown_rad = turnOf(parseFloat(headingWords(this.rad)));
     small.textContent = (northUp(this.record) ? `course ${courseWords(this.rad)}, ` : "") + `${wind(this.rad)} · ${shown_rad.toFixed(3)} rad`;
     const proved = document.createElement("span");
-    const count = this.record.verdicts?.count[this.index];
-    if (count) proved.textContent = `${percent(count[this.record.codes.reach] / Math.max(1, count.reduce((a, b) => a + b, 0)))} of places reach`;
+    const reach = this.strips().map((info) => {
+      const count = info.count[nearestHeading(info, this.rad)];
+      return percent(count[this.record.codes.reach] / Math.max(1, count.reduce((a, b) => a + b, 0)));
+    });
+    if (reach.length === 1) proved.textContent = `${reach[0]} of places reach`;
+    if (reach.length > 1) proved.textContent = `places that reach: ${reach[0]}, under the contract ${reach[1]}`;
     output.replaceChildren(big, small, proved);
     this.strip();
   }
@@ -114,6 +127,7 @@ export class HeadingSlider {
     const canvas = byId<HTMLCanvasElement>("heading-strip");
     const info = this.record.verdicts;
     canvas.classList.toggle("none", !info);
+    canvas.classList.toggle("two", this.strips().length > 1);
     if (!info) return;
     if (fitted(canvas) || !this.shares) this.shares = this.paintShares(canvas);
     const context = canvas.getContext("2d")!;
@@ -129,28 +143,37 @@ export class HeadingSlider {
   private inset(canvas: HTMLCanvasElement): number { return 8 * canvas.width / Math.max(1, canvas.clientWidth); }
 
   private paintShares(canvas: HTMLCanvasElement): ImageData {
-    const info = this.record.verdicts!;
-    const { order, undecided } = this.record.codes;
     const { width, height } = canvas;
     const image = new ImageData(width, height);
     const out = new Uint32Array(image.data.buffer);
+    const strips = this.strips();
+    const gap = strips.length > 1 ? Math.round(height / 16) : 0;
+    const each = Math.floor((height - gap * (strips.length - 1)) / Math.max(1, strips.length));
+    strips.forEach((info, k) => this.paintStrip(out, canvas, info, k * (each + gap), k + 1 < strips.length ? k * (each + gap) + each : height));
+    return image;
+  }
+
+  private paintStrip(out: Uint32Array, canvas: HTMLCanvasElement, info: VerdictInfo, above: number, below: number): void {
+    const { width } = canvas;
+    const order = codesInOrder(this.record, info);
     const { size, pixels } = this.tiles();
-    const n = info.heading_rad.length;
+    const steps = this.headings - 1;
     const inset = this.inset(canvas);
+    const counts = info.heading_rad.map((_, k) => countsAt(this.record, info, k));
     for (let x = 0; x < width; ++x) {
-      const k = Math.min(n - 1, Math.max(0, Math.round((x - inset) / Math.max(1, width - 2 * inset) * (n - 1))));
-      const count = info.count[k];
+      // The heading under the thumb there, of these verdicts the nearest.
+      const at = Math.min(steps, Math.max(0, (x - inset) / Math.max(1, width - 2 * inset) * steps));
+      const count = counts[nearestHeading(info, at / this.headings * 2 * Math.PI)];
       const all = Math.max(1, count.reduce((a, b) => a + b, 0));
-      let y = height, sum = 0;
+      let y = below, sum = 0;
       for (const verdict of order) {  // from below
         sum += count[verdict];
-        const top = verdict === undecided ? 0 : Math.round(height * (1 - sum / all));
+        const top = verdict === this.record.codes.undecided ? above : Math.round(above + (below - above) * (1 - sum / all));
         while (y > top) {
           --y;
           out[y * width + x] = pixels[verdict * size * size + y % size * size + x % size];
         }
       }
     }
-    return image;
   }
 }

@@ -45,7 +45,11 @@ export class Tiles {
     for (let y = 0; y < size; ++y) {
       for (let x = 0; x < size; ++x) {
         let ink = 0;
-        if (look.rising) ink = Math.max(ink, cover(x + y + 0.5));
+        if (look.rising) {
+          // Dashes: two to a period on each line.
+          const step = ((x - y) % (size / 2) + size / 2) % (size / 2);
+          ink = Math.max(ink, !look.dotted || look.falling || step < 2.6 * ratio ? cover(x + y + 0.5) : 0);
+        }
         if (look.falling && look.dotted) {
           // Dots: two to a period on each line.
           const step = ((x + y) % (size / 2) + size / 2) % (size / 2);
@@ -85,6 +89,7 @@ export function unreachableLook(record: PageRecord): Look {
 /** By the codes of the verdict layers; codes between the verdicts' and the others are unused. */
 export function verdictLooks(record: PageRecord): Look[] {
   const looks = record.styles.verdict.map(lookOf);
+  if (record.styles.at_risk) looks[record.codes.at_risk!] = lookOf(record.styles.at_risk);
   looks[record.codes.obstacle] = obstacleLook(record);
   looks[record.codes.target] = goalLook(record);
   return looks;
@@ -125,35 +130,40 @@ export function regionLayer(record: PageRecord, region: Numbers, cost: Numbers):
   return { codes, nx: record.values.nx, ny: record.values.ny, cells: record.values.cells_per_value };
 }
 
-export const share_kinds = ["proved to reach", "proved to fail", "undecided"] as const;
+export const share_kinds = ["proved to reach", "proved to fail", "undecided", "at risk"] as const;
+const at_risk_kind = 3;  // only under a contract, and then not undecided
 export const share_classes = ["none", "up to 1/8", "up to 1/2", "up to 7/8", "not quite all", "all"];
 
 // Shares: six classes, then obstacle and goal.
 export function shareLooks(record: PageRecord, kind: number): Look[] {
-  return [...record.styles.share[kind].map((ground) => ({ ground })), obstacleLook(record), goalLook(record)];
+  const shares = record.styles.share[kind === at_risk_kind ? 1 : kind];  // at risk: as what fails
+  return [...shares.map((ground) => ({ ground })), obstacleLook(record), goalLook(record)];
 }
 
 /** The codes of each of share_kinds. */
 export function verdictsOfKind({ codes }: PageRecord, kind: number): number[] {
-  return [[codes.reach], codes.failing, [codes.undecided]][kind];
+  return [[codes.reach], codes.failing, [codes.undecided], []][kind];
 }
 
+/** For how many headings each sample has each verdict, and is at risk. */
+export interface HeadingCounts { verdict: Uint8Array; at_risk: Uint8Array | null }
+
 /** For each sample, how many of the headings are of a kind. */
-export function headingsOfKind(record: PageRecord, count: Uint8Array, kind: number): Uint16Array {
-  const { nx, ny } = record.verdicts!;
-  const samples = nx * ny;
+export function headingsOfKind(record: PageRecord, info: VerdictInfo, count: HeadingCounts, kind: number): Uint16Array {
+  const samples = info.nx * info.ny;
   const of = new Uint16Array(samples);
   for (const v of verdictsOfKind(record, kind)) {
-    for (let i = 0; i < samples; ++i) of[i] += count[v * samples + i];
+    for (let i = 0; i < samples; ++i) of[i] += count.verdict[v * samples + i];
   }
+  const { at_risk } = count;
+  if (at_risk && kind === at_risk_kind) of.set(at_risk);
+  if (at_risk && share_kinds[kind] === "undecided") for (let i = 0; i < samples; ++i) of[i] -= at_risk[i];
   return of;
 }
 
-export function shareLayer(record: PageRecord, first: Uint8Array, count: Uint8Array, kind: number): CodeLayer {
-  const info = record.verdicts!;
+function shareLayer(record: PageRecord, info: VerdictInfo, first: Uint8Array, of: Uint16Array): CodeLayer {
   const headings = info.heading_rad.length;
   const { obstacle, target } = record.codes;
-  const of = headingsOfKind(record, count, kind);
   const codes = new Uint8Array(of.length);
   for (let i = 0; i < codes.length; ++i) {
     const n = of[i];
@@ -162,6 +172,9 @@ export function shareLayer(record: PageRecord, first: Uint8Array, count: Uint8Ar
   }
   return { codes, nx: info.nx, ny: info.ny, cells: info.cells_per_sample };
 }
+
+/** Of each sample, for how many headings it reaches, and pictures of the shares of each kind. */
+export interface Shares { reaching: Uint16Array; layers: CodeLayer[] }
 
 /** The verdict layers, inflated when shown, the rest when idle. */
 export class VerdictLayers {
@@ -185,6 +198,19 @@ export class VerdictLayers {
 
   async askAll(): Promise<void> {
     for (let k = 0; k < this.length; ++k) await this.ask(k);
+  }
+
+  /** Made when first asked for. */
+  shares(record: PageRecord): Promise<Shares> { return this.made_shares ??= this.makeShares(record); }
+  private made_shares: Promise<Shares> | undefined;
+
+  private async makeShares(record: PageRecord): Promise<Shares> {
+    const { arrays, info, name } = this;
+    const at_risk = `${name.replace("verdict", "")}at_risk_count`;
+    const [first, verdict, risky] = await Promise.all([this.ask(0), arrays.array(`${name}_count`), arrays.has(at_risk) ? arrays.array(at_risk) : null]);
+    const count = { verdict: verdict as Uint8Array, at_risk: risky as Uint8Array | null };
+    const of = share_kinds.map((_, kind) => headingsOfKind(record, info, count, kind));
+    return { reaching: of[0], layers: of.map((its) => shareLayer(record, info, first, its)) };
   }
 
   layer(codes: Uint8Array): CodeLayer {

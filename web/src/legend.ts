@@ -2,48 +2,66 @@
 import { byId, el, grouped, percent, short } from "./dom";
 import { paintSample } from "./base_map";
 import { share_classes, share_kinds, type Tiles } from "./layers";
-import { no_value, type PageRecord } from "./record";
+import { codesInOrder, countsAt, no_value, verdictWords, type PageRecord, type VerdictInfo } from "./record";
 
-function entries(items: { code: number; name: string; number?: string }[], tiles: Tiles): { list: HTMLElement; paint: () => void } {
+function entries(items: { code: number; name: string; numbers?: string[] }[], tiles: Tiles): { list: HTMLElement; paint: () => void } {
   const samples: [HTMLCanvasElement, number][] = [];
-  const list = el("ul", {}, ...items.map(({ code, name, number }) => {
+  const list = el("ul", {}, ...items.map(({ code, name, numbers }) => {
     const canvas = el("canvas", { "aria-hidden": "true" });
     samples.push([canvas, code]);
-    return el("li", {}, canvas, name, ...(number ? [el("span", { class: "num" }, number)] : []));
+    return el("li", {}, canvas, name, ...(numbers ?? []).map((number) => el("span", { class: "num" }, number)));
   }));
   return { list, paint: () => samples.forEach(([canvas, code]) => paintSample(canvas, tiles, code)) };
 }
 
-export function showVerdictLegend(record: PageRecord, tiles: Tiles, heading: number): void {
-  const info = record.verdicts!;
-  const count = info.count[heading];
-  const all = Math.max(1, count.reduce((a, b) => a + b, 0));
-  const { order, undecided, obstacle, target } = record.codes;
+/** Verdicts that the map shows: of one vehicle, or of two side by side. */
+export interface ShownVerdict { info: VerdictInfo; heading: number; name: string }
+
+const total = (count: number[]): number => Math.max(1, count.reduce((sum, n) => sum + n, 0));
+
+/** The shares of each vehicle at its heading, by code; one that it cannot have is empty. */
+function columns(record: PageRecord, shown: ShownVerdict[]): Map<number, string>[] {
+  return shown.map(({ info, heading }) => {
+    const count = countsAt(record, info, heading);
+    const all = total(count);
+    return new Map(codesInOrder(record, info).map((code) => [code, percent(count[code] / all)]));
+  });
+}
+
+/** The last of `shown` has all codes that any has. */
+export function showVerdictLegend(record: PageRecord, tiles: Tiles, shown: ShownVerdict[]): void {
+  const { info } = shown[shown.length - 1];
+  const { obstacle, target } = record.codes;
+  const shares = columns(record, shown);
   const { list, paint } = entries([
-    ...order.map((code) => ({ code, name: (code === undecided ? "" : "proved: ") + record.styles.verdict[code].words, number: percent(count[code] / all) })),
+    ...codesInOrder(record, info).map((code) => ({ code, name: verdictWords(record, code), numbers: shares.map((of) => of.get(code) ?? "") })),
     { code: obstacle, name: "obstacle" }, { code: target, name: "goal" }], tiles);
+  if (shown.length > 1) list.prepend(el("li", { class: "head" }, ...shown.map(({ name }) => el("span", { class: "num" }, name))));
   const per = info.cells_per_sample;
   const each = per === 1 ? "each cell" : `one cell in each block of ${per} × ${per}`;
+  const sampled = shown.length > 1 ? "Under the contract: one state" : "One state";
   byId("legend").replaceChildren(list, el("p", {},
-    `One state of ${each}, sampled near the cell's centre, at the slider's heading: ${grouped(all)} states, each looked up in the certificate. ` +
-    "Other states of the same cell may differ; the volumes below come from states sampled everywhere."));
+    `${sampled} of ${each}, sampled near the cell's centre, at the slider's heading: ${grouped(total(countsAt(record, info, shown[shown.length - 1].heading)))} states, each looked up in the certificate. ` +
+    "Other states of the same cell may differ; the volumes below come from states sampled everywhere." +
+    (info.at_risk ? ` At risk: nothing is proved, and a behaviour within the contract is known that fails. Undecided: no proof, and no such behaviour was found${info.not_searched ? ` (in ${grouped(info.not_searched)} states, at all headings, none was searched for)` : ""}.` : "")));
   paint();
 }
 
 /** The shares at another heading, in the legend that showVerdictLegend made. */
-export function updateVerdictLegend(record: PageRecord, heading: number): void {
-  const count = record.verdicts!.count[heading];
-  const all = Math.max(1, count.reduce((a, b) => a + b, 0));
-  const { order } = record.codes;
-  document.querySelectorAll("#legend .num").forEach((number, k) => { number.textContent = percent(count[order[k]] / all); });
+export function updateVerdictLegend(record: PageRecord, shown: ShownVerdict[]): void {
+  const shares = columns(record, shown);
+  const order = codesInOrder(record, shown[shown.length - 1].info);
+  document.querySelectorAll("#legend li:not(.head)").forEach((row, k) => {
+    row.querySelectorAll(".num").forEach((number, c) => { number.textContent = shares[c].get(order[k]) ?? ""; });
+  });
 }
 
-export function showShareLegend(record: PageRecord, tiles: Tiles, kind: number): void {
+export function showShareLegend(info: VerdictInfo, tiles: Tiles, kind: number): void {
   const { list, paint } = entries([
     ...share_classes.map((name, code) => ({ code, name })).reverse(),
     { code: 6, name: "obstacle" }, { code: 7, name: "goal" }], tiles);
   byId("legend").replaceChildren(list, el("p", {},
-    `Share of the ${record.verdicts!.heading_rad.length} headings at each cell's sample point that is ${share_kinds[kind]}.`));
+    `Share of the ${info.heading_rad.length} headings at each cell's sample point that is ${share_kinds[kind]}.`));
   paint();
 }
 

@@ -7,10 +7,13 @@ import { MovedGoal, type PlanView } from "./moved_goal";
 import type { PageRecord } from "./record";
 import { linkable, writeLink, type LinkedState } from "./state_link";
 import type { Viewport } from "./viewport";
+import type { Witness } from "./witness";
 
 type Piece = [number, number, number, number, number];
 interface FlightAnswer { outcome: string; time_s: number | null; length_m: number | null; cut: boolean; pieces: Piece[]; leg?: SteerAnswer }
-interface StateAnswer { verdict: string | null; time_bound_s: number | null; flight: FlightAnswer }
+type WitnessStep = [...Piece, number, number, number];  // and the command in force: heading, place
+interface ContractAnswer { verdict: string; time_bound_s: number | null; witness: { end: string; steps: WitnessStep[] } | null }
+interface StateAnswer { verdict: string | null; time_bound_s: number | null; flight: FlightAnswer; contract: ContractAnswer | null }
 interface SteerAnswer { state: string; word: string; length_m: number; time_s: number; pieces: Piece[]; shortest?: { word: string; length_m: number; pieces: Piece[] } }
 type Mode = "look" | "fly" | "steer" | "goal";
 type Held = "start" | "target" | "goal";
@@ -26,7 +29,7 @@ export interface Live {
   goTo(state: LinkedState): Promise<void>;
 }
 
-interface Page extends PlanView { redrawMarks(): void; heading_rad(): number; turnTo(rad: number): void; crossTo(place: [number, number]): void }
+interface Page extends PlanView { showWitness(witness: Witness | null): void; redrawMarks(): void; heading_rad(): number; turnTo(rad: number): void; crossTo(place: [number, number]): void }
 interface Info { live?: boolean; plan_sha256?: Record<string, string>; replan?: boolean; replan_refused?: string | null }
 
 class NotAnswered extends Error {}
@@ -111,6 +114,7 @@ class LiveTool implements Live {
       look: "Drag to pan." };
     this.answer.replaceChildren(words[mode]);
     this.track = this.leg = null;
+    this.page.showWitness(null);
     if (mode === "goal" && this.record.mission.kind === "goal") this.fill("goal_", this.record.mission.goal_m);
     if (mode === "fly" || mode === "steer") this.ask();
     this.page.redrawMarks();
@@ -239,6 +243,7 @@ class LiveTool implements Live {
 
   private tellError(error: unknown): void {
     this.track = this.leg = null;
+    this.page.showWitness(null);
     this.answer.replaceChildren(error instanceof NotAnswered ? error.message : "No answer: is `fairway view` still running?");
     this.page.redrawMarks();
   }
@@ -272,11 +277,18 @@ class LiveTool implements Live {
     const parts: (Node | string)[] = [el("b", {}, verdict)];
     if (answer.verdict === null && this.moved.goal) parts.push(": this plan has not been verified");
     if (answer.time_bound_s !== null) parts.push(` within ${answer.time_bound_s.toFixed(1)} s`);
+    if (answer.contract) parts.push(el("br"), ...contractWords(answer.contract));
+    this.page.showWitness(answer.contract?.witness ? this.witnessOf(answer.contract.witness) : null);
     parts.push(el("br"), `flown: ${flight.outcome}` +
       (flight.time_s === null ? "" : ` after ${flight.time_s.toFixed(1)} s, ${Math.round(flight.length_m!)} m`) + (flight.cut ? " (line cut short)" : ""));
     if (flight.leg) parts.push(el("br"), flight.leg.pieces.length > 0 ? `then ${flight.leg.word}, ${Math.round(flight.leg.length_m)} m, to the goal heading` : "then no clear way to the goal heading");
     parts.push(this.took(begin));
     this.answer.replaceChildren(...parts);
+  }
+
+  private witnessOf({ end, steps }: { end: string; steps: WitnessStep[] }): Witness {
+    const track = this.trackOf(steps.map((step) => step.slice(0, 5) as Piece));
+    return { start: this.start!, end, track, commands: steps.map(([, , , , , rad, x, y]) => ({ rad, x, y })) };
   }
 
   private showSteer(answer: SteerAnswer, begin: number): void {
@@ -316,6 +328,12 @@ class LiveTool implements Live {
     if (this.place && this.held === "goal") drawGoalHeld(context, view, this.place);
     if (this.start && this.mode !== "look") drawVehicle(context, view, this.start, "#16202c", 11);
   }
+}
+
+/** "under the contract, proved: reach within 80.1 s". */
+function contractWords({ verdict, time_bound_s }: ContractAnswer): (Node | string)[] {
+  const words = verdict === "at_risk" ? "at risk" : verdict === "undecided" ? "undecided" : `proved: ${verdict}`;
+  return ["under the contract ", el("b", {}, words), time_bound_s === null ? "" : ` within ${time_bound_s.toFixed(1)} s`];
 }
 
 function drawGoalHeld(context: CanvasRenderingContext2D, view: Viewport, place: [number, number]): void {

@@ -6,7 +6,7 @@ import { fieldOf } from "./field_arrays";
 import { flightsOf, type ShownFlight } from "./flights";
 import { connect } from "./live";
 import { MapPage } from "./map_page";
-import { showFacts, showNumbers, showTitle, showTrust, showVolumes, showWarnings, showWords } from "./numbers";
+import { showChokes, showFacts, showNumbers, showTitle, showTrust, showVolumes, showWarnings, showWords } from "./numbers";
 import { preparePrinting } from "./print";
 import { recordOfPage, type PageRecord } from "./record";
 import { showSolid } from "./solid";
@@ -26,6 +26,7 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
   showTrust(record);
   showNumbers(record);
   const map = new MapPage(record, arrays, await fieldOf(arrays), await flightsIn(record, arrays));
+  showChokes(record, (x, y) => void map.visit(x, y));
   const { verdicts } = map;
   const exact = { ...record };  // the map's record changes with what it shows
   await map.show();

@@ -24,6 +24,7 @@ export class MapInput {
   private readonly map = byId("map");
   private readonly pointers = new Map<number, [number, number]>();
   private pressed: [number, number] | null = null;
+  private beside = 0;  // where the map begins that a pointer is on
 
   constructor(private readonly hands: MapHands) {
     const { map } = this;
@@ -42,9 +43,12 @@ export class MapInput {
   /** On a touch screen the page scrolls under a map that has nothing to pan. */
   showTouchAction(): void { this.map.style.touchAction = this.hands.view.zoomedIn || this.hands.live() ? "none" : "pan-y"; }
 
+  /** On the map, or on the one of two side by side that it lies on; while something is held, on that where it was pressed. */
   private place(event: MouseEvent): [number, number] {
     const box = this.map.getBoundingClientRect();
-    return [event.clientX - box.left - this.map.clientLeft, event.clientY - box.top - this.map.clientTop];
+    const px = event.clientX - box.left - this.map.clientLeft;
+    if (this.pointers.size === 0) this.beside = this.map.classList.contains("split") && px > this.hands.view.width ? this.hands.view.width : 0;
+    return [px - this.beside, event.clientY - box.top - this.map.clientTop];
   }
 
   private press(event: PointerEvent): void {

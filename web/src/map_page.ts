@@ -6,27 +6,31 @@ import { byId, el, fitted, grouped, headingWords, isPrinting, pixelRatio, turnOf
 import type { ShownFlight } from "./flights";
 import { bearingWords } from "./earth";
 import { HeadingSlider } from "./heading";
-import { costLayer, costLooks, headingsOfKind, regionLayer, regionLooks, share_kinds, shareLayer, shareLooks, Tiles, VerdictLayers,
-  verdictLooks, type CodeLayer } from "./layers";
-import { showCostLegend, showRegionLegend, showShareLegend, showVerdictLegend, updateVerdictLegend } from "./legend";
+import { costLayer, costLooks, regionLayer, regionLooks, share_kinds, shareLooks, Tiles, VerdictLayers, verdictLooks, type CodeLayer, type Shares } from "./layers";
+import { showCostLegend, showRegionLegend, showShareLegend, showVerdictLegend, updateVerdictLegend, type ShownVerdict } from "./legend";
 import type { Live } from "./live";
 import { MapInput, type MapHands } from "./map_input";
-import { mapSize, placeTable, wide_window } from "./map_size";
-import { Overlay, type FieldArrays, type LayerChoice } from "./overlay";
-import { showReadout } from "./readout";
-import type { PageRecord, VerdictInfo } from "./record";
+import { mapSize, placeExplained, placeTable, wide_window } from "./map_size";
+import { drawChokes, Overlay, type FieldArrays, type LayerChoice } from "./overlay";
+import { cellAt, showReadout, type ReadVerdicts } from "./readout";
+import { nearestHeading, sampleIndex, type Choke, type PageRecord, type VerdictInfo } from "./record";
 import type { MovedPlan, PlanView } from "./moved_goal";
 import { linkable, writeLink, type LinkedState } from "./state_link";
 import { Replay } from "./replay";
 import { Viewport } from "./viewport";
+import { Witnesses, type Witness } from "./witness";
+import { poseWords, WitnessPlay } from "./witness_play";
 
 type View = "verdict" | "share" | "cost" | "region";
 type Part = "base" | "lines" | "marks" | "readout";
+type Whose = "exact" | "contract" | "both";
 
 const view_names: [View, string][] = [
   ["verdict", "Verdicts at a heading"], ["share", "Share of headings proved"], ["cost", "Cost to go"], ["region", "Regions"]];
 const layer_names: [keyof LayerChoice, string][] = [
-  ["streamlines", "Field (streamlines)"], ["arrows", "Field (arrows)"], ["contours", "Cost contours"], ["flights", "Flights"], ["mission", "Mission"]];
+  ["streamlines", "Field (streamlines)"], ["arrows", "Field (arrows)"], ["contours", "Cost contours"], ["flights", "Flights"], ["chokes", "Chokes"], ["mission", "Mission"]];
+
+const vehicle_names: [Whose, string][] = [["exact", "Exact vehicle"], ["contract", "Under the contract"], ["both", "Side by side"]];
 
 /** What is set aside while another plan is shown. */
 interface Own { moved: MovedPlan; info: VerdictInfo | null; verdicts: VerdictLayers | null; arrays: Arrays; shown: View; flights: boolean }
@@ -43,39 +47,51 @@ export class MapPage implements MapHands, PlanView {
 
   private readonly map = byId("map");
   private readonly base: BaseMap;
+  private readonly beside: BaseMap;
   private readonly overlay: Overlay;
   private readonly input: MapInput;
   private readonly replay: Replay;
-  private readonly choice: LayerChoice = { arrows: false, streamlines: true, contours: false, flights: false, mission: true };
+  private readonly choice: LayerChoice = { arrows: false, streamlines: true, contours: false, flights: false, chokes: true, mission: true };
   private readonly boxes = new Map<keyof LayerChoice, HTMLInputElement>();
   private pictures!: Record<"cost" | "region", { layer: CodeLayer; tiles: Tiles }>;
   private share_tiles: Tiles[] = [];
-  private share_layers: CodeLayer[] = [];
-  private reaching: Uint16Array | null = null;
+  private readonly shares = new Map<VerdictLayers, Shares>();
   private shown: View;
   private share_kind = 0;
   private tool: Live | null = null;
   private own: Own | null = null;
-  private set_aside: VerdictLayers | null = null;  // of the vehicle that is not shown: exact, or under its contract
-  private readonly vehicles = oneOf(["Exact vehicle", "Under the contract"], "Which vehicle", (k) => this.showVehicle(k === 1));
+  private readonly exact: VerdictLayers | null;
+  private readonly contract: VerdictLayers | null = null;  // besides `exact`, where the vehicle has one
+  private whose: Whose = "exact";
+  private readonly vehicles = oneOf(vehicle_names.map(([, words]) => words), "Which vehicle", (k) => this.showVehicle(vehicle_names[k][0]));
+  private readonly witness: WitnessPlay;
+  private readonly witnesses: Promise<Witnesses | null>;
   private readonly stale = new Set<Part>();
 
   constructor(private readonly record: PageRecord, private arrays: Arrays, private readonly field: FieldArrays, private readonly flown: ShownFlight[]) {
     this.grid = record.grid;
     this.view = new Viewport(record.grid);
     this.base = new BaseMap(byId<HTMLCanvasElement>("map-base"), record.grid);
+    this.beside = new BaseMap(byId<HTMLCanvasElement>("map-beside"), record.grid);
     this.overlay = new Overlay(record, field);
-    this.verdicts = record.verdicts ? new VerdictLayers(arrays, record.verdicts) : null;
+    this.exact = this.verdicts = record.verdicts ? new VerdictLayers(arrays, record.verdicts) : null;
     if (record.verdicts && record.contract_verdicts) {
-      this.set_aside = new VerdictLayers(arrays, record.contract_verdicts, "contract_verdict");
+      this.contract = new VerdictLayers(arrays, record.contract_verdicts, "contract_verdict");
     }
+    document.documentElement.toggleAttribute("data-contract", this.contract !== null);
+    this.witnesses = this.contract ? Witnesses.in(record, arrays) : Promise.resolve(null);
+    this.witness = new WitnessPlay(record, () => this.redraw("marks"), (x, y, across_m) => {
+      this.view.look(x, y, across_m);
+      byId("stage-map").scrollIntoView({ block: "nearest" });
+      this.moved();
+    });
     this.paintTiles();
     this.shown = record.verdicts ? "verdict" : "cost";
-    this.slider = new HeadingSlider(record, () => this.verdict_tiles, () => {
+    this.slider = new HeadingSlider(record, () => this.verdict_tiles, () => this.shownVerdicts().map(({ info }) => info), () => {
       this.redraw("base", "readout");
-      if (this.shown === "verdict" && record.verdicts) updateVerdictLegend(record, this.slider.index);
+      if (this.shown === "verdict" && record.verdicts) updateVerdictLegend(record, this.shownVerdicts());
       this.nameShown();
-      if (!this.own && !this.under_contract) this.turned(this.slider.index);
+      if (!this.own && this.whose === "exact") this.turned(this.slider.index);
     });
     this.replay = new Replay(record, flown, (what) => {
       if (what === "choice" && this.replay.selected >= 0) this.setLayer("flights", true);
@@ -115,6 +131,10 @@ export class MapPage implements MapHands, PlanView {
   async show(): Promise<void> {
     if (this.verdicts) await this.verdicts.ask(0);
     byId("heading").hidden = !this.verdicts;
+    if (this.contract && window.matchMedia(wide_window).matches) {
+      await Promise.all([this.contract.ask(0), this.contract.shares(this.record)]);
+      this.vehicles.querySelectorAll("button")[2].click();
+    }
     this.nameShown();
     new ResizeObserver(() => this.fit()).observe(this.map);
     window.addEventListener("resize", () => this.fit());
@@ -153,29 +173,87 @@ export class MapPage implements MapHands, PlanView {
     if (this.tool) void this.tool.goTo(state);
   }
 
-  /** A click without a live tool: the state there, to link to. */
+  /** A click without a live tool: the state there, to link to; and what fails from there. */
   picked(): void {
     if (!this.cross) return;
     const h = turnOf(parseFloat(headingWords(this.slider.rad)));  // as it is shown
-    writeLink({ ...linkable(this.grid, { x: this.cross[0], y: this.cross[1], h }), goal: null });
+    const state = linkable(this.grid, { x: this.cross[0], y: this.cross[1], h });
+    writeLink({ ...state, goal: null });
+    void this.playNearest(state);
   }
 
-  private get under_contract(): boolean { return this.verdicts?.name === "contract_verdict"; }
+  /** The page's own witness from nearest to a state that is shown at risk. */
+  private async playNearest(state: { x: number; y: number; h: number }): Promise<void> {
+    const { contract, record } = this;
+    const cell = cellAt(record, [state.x, state.y]);
+    if (this.whose === "exact" || !contract || !cell) return this.witness.hide();
+    const k = nearestHeading(contract.info, state.h);
+    const codes = await contract.ask(k);
+    if (codes[sampleIndex(contract.info, cell)] !== record.codes.at_risk) return this.witness.hide();
+    const own = await this.witnesses;
+    const witness = own?.nearest({ ...state, h: contract.info.heading_rad[k] });
+    if (!witness) return this.witness.hide();
+    this.witness.show(witness, [`It starts at ${poseWords(witness.start)}: of the ${grouped(own!.count)} witnesses on this page the nearest to the place pressed. `,
+      el("code", {}, "fairway view"), " finds one for exactly the state pressed."]);
+  }
 
-  /** Verdicts of the exact vehicle, or of all that keep its contract, at the heading nearest to the one shown. */
-  private showVehicle(contract: boolean): void {
-    if (contract === this.under_contract || !this.set_aside) return;
-    const verdicts = this.set_aside;
-    this.set_aside = this.verdicts;
+  /** What the server says: `null` where nothing fails. */
+  showWitness(witness: Witness | null): void {
+    if (witness && !this.own) this.witness.show(witness, []);
+    else this.witness.hide();
+  }
+
+  private get chokes(): Choke[] { return this.contract ? this.record.summary.contract?.chokes ?? [] : []; }
+
+  private get under_contract(): boolean { return this.whose !== "exact"; }
+
+  /** Two maps of the same place: cells by cells only. */
+  private get split(): boolean { return this.whose === "both" && !isPrinting() && (this.shown === "verdict" || this.shown === "share"); }
+
+  /** Whose verdicts are shown, the exact vehicle's first. */
+  private shownVerdicts(): ShownVerdict[] {
+    const { verdicts, exact, whose } = this;
+    if (!verdicts) return [];
+    const of = (layers: VerdictLayers): ShownVerdict => ({ info: layers.info, heading: nearestHeading(layers.info, this.slider.rad),
+      name: layers === this.contract ? "under the contract" : "exact" });
+    return (whose === "both" ? [exact!, verdicts] : [verdicts]).map(of);
+  }
+
+  /** Verdicts of the exact vehicle, of all that keep its contract, or both, at the heading nearest to the one shown. */
+  private showVehicle(whose: Whose): void {
+    const { exact, contract } = this;
+    if (whose === this.whose || !exact || !contract) return;
+    this.whose = whose;
+    this.witness.hide();
+    const verdicts = whose === "exact" ? exact : contract;
     const { mission, cost_step_m } = this.record;
     this.take({ mission, cost_step_m, field: this.field }, verdicts.info, verdicts);
-    if (!contract) this.turned(this.slider.index);
+    this.fit();
+    if (whose === "exact") this.turned(this.slider.index);
+    byId("share-kinds").lastElementChild!.toggleAttribute("hidden", !this.record.codes.at_risk || whose === "exact");
     void this.needCounts().then(() => this.redraw("base", "readout"));
+  }
+
+  /** A choke, or any place of interest under the contract: there, near, and at the heading at which most around it is not proved. */
+  async visit(x: number, y: number): Promise<void> {
+    const { contract, record } = this;
+    if (this.own || !contract) return;
+    if (this.whose === "exact") this.vehicles.querySelectorAll("button")[1].click();
+    this.choose("verdict");
+    this.witness.hide();
+    const layers = await Promise.all(contract.info.heading_rad.map((_, k) => contract.ask(k)));
+    const cell = cellAt(record, [x, y]);
+    if (cell) this.slider.turnToRad(contract.info.heading_rad[leastProved(record, contract.info, layers, cell)]);
+    this.cross = [x, y];
+    this.view.look(x, y, 40 * this.grid.cell_m);
+    byId("stage-map").scrollIntoView({ block: "nearest" });
+    this.moved();
   }
 
   showMoved(plan: MovedPlan): void {
     if (this.under_contract) this.vehicles.querySelector("button")!.click();
     this.vehicles.hidden = true;
+    this.witness.hide();
     const { record, field } = this;
     this.own ??= { moved: { mission: record.mission, cost_step_m: record.cost_step_m, field: { ...field } }, info: record.verdicts,
       verdicts: this.verdicts, arrays: this.arrays, shown: this.shown, flights: this.choice.flights };
@@ -200,7 +278,7 @@ export class MapPage implements MapHands, PlanView {
     const own = this.own;
     if (!own) return;
     this.own = null;
-    this.vehicles.hidden = this.set_aside === null;
+    this.vehicles.hidden = this.contract === null;
     this.arrays = own.arrays;
     this.take(own.moved, own.info, own.verdicts);
     this.setLayer("flights", own.flights);
@@ -216,8 +294,6 @@ export class MapPage implements MapHands, PlanView {
     record.verdicts = info;
     Object.assign(this.field, plan.field);
     this.verdicts = verdicts;
-    this.reaching = null;
-    this.share_layers = [];
     this.paintTiles();
     this.slider.reset(rad);
     for (const name of ["verdict", "share"]) {
@@ -239,12 +315,10 @@ export class MapPage implements MapHands, PlanView {
 
   /** What the shares of headings are made of; the readout shows them too. */
   async needCounts(): Promise<void> {
-    if (this.reaching || !this.verdicts) return;
-    const { verdicts } = this;
-    const [first, all] = await Promise.all([verdicts.ask(0), this.arrays.array(`${verdicts.name}_count`)]);
-    if (verdicts !== this.verdicts) return;  // others are shown by now
-    this.reaching = headingsOfKind(this.record, all as Uint8Array, 0);
-    this.share_layers = share_kinds.map((_, kind) => shareLayer(this.record, first, all as Uint8Array, kind));
+    const needed = this.whose === "both" ? [this.exact, this.verdicts] : [this.verdicts];
+    for (const layers of needed) {
+      if (layers && !this.shares.has(layers)) this.shares.set(layers, await layers.shares(this.record));
+    }
   }
 
   /** Draws what changed in the next frame, once. */
@@ -261,22 +335,53 @@ export class MapPage implements MapHands, PlanView {
 
   private paint(parts: Set<Part>): void {
     if (parts.has("base")) this.drawBase();
-    if (parts.has("lines")) this.overlay.draw(this.cleared("map-lines"), this.view, this.choice, this.flown, this.replay.selected);
+    if (parts.has("lines")) {
+      this.inEach(this.cleared("map-lines"), (context, contract) => {
+        this.overlay.draw(context, this.view, this.choice, this.flown, this.replay.selected);
+        if (contract && this.choice.chokes && !this.own) drawChokes(context, this.view, this.chokes);
+      });
+    }
     if (parts.has("marks")) this.drawMarks();
     if (parts.has("readout")) this.drawReadout();
   }
 
   private drawBase(): void {
-    const { shown, verdicts, slider } = this;
+    const { shown, verdicts } = this;
     if (shown === "cost" || shown === "region") {
       this.base.paint(this.pictures[shown].layer, this.pictures[shown].tiles, this.view);
-    } else if (shown === "share") {
-      const layer = this.share_layers[this.share_kind];
-      if (layer) this.base.paint(layer, this.share_tiles[this.share_kind], this.view);
+    } else if (this.split) {
+      this.drawCells(this.base, this.exact!);
+      this.drawCells(this.beside, verdicts!);
     } else if (verdicts) {
-      const codes = verdicts.at(slider.index);
-      if (codes) this.base.paint(verdicts.layer(codes), this.verdict_tiles, this.view);
-      else void verdicts.ask(slider.index).then(() => this.redraw("base", "readout"));
+      this.drawCells(this.base, verdicts);
+    }
+  }
+
+  private drawCells(base: BaseMap, verdicts: VerdictLayers): void {
+    if (this.shown === "share") {
+      const layer = this.shares.get(verdicts)?.layers[this.share_kind];
+      if (layer) base.paint(layer, this.share_tiles[this.share_kind], this.view);
+      return;
+    }
+    const k = nearestHeading(verdicts.info, this.slider.rad);
+    const codes = verdicts.at(k);
+    if (codes) base.paint(verdicts.layer(codes), this.verdict_tiles, this.view);
+    else void verdicts.ask(k).then(() => this.redraw("base", "readout"));
+  }
+
+  /** On both maps, when they are side by side; `contract`: on that of the vehicle that keeps it. */
+  private inEach(context: CanvasRenderingContext2D, draw: (context: CanvasRenderingContext2D, contract: boolean) => void): void {
+    const { width, height } = this.view;
+    for (const k of this.split ? [0, 1] : [0]) {
+      context.save();
+      if (this.split) {
+        context.translate(k * width, 0);
+        context.beginPath();
+        context.rect(0, 0, width, height);
+        context.clip();
+      }
+      draw(context, this.split ? k === 1 : this.under_contract);
+      context.restore();
     }
   }
 
@@ -297,39 +402,44 @@ export class MapPage implements MapHands, PlanView {
   }
 
   private drawMarks(): void {
-    const context = this.cleared("map-marks");
-    if (this.cross) {
-      const [x, y] = this.view.toScreen(...this.cross);
-      context.strokeStyle = "#22262b";
-      context.lineWidth = 1;
-      context.beginPath();
-      for (const [dx, dy] of [[-1, 0], [1, 0], [0, -1], [0, 1]]) {
-        context.moveTo(x + 4 * dx, y + 4 * dy);
-        context.lineTo(x + 11 * dx, y + 11 * dy);
-      }
-      context.stroke();
-    }
-    if (!this.own) this.replay.draw(context, this.view);
-    this.tool?.draw(context, this.view);
+    this.inEach(this.cleared("map-marks"), (context, contract) => {
+      if (this.cross) drawCross(context, this.view, this.cross);
+      if (!this.own) this.replay.draw(context, this.view);
+      this.tool?.draw(context, this.view);
+      if (contract || !this.split) this.witness.draw(context, this.view);
+    });
   }
 
   private drawReadout(): void {
-    const codes = this.verdicts?.at(this.slider.index);
-    showReadout(this.record, this.field, this.cross, codes ? { codes, heading_rad: this.slider.rad, reaching: this.reaching, whose: this.under_contract ? " under the contract" : "" } : null);
+    const { exact, contract } = this;
+    // Of the run's own plan both vehicles', whichever is shown.
+    const layers = this.own || !exact ? [this.verdicts] : [exact, contract];
+    showReadout(this.record, this.field, this.cross, layers.flatMap((its) => its ? this.readVerdicts(its) : []));
+  }
+
+  private readVerdicts(layers: VerdictLayers): ReadVerdicts[] {
+    const { info } = layers;
+    const k = nearestHeading(info, this.slider.rad);
+    const codes = layers.at(k);
+    if (!codes) {
+      void layers.ask(k).then(() => this.redraw("readout"));
+      return [];
+    }
+    return [{ info, codes, heading_rad: info.heading_rad[k], reaching: this.shares.get(layers)?.reaching ?? null, whose: layers === this.contract ? " under the contract" : "" }];
   }
 
   private showLegend(): void {
     const { record, shown, share_kind } = this;
     this.nameShown();
-    if (shown === "verdict" && record.verdicts) showVerdictLegend(record, this.verdict_tiles, this.slider.index);
-    if (shown === "share" && record.verdicts) showShareLegend(record, this.share_tiles[share_kind], share_kind);
+    if (shown === "verdict" && record.verdicts) showVerdictLegend(record, this.verdict_tiles, this.shownVerdicts());
+    if (shown === "share" && record.verdicts) showShareLegend(record.verdicts, this.share_tiles[share_kind], share_kind);
     if (shown === "cost") showCostLegend(record, this.pictures.cost.tiles);
     if (shown === "region") showRegionLegend(this.pictures.region.tiles);
   }
 
   private offerChoices(): void {
-    this.vehicles.classList.add("sub");
-    this.vehicles.hidden = this.set_aside === null;
+    this.vehicles.classList.add("sub", "vehicles");
+    this.vehicles.hidden = this.contract === null;
     byId("views").append(this.vehicles);
     const shares = oneOf(share_kinds, "Which share", (kind) => {
       this.share_kind = kind;
@@ -337,20 +447,24 @@ export class MapPage implements MapHands, PlanView {
       this.redraw("base");
     });
     shares.classList.add("sub");
+    shares.id = "share-kinds";
     shares.hidden = true;
+    shares.lastElementChild!.toggleAttribute("hidden", true);  // at risk: under a contract alone
     const offered = view_names.filter(([name]) => this.verdicts || name === "cost" || name === "region");
     radios(byId("views"), "view", offered, this.shown, (name) => {
       this.shown = name;
       shares.hidden = name !== "share";
       void this.needCounts().then(() => {
+        this.fit();
         this.showLegend();
         this.redraw("base", "readout");
       });
     });
     byId("views").querySelector("input[value=share]")?.parentElement!.after(shares);
     for (const [name, words] of layer_names) {
-      if (name === "flights" && this.flown.length === 0) continue;
-      const count = name === "flights" ? [el("small", {}, grouped(this.flown.length))] : [];
+      const number = name === "flights" ? this.flown.length : name === "chokes" ? this.chokes.length : null;
+      if (number === 0) continue;
+      const count = number === null ? [] : [el("small", {}, grouped(number))];
       this.boxes.set(name, checkBox(byId("layers"), name, [words, ...count], this.choice[name], (on) => this.setLayer(name, on)));
     }
   }
@@ -369,23 +483,55 @@ export class MapPage implements MapHands, PlanView {
     const view = view_names.find(([name]) => name === this.shown)![1];
     const what = this.shown === "verdict" ? `Verdicts at heading ${bearingWords(this.record, this.slider.rad)}, ${wind(this.slider.rad)}`
       : this.shown === "share" ? `${view}: ${share_kinds[this.share_kind]}` : view;
-    const layers = layer_names.filter(([name]) => this.choice[name]).map(([, words]) => words.toLowerCase());
-    const whose = this.under_contract && (this.shown === "verdict" || this.shown === "share") ? ", under the contract" : "";
+    const layers = layer_names.filter(([name]) => this.choice[name] && this.boxes.has(name)).map(([, words]) => words.toLowerCase());
+    const whose = this.under_contract && (this.shown === "verdict" || this.shown === "share") ? `, under the contract${this.split ? ", next to those of the exact vehicle" : ""}` : "";
     byId("shown-words").textContent = what + whose + (layers.length > 0 ? `; overlays: ${layers.join(", ")}` : "") + ".";
   }
 
   private fit(): void {
     // The replay below the map wraps where the map is narrow: start from the style's own width and
     // measure twice, so that the previous size does not matter.
+    const { split } = this;
+    this.map.classList.toggle("split", split);
+    placeExplained(split);
     byId("stage").style.removeProperty("--map-width");
     for (let pass = 0; pass < 2; ++pass) {
-      const { width, height } = mapSize(this.grid.nx / this.grid.ny);
+      const { width, height } = mapSize((split ? 2 : 1) * this.grid.nx / this.grid.ny);
       byId("stage").style.setProperty("--map-width", `${width}px`);
       this.map.style.height = `${height}px`;
       this.map.style.width = isPrinting() ? `${width}px` : "";
     }
-    this.view.resize(this.map.clientWidth, this.map.clientHeight);
+    this.view.resize(this.map.clientWidth / (split ? 2 : 1), this.map.clientHeight);
     this.moved();
     this.slider.strip();
   }
+}
+
+function drawCross(context: CanvasRenderingContext2D, view: Viewport, place: [number, number]): void {
+  const [x, y] = view.toScreen(...place);
+  context.strokeStyle = "#22262b";
+  context.lineWidth = 1;
+  context.beginPath();
+  for (const [dx, dy] of [[-1, 0], [1, 0], [0, -1], [0, 1]]) {
+    context.moveTo(x + 4 * dx, y + 4 * dy);
+    context.lineTo(x + 11 * dx, y + 11 * dy);
+  }
+  context.stroke();
+}
+
+/** The heading at which most samples near a cell are undecided or at risk. */
+function leastProved({ codes }: PageRecord, info: VerdictInfo, layers: Uint8Array[], [ix, iy]: [number, number]): number {
+  const near = 3;  // samples to either side
+  const sx = Math.floor(ix / info.cells_per_sample), sy = Math.floor(iy / info.cells_per_sample);
+  const counts = layers.map((layer) => {
+    let count = 0;
+    for (let y = Math.max(0, sy - near); y <= Math.min(info.ny - 1, sy + near); ++y) {
+      for (let x = Math.max(0, sx - near); x <= Math.min(info.nx - 1, sx + near); ++x) {
+        const code = layer[y * info.nx + x];
+        if (code === codes.undecided || code === codes.at_risk) ++count;
+      }
+    }
+    return count;
+  });
+  return counts.indexOf(Math.max(...counts));
 }

@@ -24,6 +24,13 @@ export function mapSize(aspect: number): { width: number; height: number } {
   return { width: Math.round(width), height: Math.round(height) };
 }
 
+/** Legend and table next to the map, or below it, where two maps side by side take the width. */
+export function placeExplained(below: boolean): void {
+  const part = byId("explained");
+  const to = below && isWide() ? byId("below-map") : document.querySelector<HTMLElement>(".panel-parts")!;
+  if (part.parentElement !== to) to.append(part);
+}
+
 /** Puts the flights table next to the map, where there is room, so that both are in view; else below. */
 export function placeTable(): void {
   byId(isWide() ? "table-beside" : "table-below").append(byId("flight-table"));

@@ -2,7 +2,7 @@
 import { byId, el, fitted, grouped, percent, short, term } from "./dom";
 import { wordRows } from "./key_words";
 import type { Tiles } from "./layers";
-import type { Finding, PageRecord } from "./record";
+import { codesInOrder, type Choke, type Finding, type PageRecord } from "./record";
 
 function missionWords(record: PageRecord): string {
   const { mission } = record;
@@ -24,14 +24,39 @@ export function showWarnings(record: PageRecord): void {
   byId("warnings").hidden = warnings.length === 0;
 }
 
-/** The run's closing findings, in their order: all states first, then what stands in the way. */
+/** The run's closing findings, in their order: all states first, then what stands in the way; those under a contract in a row of their own. */
 export function showFacts(record: PageRecord): void {
-  const findings: Finding[] = record.summary.findings ?? [];
+  const { verify, contract } = record.summary;
+  const under: Finding[] = contract?.findings ?? [];
+  const same = (a: Finding, b: Finding) => a.share === b.share && a.of === b.of && a.what === b.what;
+  const findings: Finding[] = (record.summary.findings ?? []).filter((finding: Finding) => !under.some((other) => same(finding, other)));
+  byId("facts").replaceChildren(...factTerms(findings, verify?.worst_time_s ?? 0));
+  if (under.length === 0) return;
+  byId("contract-facts").replaceChildren(...factTerms(under, contract.worst_time_s ?? 0));
+  for (const id of ["facts-h", "contract-facts-h", "contract-facts"]) byId(id).hidden = false;
+}
+
+function factTerms(findings: Finding[], bound_s: number): HTMLElement[] {
   const facts = findings.map(({ share, of, what }) =>
     share ? term(`of ${of} ${what}`, share) : term("what ended the proof", el("small", {}, what)));
-  const bound_s = record.summary.verify?.worst_time_s ?? 0;
   if (bound_s > 0) facts.push(term("longest bound on the time to reach, sampled", bound_s.toFixed(1), el("small", {}, " s")));
-  byId("facts").replaceChildren(...facts);
+  return facts;
+}
+
+/** The places that what is unproved under the contract waits for; `visit` shows one on the map. */
+export function showChokes(record: PageRecord, visit: (x: number, y: number) => void): void {
+  const chokes: Choke[] = record.summary.contract?.chokes ?? [];
+  byId("chokes-section").hidden = chokes.length === 0;
+  if (chokes.length === 0) return;
+  byId("chokes-words").textContent = `Under the contract, states that are not proved wait for few places: a behaviour that comes there may end in more than one way, ` +
+    `or cannot be shown to move on. More room there, or a tighter contract, proves them all. ${chokes.length === 1 ? "This is the one" : `These are the ${chokes.length}`} that cost most, with the share of all states that wait for each; press one to go there.`;
+  const rows = chokes.map(({ x_m, y_m, reason, share }, k) => {
+    const go = el("button", { type: "button" }, `(${short(x_m)}, ${short(y_m)})`);
+    go.addEventListener("click", () => visit(x_m, y_m));
+    return el("tr", {}, el("td", { class: "num" }, String(k + 1)), el("td", { class: "num" }, percent(share, 2)), el("td", {}, go), el("td", {}, reason));
+  });
+  byId("chokes").replaceChildren(el("table", { "aria-label": "Chokes" },
+    el("thead", {}, el("tr", {}, el("th", { class: "num" }, ""), el("th", { class: "num" }, "share of all states"), el("th", {}, "place, m"), el("th", {}, "why"))), el("tbody", {}, ...rows)));
 }
 
 export function showWords(record: PageRecord): void {
@@ -41,20 +66,31 @@ export function showWords(record: PageRecord): void {
 /** A bar for each region of states: verdicts by their share of volume. */
 export function showVolumes(record: PageRecord, tiles: Tiles): void {
   const verify = record.summary.verify ?? {};
-  const rows: [string, Record<string, number>][] = [];
-  if (verify.volume_fraction) {
-    rows.push(["All states", verify.volume_fraction], ["Safe starts", verify.volume_fraction_free],
-      ["Safe starts with a command", verify.volume_fraction_free_commanded], ["Buffer around obstacles", verify.volume_fraction_buffer]);
-  }
   const { contract } = record.summary;
-  if (contract) {
-    rows.push(["All states, under the contract", contract.volume_fraction],
-      ["Safe starts, under the contract", contract.volume_fraction_free]);
-  }
-  const { order, undecided } = record.codes;
+  const { codes } = record;
+  const rows: [string, Record<string, number>][] = [];
+  const add = (name: string, key: string, at_risk?: number | null) => {
+    if (verify[key]) rows.push([name, verify[key]]);
+    if (!contract?.[key]) return;
+    const share = { ...contract[key] };
+    if (at_risk !== null && at_risk !== undefined && codes.at_risk) {
+      share[record.styles.at_risk!.name] = at_risk;
+      share.undecided = Math.max(0, share.undecided - at_risk);
+    }
+    rows.push([`${name}, under the contract`, share]);
+  };
+  add("All states", "volume_fraction", contract?.at_risk);
+  add("Safe starts", "volume_fraction_free", contract?.at_risk_free);
+  if (verify.volume_fraction) add("Safe starts with a command", "volume_fraction_free_commanded");
+  if (verify.volume_fraction) rows.push(["Buffer around obstacles", verify.volume_fraction_buffer]);
+  const { undecided } = codes;
+  const order = record.contract_verdicts ? codesInOrder(record, record.contract_verdicts) : codes.order;
+  const nameOf = (code: number): string => (code === codes.at_risk ? record.styles.at_risk! : record.styles.verdict[code]).name;
   const paints: (() => void)[] = [];
   byId("volumes").replaceChildren(...rows.map(([name, share]) => {
-    const canvas = el("canvas", { role: "img", "aria-label": `${name}: ` + order.map((v) => `${percent(share[record.styles.verdict[v].name])} ${record.styles.verdict[v].name}`).join(", ") });
+    const of = (v: number): number => share[nameOf(v)] ?? 0;
+    const words = order.filter((v) => of(v) > 0).map((v) => `${percent(of(v))} ${nameOf(v)}`);
+    const canvas = el("canvas", { role: "img", "aria-label": `${name}: ${words.join(", ")}` });
     paints.push(() => {
       fitted(canvas);
       const image = new ImageData(canvas.width, canvas.height);
@@ -62,7 +98,7 @@ export function showVolumes(record: PageRecord, tiles: Tiles): void {
       const { size, pixels } = tiles;
       let from = 0, sum = 0;
       for (const v of order) {
-        sum += share[record.styles.verdict[v].name];
+        sum += of(v);
         const to = v === undecided ? canvas.width : Math.round(sum * canvas.width);
         for (let x = from; x < to; ++x) {
           for (let y = 0; y < canvas.height; ++y) out[y * canvas.width + x] = pixels[v * size * size + y % size * size + x % size];
@@ -71,9 +107,7 @@ export function showVolumes(record: PageRecord, tiles: Tiles): void {
       }
       canvas.getContext("2d")!.putImageData(image, 0, 0);
     });
-    const words = order.filter((v) => share[record.styles.verdict[v].name] > 0)
-      .map((v) => `${percent(share[record.styles.verdict[v].name])} ${record.styles.verdict[v].name}`).join(" · ");
-    return el("div", { class: "volume" }, el("b", {}, name), canvas, el("span", {}, words));
+    return el("div", { class: "volume" }, el("b", {}, name), canvas, el("span", {}, words.join(" · ")));
   }));
   paints.forEach((paint) => paint());
 }
@@ -91,10 +125,13 @@ export function showTrust(record: PageRecord): void {
   const checked = verify.method !== "certified" ? "Nothing was proved in this run: no certificate was asked for."
     : verify.checked ? "fairway-check, a separate program that shares no code with the prover, re-proved the certificate."
     : "The certificate was not re-proved by the separate program in this run.";
+  const { contract } = record.summary;
+  const under = contract ? [contract.checked ? "It re-proved the certificate under the contract, too." : "The certificate under the contract was not re-proved in this run."] : [];
+  const risk = record.contract_verdicts ? ["Under the contract a verdict holds for every behaviour that the contract allows. That a state is at risk is proved, too: by a behaviour whose every step keeps the contract."] : [];
   byId("trust").replaceChildren(
-    el("h3", {}, "What is assumed"), list(record.assumptions),
-    el("h3", {}, "What is shown"), list(record.verdicts ? shown : shown.slice(2)),
-    el("h3", {}, "Who checked it"), list([checked]));
+    el("h3", {}, "What is assumed"), list([...record.assumptions, ...(contract ? ["Under the contract, instead of the model: the vehicle keeps its contract at every instant."] : [])]),
+    el("h3", {}, "What is shown"), list([...(record.verdicts ? shown : shown.slice(2)), ...risk]),
+    el("h3", {}, "Who checked it"), list([checked, ...under]));
 }
 
 function digestTable(head: string, rows: [string, string][]): HTMLElement {

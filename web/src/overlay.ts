@@ -2,7 +2,7 @@
 import type { Numbers } from "./arrays";
 import { short } from "./dom";
 import { strokeTrack, type ShownFlight } from "./flights";
-import { no_value, RegionCode, valueIndex, type Mission, type PageRecord } from "./record";
+import { no_value, RegionCode, valueIndex, type Choke, type Mission, type PageRecord } from "./record";
 import type { Viewport } from "./viewport";
 
 /** Lines on the grid: places as shares of its width and height in 65535ths. */
@@ -17,7 +17,7 @@ export interface FieldArrays {
   contour_level_m: Numbers;
 }
 
-export interface LayerChoice { arrows: boolean; streamlines: boolean; contours: boolean; mission: boolean; flights: boolean }
+export interface LayerChoice { arrows: boolean; streamlines: boolean; contours: boolean; mission: boolean; flights: boolean; chokes: boolean }
 
 const ink = "#22262b";
 
@@ -217,6 +217,28 @@ export function drawMission(context: CanvasRenderingContext2D, view: Viewport, m
     context.strokeStyle = color;
     context.lineWidth = width;
     context.stroke();
+  }
+}
+
+/** Rings with the chokes' numbers in their table; of several that would overlap, the most costly. */
+export function drawChokes(context: CanvasRenderingContext2D, view: Viewport, chokes: Choke[]): void {
+  context.font = "600 10px system-ui, sans-serif";
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  const taken: [number, number][] = [];
+  for (const [k, choke] of chokes.entries()) {
+    const [x, y] = view.toScreen(choke.x_m, choke.y_m);
+    if (taken.some(([a, b]) => Math.hypot(a - x, b - y) < 17)) continue;
+    taken.push([x, y]);
+    context.beginPath();
+    context.arc(x, y, 8, 0, 2 * Math.PI);
+    context.fillStyle = "rgb(255 255 255 / 88%)";
+    context.fill();
+    context.strokeStyle = ink;
+    context.lineWidth = 1.4;
+    context.stroke();
+    context.fillStyle = ink;
+    context.fillText(String(k + 1), x, y + 0.5);
   }
 }
 

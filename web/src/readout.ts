@@ -1,31 +1,30 @@
 // What the plan and the certificate say about the place under the cross.
-import { byId, headingWords, short, term } from "./dom";
+import { byId, el, headingWords, short, term } from "./dom";
 import { bearingWords, earthWords } from "./earth";
 import { headingOfCode, type FieldArrays } from "./overlay";
-import { no_value, RegionCode, valueIndex, type PageRecord } from "./record";
+import { no_value, RegionCode, sampleIndex, valueIndex, verdictWords, type PageRecord, type VerdictInfo } from "./record";
 
 const region_names = ["buffer", "safe start", "obstacle", "goal"];
 
-/** The layer shown, its heading, and for how many headings each sample reaches, once known. */
-export interface ShownVerdicts { codes: Uint8Array; heading_rad: number; reaching: Uint16Array | null; whose: string }
+/** What a vehicle's verdicts say at a heading, once their layer is inflated, and for how many headings each sample reaches. */
+export interface ReadVerdicts { info: VerdictInfo; codes: Uint8Array; heading_rad: number; reaching: Uint16Array | null; whose: string }
 
 type Cell = [number, number];
 
-function cellAt(record: PageRecord, place: [number, number]): Cell | null {
+export function cellAt(record: PageRecord, place: [number, number]): Cell | null {
   const { nx, ny, x0_m, y0_m, cell_m } = record.grid;
   const cell: Cell = [Math.floor((place[0] - x0_m) / cell_m), Math.floor((place[1] - y0_m) / cell_m)];
   return cell[0] >= 0 && cell[0] < nx && cell[1] >= 0 && cell[1] < ny ? cell : null;
 }
 
-function verdictTerms(record: PageRecord, cell: Cell, verdicts: ShownVerdicts): HTMLElement[] {
-  const info = record.verdicts!;
-  const sample = Math.floor(cell[1] / info.cells_per_sample) * info.nx + Math.floor(cell[0] / info.cells_per_sample);
-  const code = verdicts.codes[sample];
+function verdictTerms(record: PageRecord, cell: Cell, { info, codes, heading_rad, reaching, whose }: ReadVerdicts): HTMLElement[] {
+  const sample = sampleIndex(info, cell);
+  const code = codes[sample];
   if (code === record.codes.obstacle || code === record.codes.target) return [];
-  const name = record.styles.verdict[code].name;
-  const terms = [term(`verdict at ${headingWords(verdicts.heading_rad)}${verdicts.whose}`, code === record.codes.undecided ? name : `proved: ${name}`)];
-  if (verdicts.reaching) terms.push(term("headings that reach", `${verdicts.reaching[sample]} of ${info.heading_rad.length}`));
-  return terms;
+  const name = `verdict at ${headingWords(heading_rad)}${whose}`;
+  const reach = reaching ? `${reaching[sample]} of ${info.heading_rad.length}` : "";
+  if (whose) return [wide(term(name, verdictWords(record, code), ...(reach ? [el("small", {}, `, reach at ${reach} headings`)] : [])))];
+  return [term(name, verdictWords(record, code)), ...(reach ? [term("headings that reach", reach)] : [])];
 }
 
 function wide(element: HTMLElement): HTMLElement {
@@ -33,7 +32,7 @@ function wide(element: HTMLElement): HTMLElement {
   return element;
 }
 
-export function showReadout(record: PageRecord, field: FieldArrays, place: [number, number] | null, verdicts: ShownVerdicts | null): void {
+export function showReadout(record: PageRecord, field: FieldArrays, place: [number, number] | null, verdicts: ReadVerdicts[]): void {
   const cell = place && cellAt(record, place);
   if (!place || !cell) {
     byId("readout").replaceChildren(term("place", "point at the map to read values"));
@@ -52,6 +51,6 @@ export function showReadout(record: PageRecord, field: FieldArrays, place: [numb
     term("region", cut_off ? `${region[i] === RegionCode.free ? "free" : "buffer"}, but cut off from the goal: no command` : region_names[region[i]]),
     term("cost to go", cost[i] === no_value ? "none" : `${short(cost[i] * record.cost_step_m)} m`),
     term("commanded heading", commanded ? bearingWords(record, headingOfCode(heading[i])) : open ? "none: straight on" : "none"),
-    ...(verdicts ? verdictTerms(record, cell, verdicts) : []),
+    ...verdicts.flatMap((its) => verdictTerms(record, cell, its)),
     ...(per > 1 ? [term("values", `of one cell in ${per} × ${per}`)] : []));
 }

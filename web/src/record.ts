@@ -16,6 +16,7 @@ export interface Codes {
   order: number[];  // in which verdicts are listed, undecided the last
   obstacle: number;
   target: number;
+  at_risk?: number;  // undecided, and a behaviour within the contract is known that fails
 }
 
 /** A line of the findings: "97.0 %" of "free cells" "are cut off"; without a share, a sentence. */
@@ -43,7 +44,9 @@ export interface VerdictInfo {
   cells_per_sample: number;
   heading_rad: number[];
   offset_m: [number, number];
-  count: number[][];  // [heading][verdict]
+  count: number[][];  // [heading][code]
+  at_risk?: number[];  // [heading]: of the undecided ones; only under a contract, where witnesses were searched for
+  not_searched?: number;  // undecided states where none was, at all headings
 }
 
 export interface PageRecord {
@@ -58,6 +61,7 @@ export interface PageRecord {
   cost_step_m: number;
   styles: {
     verdict: VerdictStyle[];  // [code]
+    at_risk?: VerdictStyle;
     outcome: Record<string, Line>;  // by the outcome's name
     cost_ramp: string[];
     share: string[][];
@@ -73,6 +77,43 @@ export interface PageRecord {
   words: string[];
   assumptions: string[];  // of every proof
   summary: Record<string, any>;
+}
+
+/** A place that undecided states under the contract wait for. */
+export interface Choke { x_m: number; y_m: number; cell: [number, number]; reason: string; share: number }
+
+/** Codes in the order in which their verdicts are listed, undecided the last. */
+export function codesInOrder({ codes }: PageRecord, info: VerdictInfo): number[] {
+  if (!info.at_risk) return codes.order;
+  return [...codes.order.filter((code) => code !== codes.undecided), codes.at_risk!, codes.undecided];
+}
+
+/** How many samples have each code at a heading: at risk, or undecided, but not both. */
+export function countsAt({ codes }: PageRecord, info: VerdictInfo, heading: number): number[] {
+  const count = [...info.count[heading]];
+  if (info.at_risk) {
+    count[codes.undecided] -= info.at_risk[heading];
+    count[codes.at_risk!] = info.at_risk[heading];
+  }
+  return count;
+}
+
+/** The heading of `info` nearest to an angle. */
+export function nearestHeading(info: VerdictInfo, rad: number): number {
+  const n = info.heading_rad.length;
+  return (Math.round(rad / (2 * Math.PI) * n) % n + n) % n;
+}
+
+/** Index of a cell's sample. */
+export function sampleIndex(info: VerdictInfo, [ix, iy]: [number, number]): number {
+  return Math.floor(iy / info.cells_per_sample) * info.nx + Math.floor(ix / info.cells_per_sample);
+}
+
+/** "proved: reach", "at risk", "undecided". */
+export function verdictWords(record: PageRecord, code: number): string {
+  const { codes, styles } = record;
+  if (code === codes.at_risk) return styles.at_risk!.words;
+  return (code === codes.undecided ? "" : "proved: ") + styles.verdict[code].words;
 }
 
 /** Codes of the array `region`: those of a plan file plus 1. */

@@ -59,6 +59,14 @@ export class Viewport {
     this.cy = Math.min(Math.max(this.cy + dy / this.scale, y0_m), y0_m + ny * cell_m);
   }
 
+  /** A place in the middle, with so many metres around it in view, or fewer where it is shown nearer already. */
+  look(x: number, y: number, across_m: number): void {
+    const scale = Math.max(this.scale, Math.min(this.width, this.height) / across_m);
+    this.zoomAt(this.width / 2, this.height / 2, scale / this.scale);
+    const [px, py] = this.toScreen(x, y);
+    this.pan(this.width / 2 - px, this.height / 2 - py);
+  }
+
   /** Moves as little as needed to bring the place into view. */
   show(x: number, y: number): void {
     const margin = 30;

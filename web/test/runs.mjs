@@ -2,6 +2,7 @@
 import { execFileSync, spawn } from "node:child_process";
 import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
+import { inflateSync } from "node:zlib";
 
 export const { FAIRWAY, SOURCE, MAPS, WORK } = process.env;
 
@@ -48,10 +49,10 @@ export function recordOf(folder) {
   return JSON.parse(/id="record">(.*?)<\/script>/s.exec(readFileSync(join(folder, "report.html"), "utf8"))[1]);
 }
 
-/** Verdicts of states [x, y, h], by the certificate. */
-export function query(folder, states) {
+/** Verdicts of states [x, y, h], by a certificate of the run. */
+export function query(folder, states, certificate = "certificate.safetensors") {
   const csv = "x_m,y_m,heading_rad\n" + states.map((s) => s.join(",")).join("\n") + "\n";
-  const text = execFileSync(FAIRWAY, ["query", join(folder, "certificate.safetensors"), "--states", "-"], { input: csv, encoding: "utf8" });
+  const text = execFileSync(FAIRWAY, ["query", join(folder, certificate), "--states", "-"], { input: csv, encoding: "utf8" });
   return text.trim().split("\n").slice(1).map((line) => line.split(",")[3]);
 }
 
@@ -65,4 +66,13 @@ export async function view(folder) {
   }
   const ended = new Promise((resolve) => server.on("exit", resolve));
   return { address: JSON.parse(said).address, end: async () => { server.kill("SIGINT"); return ended; } };
+}
+
+/** One layer, or the whole, of an array of bytes that a page carries. */
+export function bytesOf(folder, name, layer = 0) {
+  const text = /id="arrays">(.*?)<\/script>/s.exec(readFileSync(join(folder, "report.html"), "utf8"))[1];
+  const bytes = Buffer.from(text, "base64");
+  const begin = 8 + Number(bytes.readBigUInt64LE(0));
+  const { at } = JSON.parse(bytes.subarray(8, begin))[name];
+  return inflateSync(bytes.subarray(begin + at[layer], begin + at[layer + 1]));
 }

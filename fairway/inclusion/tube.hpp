@@ -1,0 +1,60 @@
+// A tube about a path, as flights over parts see it: how far each part lies from the path, where
+// along it, and which ways the path runs there.
+//
+// Properties that always hold, for parts up to `widest_m` away:
+//   1. No place of the part is farther from the path than distance_m.
+//   2. `tangent_rad` and `station_m` are those of the point nearest to the part's middle; elsewhere
+//   in
+//      the part they are others where the path bends.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "fairway/inclusion/heading_arc.hpp"
+#include "fairway/inclusion/parts.hpp"
+#include "fairway/vehicle/path_locator.hpp"
+
+namespace fairway {
+
+class Tube {
+ public:
+  static constexpr float outside = std::numeric_limits<float>::infinity();
+
+  /// `grid`: of the parts' plan. Time in proportion to parts times pieces of the path near them.
+  Tube(const Parts& parts, const Grid& grid, const PathLocator& path, double widest_m);
+
+  double length_m() const { return length_m_; }
+  bool closed() const { return closed_; }
+  double widest_m() const { return widest_m_; }
+  /// How much the path turns from one station to another, both ways added up: at its corners.
+  double turning_rad(double from_m, double to_m) const;
+
+  float distance_m(std::size_t part) const { return distance_m_[part]; }  ///< or `outside`
+  float station_m(std::size_t part) const { return station_m_[part]; }    ///< of its middle
+  double tangent_rad(std::size_t part) const { return static_cast<double>(tangent_rad_[part]); }
+
+  const HeadingArc& tangents(std::size_t part) const { return tangents_[part]; }
+
+  /// The largest angle between a heading of the arc and the part's own tangent.
+  double off_rad(std::size_t part, const HeadingArc& headings) const;
+  /// The largest between a heading of the arc and a tangent of the part.
+  double most_off_rad(std::size_t part, const HeadingArc& headings) const;
+  /// How far forward one station lies from another: of a closed path the shorter way round,
+  /// negative when that leads back.
+  double ahead_m(double from_m, double to_m) const;
+
+ private:
+  double length_m_;
+  bool closed_;
+  double widest_m_;
+  std::vector<std::pair<double, double>> corner_;  // station, rad
+  std::vector<float> distance_m_;                  // [parts]
+  std::vector<float> station_m_;                   // [parts]
+  std::vector<float> tangent_rad_;                 // [parts]
+  std::vector<HeadingArc> tangents_;               // [parts]
+};
+
+}  // namespace fairway
