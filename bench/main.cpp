@@ -28,7 +28,8 @@ struct Section {
 constexpr Section sections[] = {
     {"distance", distance_rows}, {"cost", cost_rows},           {"error", cost_error_rows},
     {"filter", filter_rows},     {"pipeline", pipeline_rows},   {"flight", flight_rows},
-    {"bitmap", bitmap_rows},     {"certified", certified_rows}, {"steer", steer_rows},
+    {"bitmap", bitmap_rows},     {"certified", certified_rows}, {"contract", contract_rows},
+    {"steer", steer_rows},
 };
 
 struct Request {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "check/leaf_findings.hpp"
 #include "check/tensors.hpp"
 
 namespace fairway_check {
@@ -52,10 +53,7 @@ void require_leaves(const Certificate& c) {
 
 }  // namespace
 
-std::size_t Certificate::section_of(std::size_t leaf) const {
-  const auto next = std::upper_bound(first.begin(), first.end(), leaf);
-  return static_cast<std::size_t>(next - first.begin()) - 1;
-}
+std::size_t Certificate::section_of(std::size_t leaf) const { return section_of_leaf(first, leaf); }
 
 std::string Certificate::name_of(std::size_t leaf) const {
   const std::size_t s = section_of(leaf);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "check/leaf_findings.hpp"
 #include "check/tensors.hpp"
 
 namespace fairway_check {
@@ -86,8 +87,7 @@ void require_leaves(ContractCertificate& c) {
 }  // namespace
 
 std::size_t ContractCertificate::section_of(std::size_t leaf) const {
-  const auto next = std::upper_bound(first.begin(), first.end(), leaf);
-  return static_cast<std::size_t>(next - first.begin()) - 1;
+  return section_of_leaf(first, leaf);
 }
 
 std::string ContractCertificate::name_of(std::size_t leaf) const {

@@ -21,8 +21,8 @@
 //   last of equally near commands                  F
 //   joining behaviours forgotten                   F
 //   cone of one heading                            F
-// Not caught yet: the call that follows turn-backs dropped (where it matters, most behaviours may
-// alternate, which is followed otherwise); the chord of a step instead of its arc (2.5 degrees).
+//   turn-back call dropped                         ContractFlight.TellsOfThoseThatTurnBack...
+//   chord of a step instead of its arc             Displacements.HoldEveryArcOfTheLeastRadius...
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -12,7 +12,7 @@
 #include <tbb/parallel_for.h>
 
 #include "check/contract_flight.hpp"
-#include "check/tensors.hpp"
+#include "check/leaf_findings.hpp"
 
 namespace fairway_check {
 namespace {
@@ -111,12 +111,7 @@ std::string defect_of_leaf(const ContractCertificate& c, Behaviours& behaviours,
                          c.end_of(section, leaf), outcome);
   share = {outcome.onwards_s, outcome.astray_rad};
   if (outcome.gave_up) return "its behaviours cannot be followed";
-  if (outcome.verdict() != verdict) {
-    std::string told = "re-proved outcomes:";
-    for (unsigned v = 0; v < verdict_count; ++v)
-      told += (outcome.told >> v & 1U) != 0 ? fmt::format(" {}", verdict_name[v]) : "";
-    return told;
-  }
+  if (outcome.verdict() != verdict) return told_instead(outcome.told);
   if (verdict == trapped) return {};
   if (outcome.most_group > group) {
     return fmt::format("its group is {}, but its behaviours come to a leaf of group {}", group,
@@ -218,35 +213,23 @@ Told told_of_state(const ContractCertificate& c, std::size_t cell, double x, dou
 }
 
 std::string judge_contract(const std::string& path, const std::string& plan, std::size_t samples,
-                           nlohmann::ordered_json& report) try {
+                           nlohmann::ordered_json& report) {
   const ContractCertificate c = read_contract_certificate(path, plan);
-  for (std::size_t v = 0; v < verdict_count; ++v) {
-    report["leaves"][verdict_name[v]] = std::count(c.verdict.begin(), c.verdict.end(), v);
-  }
   std::vector<Share> shares;
   const std::vector<std::uint8_t> fails = failing_leaves(c, shares);
-  const auto first =
-      static_cast<std::size_t>(std::find(fails.begin(), fails.end(), 1) - fails.begin());
-  report["leaves_not_reproved"] = std::count(fails.begin(), fails.end(), 1);
-  if (first < fails.size()) {
+  const auto why = [&](std::size_t section, std::size_t leaf) {
     Behaviours behaviours(c.parts, c.contract);
-    return fmt::format("{} of {} leaves could not be re-proved, the first is {}, claimed to {}: {}",
-                       report["leaves_not_reproved"].dump(), fails.size(), c.name_of(first),
-                       verdict_name[c.verdict[first]],
-                       defect_of_leaf(c, behaviours, c.section_of(first), first, shares[first]));
-  }
-  const std::string late = defect_of_groups(c, shares);
-  if (!late.empty()) return late;
-  if (!c.record.contains("volume_fraction")) return "";
+    return defect_of_leaf(c, behaviours, section, leaf, shares[leaf]);
+  };
+  std::string wrong = defect_of_leaves(c, fails, why, report);
+  if (wrong.empty()) wrong = defect_of_groups(c, shares);
+  if (!wrong.empty() || !c.record.contains("volume_fraction")) return wrong;
   return defect_of_claims(
       c.record, c.loop, c.region, samples, true,
       [&c](std::size_t cell, double x, double y, double heading_rad) {
         return told_of_state(c, cell, x, y, heading_rad);
       },
       report);
-} catch (const Defect& defect) {
-  if (defect.code != 1) throw;
-  return defect.what();
 }
 
 }  // namespace fairway_check

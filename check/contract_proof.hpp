@@ -16,7 +16,7 @@ namespace fairway_check {
 Told told_of_state(const ContractCertificate& c, std::size_t cell, double x, double y,
                    double heading_rad);
 
-/// As `judge` (proof.hpp).
+/// As `judge` (proof.hpp), but throws Defect 1 where that gives the reason.
 std::string judge_contract(const std::string& path, const std::string& plan, std::size_t samples,
                            nlohmann::ordered_json& report);
 

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "check/contract_proof.hpp"
+#include "check/leaf_findings.hpp"
 #include "check/tensors.hpp"
 
 namespace fairway_check {
@@ -84,12 +85,7 @@ std::string defect_of_leaf(const Certificate& c, std::size_t section, std::size_
       outcome.hop_s > 0.0 ? Real(std::floor((width(units) / hop).upper())) : Real(0.0);
   const double worst_s = (outcome.worst_s + hops * outcome.hop_s).upper();
   const Verdict verdict = static_cast<Verdict>(c.verdict[leaf]);
-  if (outcome.verdict() != verdict) {
-    std::string told = "re-proved outcomes:";
-    for (unsigned v = 0; v < verdict_count; ++v)
-      told += (outcome.told >> v & 1U) != 0 ? fmt::format(" {}", verdict_name[v]) : "";
-    return told;
-  }
+  if (outcome.verdict() != verdict) return told_instead(outcome.told);
   if (verdict == trapped) return {};
   if (outcome.least_rank > c.rank[leaf]) {
     return fmt::format("its rank is {}, but its states come to a leaf of rank {}", c.rank[leaf],
@@ -126,20 +122,12 @@ std::string judge(const std::string& path, const std::string& plan, std::size_t 
                   nlohmann::ordered_json& report) try {
   if (is_contract_certificate(path)) return judge_contract(path, plan, samples, report);
   const Certificate c = read_certificate(path, plan);
-  for (std::size_t v = 0; v < verdict_count; ++v) {
-    report["leaves"][verdict_name[v]] = std::count(c.verdict.begin(), c.verdict.end(), v);
-  }
-  const std::vector<std::uint8_t> fails = failing_leaves(c);
-  const auto first =
-      static_cast<std::size_t>(std::find(fails.begin(), fails.end(), 1) - fails.begin());
-  report["leaves_not_reproved"] = std::count(fails.begin(), fails.end(), 1);
-  if (first < fails.size()) {
+  const auto why = [&c](std::size_t section, std::size_t leaf) {
     const Upwards upwards;
-    const std::size_t section = c.section_of(first);
-    return fmt::format("{} of {} leaves could not be re-proved, the first is {}, claimed to {}: {}",
-                       report["leaves_not_reproved"].dump(), fails.size(), c.name_of(first),
-                       verdict_name[c.verdict[first]], defect_of_leaf(c, section, first));
-  }
+    return defect_of_leaf(c, section, leaf);
+  };
+  std::string wrong = defect_of_leaves(c, failing_leaves(c), why, report);
+  if (!wrong.empty()) return wrong;
   return defect_of_claims(
       c.record, c.loop, c.region, samples, false,
       [&c](std::size_t cell, double x, double y, double heading_rad) {

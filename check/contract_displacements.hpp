@@ -1,0 +1,18 @@
+// How far the vehicle comes while its heading turns by a step.
+#pragma once
+
+#include "check/shape.hpp"
+
+namespace fairway_check {
+
+/// All displacements in a step of the clock. With the radius r between r1 and r2 the displacement
+/// is the integral of r e over the headings, so that of r1, an arc within the triangle of its
+/// tangents, and (r2 - r1) times something in the parallelogram of the same tangents.
+struct Displacements {
+  Displacements(int turn, double clock, double step, double least_radius, double most_radius);
+  Point whole{};  ///< of the whole step, to which `slack` is added
+  Shape slack{};
+  Shape partial{};  ///< of any part of the step
+};
+
+}  // namespace fairway_check
