@@ -9,6 +9,7 @@
 #include "fairway/report/draw_flights.hpp"
 #include "fairway/report/draw_verdicts.hpp"
 #include "fairway/run/contract_pictures.hpp"
+#include "fairway/run/find_at_risk.hpp"
 
 namespace fairway {
 namespace {
@@ -44,15 +45,22 @@ void count_verdicts(const ContractCertificate& certificate, std::uint64_t seed, 
 
 }  // namespace
 
+Picture picture_of_verdicts(const ContractCertificate& certificate, const VerdictMap& map,
+                            const std::string& title) {
+  const PageWitnesses found = find_at_risk(certificate, map, {.most_steps = 0});
+  VerdictPictureOptions options;
+  options.title = title + ": verdicts under the contract, near the cells' middles";
+  options.at_risk = &found.at_risk;
+  return draw_verdicts(map, options);
+}
+
 void write_contract_verdict_pictures(const Plan& plan, const ContractCertificate& certificate,
                                      const NamedFlights& counterexamples, std::uint64_t seed,
                                      const std::string& title,
                                      const std::filesystem::path& folder) {
   VerdictMap map = contract_verdict_map(certificate);
   count_verdicts(certificate, seed, map);
-  write(draw_verdicts(map, {.title = title + ": verdicts under the contract, near the cells' "
-                                             "middles"}),
-        folder, "verdicts");
+  write(picture_of_verdicts(certificate, map, title), folder, "verdicts");
   write(draw_proved_shares(map, {.title = title + ": verdicts under the contract, over all "
                                                   "headings"}),
         folder, "proved");

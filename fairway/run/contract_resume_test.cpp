@@ -18,6 +18,7 @@ ContractVerification verified(std::uint64_t seed, const EarlierContractProof* ea
   ContractVerifyOptions options;
   options.samples = 1000;
   options.find_witnesses = false;
+  options.parts_per_cell = 1;
   return verify_contract(
       plan, "the plan", {}, contract, options, [](const std::string&) {}, earlier);
 }

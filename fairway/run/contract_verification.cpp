@@ -76,10 +76,10 @@ json evidence_of(const ContractVerifyOptions& options, const ContractVerificatio
 /// Seconds so far, against a limit; 0 is none.
 class Stopwatch {
  public:
-  bool is_within(double limit_s) const {
-    const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - began_;
-    return limit_s <= 0.0 || so_far.count() < limit_s;
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
   }
+  bool is_within(double limit_s) const { return limit_s <= 0.0 || seconds() < limit_s; }
 
  private:
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
@@ -188,6 +188,7 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
     progress(fmt::format("verifying under the contract, {:.1f} % of sides undecided",
                          100.0 * level.undecided_share));
   });
+  const double proof_s = watch.seconds();
   c.verdicts = prover.verdicts(c.least_speed_mps());
   if (earlier != nullptr) made.resumed = taken_over(*earlier, c.verdicts, in_time);
   progress("measuring shares of states");
@@ -196,8 +197,11 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
   if (search) {
     progress("searching for behaviours that fail");
     const std::vector<State> states = undecided.in_random_order(options.seed);
-    const RiskCount found =
-        search_for_failures(c, states, options.seed, [&] { return watch.is_within(limit_s); });
+    // Measuring has not used up what is left for it.
+    const double rest_s = std::max(limit_s - proof_s, (1.0 - share_of_the_proof) * limit_s);
+    const Stopwatch search_watch;
+    const RiskCount found = search_for_failures(c, states, options.seed,
+                                                [&] { return search_watch.is_within(rest_s); });
     made.undecided_states = states.size();
     made.searched_states = found.asked;
     made.searched = add_at_risk(made.survey.shares, states.size(), found);
@@ -256,18 +260,22 @@ std::vector<Finding> findings(const Plan& plan, const ContractVerification& made
 }
 
 std::optional<std::string> limit_warning(const ContractVerification& made) {
+  std::string words;
   if (made.stopped_by_limit) {
-    return "The proof under the contract stopped at its limit of time or memory: raise the limit, "
-           "or a share of the states stays undecided.";
+    words =
+        "The proof under the contract stopped at its limit of time or memory: raise the limit, or "
+        "a share of the states stays undecided.";
   }
-  if (made.searched_states == made.undecided_states) return std::nullopt;
-  return fmt::format(
-      "The limit of time left no time to search for behaviours that fail from all undecided "
-      "states: "
-      "{}.",
-      made.searched ? fmt::format("the share at risk is that of {} of {}",
-                                  grouped(made.searched_states), grouped(made.undecided_states))
-                    : "which of them are at risk is not known");
+  if (made.searched_states < made.undecided_states) {
+    words += fmt::format(
+        "{}The limit of time left no time to search for behaviours that fail from all undecided "
+        "states: {}.",
+        words.empty() ? "" : " ",
+        made.searched ? fmt::format("the share at risk is that of {} of {}",
+                                    grouped(made.searched_states), grouped(made.undecided_states))
+                      : "which of them are at risk is not known");
+  }
+  return words.empty() ? std::nullopt : std::optional(std::move(words));
 }
 
 std::string contract_notes(const ContractVerification& made) {

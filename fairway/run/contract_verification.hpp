@@ -48,8 +48,8 @@ struct ContractVerification {
 /// plan cannot be verified or the contract is none of its vehicle.
 ///
 /// A limit of time holds for the proof, of which it gets at most four fifths when witnesses are
-/// searched for, and for that search. Measuring shares comes in addition: its work does not depend
-/// on how hard the proof is.
+/// searched for, and for that search, which gets the rest. Measuring shares comes in addition: its
+/// work does not depend on how hard the proof is.
 [[nodiscard]] ContractVerification verify_contract(
     const Plan& plan, const std::string& where, const RegionOfInterest& region,
     const VehicleContract& contract, const ContractVerifyOptions& options,

@@ -5,6 +5,7 @@
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/report/draw_plan.hpp"
 #include "fairway/report/draw_verdicts.hpp"
+#include "fairway/run/contract_failure_pictures.hpp"
 #include "fairway/run/contract_pictures.hpp"
 #include "fairway/run/product_file.hpp"
 #include "fairway/verify/sample_verdicts.hpp"
@@ -22,8 +23,8 @@ ProductPicture picture_of_product(const std::filesystem::path& file) {
     return {picture_of_plan(read_plan(file), title), "plan"};
   }
   if (kind == ProductKind::contract_certificate) {
-    const VerdictMap map = contract_verdict_map(read_contract_certificate(file));
-    return {draw_verdicts(map, {.title = title + ": under the contract"}), "verdicts"};
+    const ContractCertificate certificate = read_contract_certificate(file);
+    return {picture_of_verdicts(certificate, contract_verdict_map(certificate), title), "verdicts"};
   }
   const Certificate certificate = read_certificate(file);
   const VerdictMap map = verdict_map_of(certificate.flow(), certificate.sections.view(), {});
