@@ -150,6 +150,21 @@ test("pressing on a state at risk plays a behaviour that fails from there, and s
     }
     await press(page, sampleWith(record.codes.reach, 200));
     assert.ok(await box.isHidden(), "where all reach there is none");
+    // From the keyboard.
+    const place = sampleWith(record.codes.at_risk, 20);
+    await turnTo(page, place.k);
+    await page.mouse.move(...await onScreen(page, place));
+    await page.locator("#map").focus();
+    await page.keyboard.press("Enter");
+    await page.waitForFunction((x) => document.querySelector("#witness").dataset.start?.startsWith(x), String(place.x));
+    assert.ok(await box.isVisible());
+    const near = await picture(page);
+    await box.getByRole("button", { name: "Zoom to it" }).click();
+    await frames(page, 6);
+    assert.notEqual(await picture(page), near);
+    await page.getByRole("button", { name: "Show the whole map" }).click();
+    await frames(page, 6);
+    await page.getByRole("button", { name: "Close the witness" }).click();
   }
   // For the exact vehicle nothing is at risk.
   await choose(page, "Exact vehicle");
@@ -171,6 +186,19 @@ test("a witness is animated where motion is welcome", async (t) => {
   await page.waitForFunction(() => { const [now, all] = document.querySelector("#witness output").innerText.split(" s of "); return parseFloat(now) === parseFloat(all); }, null, { timeout: 30_000 });
   await page.getByRole("button", { name: "Close the witness" }).click();
   assert.ok(await page.locator("#witness").isHidden());
+});
+
+test("on paper nothing is beside the sheet", async (t) => {
+  const { page, trouble } = await openedFile(t, kept);
+  await page.evaluate(() => { window.dispatchEvent(new Event("beforeprint")); });
+  await frames(page, 6);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= Math.max(700, window.innerWidth)));
+  assert.match(await page.locator("#shown-words").innerText(), /under the contract/);
+  assert.ok(await page.locator("#chokes tbody tr").last().isVisible());
+  await page.evaluate(() => { window.dispatchEvent(new Event("afterprint")); });
+  await frames(page, 6);
+  assert.ok(await page.locator("#map-beside").isVisible());
+  assert.deepEqual(trouble, []);
 });
 
 test("chokes are listed with their shares and reasons, and pressing one goes there", async (t) => {
