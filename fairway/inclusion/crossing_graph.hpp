@@ -49,6 +49,7 @@ enum class LeafState : std::uint8_t {
   fresh,   ///< not flown
   open,    ///< flown, not decided
   closed,  ///< decided
+  aside,   ///< not flown until it is made fresh
   idle     ///< of a section that nothing crosses
 };
 

@@ -19,6 +19,17 @@ constexpr std::uint32_t core_group = 1;
 constexpr double longest_hop = 0.125;
 constexpr std::size_t most_stretches = 512;
 
+/// Whoever comes to these leaves has come to the core.
+void close(Leaf& leaf) {
+  leaf.state = LeafState::closed;
+  leaf.verdict = Verdict::reach;
+  leaf.group = core_group;
+}
+GroupRecord groups_to_core() {
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  return {{none, none}, {std::numeric_limits<float>::infinity(), 0.0F}};
+}
+
 }  // namespace
 
 FollowProver::FollowProver(const Parts& parts, const Tube& tube, const FollowOptions& options)
@@ -129,6 +140,7 @@ bool FollowProver::measure(const std::vector<bool>& core, SizeRange speed_mps,
   found.profile.assign(stretches, {});
   const double stretch_m = length_m / static_cast<double>(stretches);
   const double part_m = 1.5 * parts_.part_m();  // from its middle, and more
+  double hop_m = 0.0;
   for (Id id = 0; id < graph_.leaves(); ++id) {
     if (!core[id]) continue;
     const Leaf& leaf = graph_.leaf(id);
@@ -139,6 +151,7 @@ bool FollowProver::measure(const std::vector<bool>& core, SizeRange speed_mps,
       const std::size_t part = link.section / sections_per_part;
       const double hop = tube_.ahead_m(from, static_cast<double>(tube_.station_m(part)));
       if (std::abs(hop) > longest_hop * length_m) return false;
+      hop_m = std::max(hop_m, std::abs(hop));
       back = std::min(back, hop - part_m);
       on = std::max(on, hop + part_m);
     }
@@ -151,25 +164,87 @@ bool FollowProver::measure(const std::vector<bool>& core, SizeRange speed_mps,
       s.off_rad = std::max(s.off_rad, static_cast<double>(leaf.most_off_rad));
     }
   }
+  std::vector<bool> bent(stretches);
   double most_m = 0.0;  // of way, as if straight along the path
   for (std::size_t k = 0; k < stretches; ++k) {
     const TubeStretch& s = found.profile[k];
-    if (s.distance_m == 0.0 || s.off_rad > most_off_progress_rad) return false;
+    if (s.distance_m == 0.0) return false;  // nobody comes by
     found.tube_m = std::max(found.tube_m, s.distance_m);
     found.off_rad = std::max(found.off_rad, s.off_rad);
+    bent[k] = s.off_rad > most_off_progress_rad;
+    if (bent[k]) continue;
     // Around a corner, on its outer side, the nearest point stands still.
     const double begin_m = static_cast<double>(k) * stretch_m;
     const double turning = tube_.turning_rad(begin_m, begin_m + stretch_m);
     most_m += (stretch_m + s.distance_m * turning) / std::cos(s.off_rad);
   }
+  if (std::find(bent.begin(), bent.end(), false) == bent.end()) return false;
+  const auto margin = static_cast<std::size_t>(std::ceil((hop_m + part_m) / stretch_m));
+  const double through = through_bends(core, bent, margin);
+  most_m += through * parts_.part_m();
   const double least_m = length_m - found.tube_m * tube_.turning_rad(0.0, length_m);
   found.lap_least_s = std::max(0.0, least_m) / speed_mps.most;
   found.lap_most_s = most_m / speed_mps.least;
-  return true;
+  return std::isfinite(through);
+}
+
+/// Where the path bends so sharply that the tube's places see it from all sides, its tangents say
+/// little. The longest way, in parts, through such stretches, with `margin` of others before and
+/// after them, where the nearest point moves on: from groups, each with a direction. Infinite when
+/// some behaviour may stay there.
+double FollowProver::through_bends(const std::vector<bool>& core, const std::vector<bool>& bent,
+                                   std::size_t margin) const {
+  const std::size_t n = bent.size();
+  std::vector<bool> about(n, false);
+  for (std::size_t k = 0; k < n; ++k) {
+    for (std::size_t m = 0; bent[k] && m <= 2 * margin; ++m) about[(k + n + m - margin) % n] = true;
+  }
+  const auto begin = std::find(about.begin(), about.end(), false);
+  if (begin == about.end()) return std::numeric_limits<double>::infinity();
+  const auto first = static_cast<std::size_t>(begin - about.begin());
+  double sum = 0.0;
+  for (std::size_t k = first; k < first + n; ++k) {
+    if (!about[k % n] || about[(k + n - 1) % n]) continue;
+    std::size_t last = k;  // of the run that begins here
+    while (about[(last + 1) % n]) ++last;
+    CrossingGraph run = graph_;
+    for (Id id = 0; id < run.leaves(); ++id) {
+      Leaf& leaf = run.leaf(id);
+      const double along = static_cast<double>(tube_.station_m(part_of_[id])) / tube_.length_m();
+      const auto at = std::min(n - 1, static_cast<std::size_t>(along * static_cast<double>(n)));
+      if (!core[id]) {
+        leaf.state = LeafState::idle;
+      } else if ((at + n - k % n) % n > last - k) {
+        close(leaf);
+      }
+    }
+    GroupRecord groups = groups_to_core();
+    static_cast<void>(decide_groups(parts_, run, groups));
+    double longest = 0.0;
+    for (Id id = 0; id < run.leaves(); ++id) {
+      const Leaf& leaf = run.leaf(id);
+      if (leaf.state == LeafState::open) return std::numeric_limits<double>::infinity();
+      if (core[id]) longest = std::max(longest, static_cast<double>(groups.flown[leaf.group]));
+    }
+    sum += longest;
+  }
+  return sum;
+}
+
+/// Until the core is known, only leaves near the path matter.
+void FollowProver::set_aside_far_leaves() {
+  for (std::size_t s = 0; s < graph_.sections(); ++s) {
+    if (tube_.distance_m(s / sections_per_part) < Tube::outside) continue;
+    for (Id id = graph_.first(s); id < graph_.first(s + 1); ++id) {
+      Leaf& leaf = graph_.leaf(id);
+      if (leaf.state == LeafState::fresh) leaf.state = LeafState::aside;
+    }
+  }
 }
 
 std::optional<Following> FollowProver::find_core(SizeRange speed_mps) {
   std::vector<bool> stays;
+  set_aside_far_leaves();
   for (int level = 0;; ++level) {
     graph_.fly(parts_, options_.limits.flight, options_.limits.go_on);
     part_of_.clear();
@@ -199,17 +274,13 @@ std::optional<Following> FollowProver::find_core(SizeRange speed_mps) {
 bool FollowProver::join(const std::function<void(const InclusionLevel&)>& progress) {
   CrossingGraph start = graph_;
   for (Id id = 0; id < start.leaves(); ++id) {
-    if (!core_[id]) continue;
     Leaf& leaf = start.leaf(id);
-    leaf.state = LeafState::closed;
-    leaf.verdict = Verdict::reach;
-    leaf.group = core_group;
+    if (leaf.state == LeafState::aside) leaf.state = LeafState::fresh;
+    if (core_[id]) close(leaf);
   }
   InclusionLimits limits = options_.limits;
   limits.flight.tube = nullptr;
-  constexpr float none = std::numeric_limits<float>::quiet_NaN();
-  GroupRecord groups{{none, none}, {std::numeric_limits<float>::infinity(), 0.0F}};
-  joining_.emplace(parts_, limits, std::move(start), std::move(groups));
+  joining_.emplace(parts_, limits, std::move(start), groups_to_core());
   return joining_->run(progress);
 }
 

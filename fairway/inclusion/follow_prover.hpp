@@ -4,7 +4,8 @@
 // into leaves of the set. *Core*: of these, what leads on from groups in which a behaviour may be
 // for ever, because they have no direction in which all move on: the round trips. All others are on
 // their way to them. *Go round*: in the core all headings lie within a right angle of the path's
-// tangents, so that the nearest point of the path moves on at no less than a known speed. *Join*:
+// tangents, so that the nearest point of the path moves on at no less than a known speed; where the
+// path bends too sharply for that, groups of leaves have a direction in which all move on. *Join*:
 // the least fixpoint towards the core, as for a goal.
 //
 // Properties that always hold, when a core was found:
@@ -59,10 +60,13 @@ class FollowProver {
  private:
   using Id = CrossingGraph::Id;
 
+  void set_aside_far_leaves();
   std::vector<bool> near_path() const;
   void remove_leaks(std::vector<bool>& stays) const;
   std::vector<bool> core_of(const std::vector<bool>& stays) const;
   bool measure(const std::vector<bool>& core, SizeRange speed_mps, Following& found) const;
+  double through_bends(const std::vector<bool>& core, const std::vector<bool>& bent,
+                       std::size_t margin) const;
   template <typename Body>
   void for_targets(Id id, const Body& body) const;
 

@@ -1,6 +1,6 @@
 #include "fairway/run/proved_following.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <variant>
 
 #include <fmt/format.h>
@@ -15,10 +15,14 @@ namespace {
 /// that overshoot when they join.
 constexpr double widest_radii = 3.0;
 
-/// All but obstacles is flown over: the path's cells end nothing.
+/// The path's cells end nothing. Cells without a command, cut off from the path, are taken as
+/// obstacles: nobody who follows comes there, and states in them are none that the mission can use.
 std::vector<CellKind> flown_over(const Plan& plan) {
   std::vector<CellKind> kind = cell_kinds(plan.grid, plan.region, RegionOfInterest{});
-  std::replace(kind.begin(), kind.end(), CellKind::target, CellKind::ordinary);
+  for (std::size_t i = 0; i < kind.size(); ++i) {
+    if (kind[i] == CellKind::obstacle) continue;
+    kind[i] = std::isnan(plan.heading_rad[i]) ? CellKind::obstacle : CellKind::ordinary;
+  }
   return kind;
 }
 
@@ -87,15 +91,16 @@ std::vector<Finding> findings(const ProvedFollowing& f) {
     return {{"", "", "no tube about the path is proved that the vehicle never leaves"}};
   }
   const int decimals = decimals_of_sample(f.shares.samples);
-  return {{percent_text(share_of(f.shares.all, Verdict::reach), decimals), "all states",
-           "are proved to join the path and to follow it for ever"},
-          {percent_text(share_of(f.shares.free, Verdict::reach), decimals), "safe starts",
-           "are proved to join the path and to follow it for ever"},
-          {"", "",
-           fmt::format("who follows is within {:.3g} m of the path, heads within {:.0f} degrees of "
-                       "it, and goes round in {:.3g} to {:.3g} s",
-                       f.found->tube_m, f.found->off_rad * 180.0 / pi, f.found->lap_least_s,
-                       f.found->lap_most_s)}};
+  return {
+      {percent_text(share_of(f.shares.all, Verdict::reach), decimals),
+       "states with a way to the path", "are proved to join the path and to follow it for ever"},
+      {percent_text(share_of(f.shares.free, Verdict::reach), decimals), "safe starts",
+       "are proved to join the path and to follow it for ever"},
+      {"", "",
+       fmt::format("who follows is within {:.3g} m of the path, heads within {:.0f} degrees of "
+                   "it, and goes round in {:.3g} to {:.3g} s",
+                   f.found->tube_m, f.found->off_rad * 180.0 / pi, f.found->lap_least_s,
+                   f.found->lap_most_s)}};
 }
 
 }  // namespace fairway
