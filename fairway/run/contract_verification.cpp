@@ -199,9 +199,10 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
     const std::vector<State> states = undecided.in_random_order(options.seed);
     // Measuring has not used up what is left for it.
     const double rest_s = std::max(limit_s - proof_s, (1.0 - share_of_the_proof) * limit_s);
+    const FailureSearch failures(c);
     const Stopwatch search_watch;
-    const RiskCount found = search_for_failures(c, states, options.seed,
-                                                [&] { return search_watch.is_within(rest_s); });
+    const RiskCount found =
+        failures.count(states, options.seed, [&] { return search_watch.is_within(rest_s); });
     made.undecided_states = states.size();
     made.searched_states = found.asked;
     made.searched = add_at_risk(made.survey.shares, states.size(), found);
