@@ -71,6 +71,9 @@ class ContractProof(unittest.TestCase):
             self.assertTrue((self.folder / "kept" / name).is_file(), name)
         under = self.summary["contract"]
         self.assertTrue(under["checked"])
+        self.assertIn("within its contract", under["findings"][0]["what"])
+        for finding in under["findings"]:
+            self.assertIn(finding, self.summary["findings"])
         self.assertTrue(self.summary["verify"]["checked"])
         self.assertEqual(under["contract"]["turn_radius_m"], [11.0, 13.0])
         self.assertEqual(under["method"], "contract")
@@ -126,6 +129,12 @@ class ContractProof(unittest.TestCase):
         alone = json.loads((self.folder / "threads1.summary.json").read_text())
         self.assertEqual(alone["leaves"], run["leaves"])
         self.assertEqual(alone["volume_fraction"], run["volume_fraction"])
+
+    def test_a_run_finds_the_same_states_at_risk_on_any_number_of_threads(self):
+        self.run_there(0, "run", "kept.toml", "-o", "one", "--threads", 1, "--quiet")
+        for name in ("report.html", "contract.svg"):
+            if (self.folder / "kept" / name).exists():  # a build without npm has no page
+                self.assertEqual((self.folder / "one" / name).read_bytes(), (self.folder / "kept" / name).read_bytes())
 
     def test_verify_warns_of_a_contract_too_wide_for_the_plan(self):
         (self.folder / "wide.toml").write_text(CONTRACT.replace("command_error_m = 1.0", "command_error_m = 40.0"))

@@ -208,6 +208,14 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
     made.searched = add_at_risk(made.survey.shares, states.size(), found);
   }
   c.evidence_json = evidence_of(options, made).dump();
+  if (region.kind == RegionOfInterest::Kind::goal) {
+    SurveyOptions sampled;
+    sampled.samples = options.samples;
+    sampled.seed = options.seed;
+    made.following = prove_following(
+        plan, over_ground(contract), c.parts_per_cell, sampled,
+        [&] { return watch.is_within(limit_s); }, progress);
+  }
   return made;
 }
 
@@ -217,6 +225,7 @@ json contract_verification_json(const ContractVerification& made) {
   summary["method"] = "contract";
   summary["cells"] = {c.grid.nx, c.grid.ny};
   summary["leaves"] = c.verdicts.leaves();
+  if (made.following) summary["follow"] = following_json(*made.following);
   return summary;
 }
 
@@ -244,6 +253,9 @@ std::vector<Finding> findings(const Plan& plan, const ContractVerification& made
   if (share_of(s.free, Verdict::reach) > 0.0) {
     found.push_back({percent_text(share_of(s.free, Verdict::reach), decimals), "safe starts",
                      "are proved to reach the " + goal});
+  }
+  if (made.following) {
+    for (Finding& finding : findings(*made.following)) found.push_back(std::move(finding));
   }
   return found;
 }

@@ -15,6 +15,7 @@
 #include "fairway/plan/plan.hpp"
 #include "fairway/run/contract_resume.hpp"
 #include "fairway/run/findings.hpp"
+#include "fairway/run/proved_following.hpp"
 #include "fairway/run/verify_limits.hpp"
 #include "fairway/verify/region_of_interest.hpp"
 
@@ -37,7 +38,8 @@ struct ContractVerification {
   /// Of the sampled states that are undecided, and how many of them were searched from.
   std::size_t undecided_states = 0;
   std::size_t searched_states = 0;
-  std::optional<Resumed> resumed;  ///< when it went on from an earlier one
+  std::optional<Resumed> resumed;            ///< when it went on from an earlier one
+  std::optional<ProvedFollowing> following;  ///< of a closed path; in no certificate yet
 };
 
 /// Proves what all behaviours within `contract` do under `plan`. `earlier`: a contract certificate

@@ -128,7 +128,7 @@ export class MapInput {
       "[": () => hands.turnBy(-1), "]": () => hands.turnBy(1),
     };
     const live = hands.live();
-    if (live && hands.cross) keys.Enter = () => live.flyFrom(hands.cross!, hands.heading_rad());
+    if (hands.cross) keys.Enter = () => live ? live.flyFrom(hands.cross!, hands.heading_rad()) : hands.picked();
     keys[event.key]?.();
     return event.key in keys;
   }

@@ -79,6 +79,7 @@ export class MapPage implements MapHands, PlanView {
       this.contract = new VerdictLayers(arrays, record.contract_verdicts, "contract_verdict");
     }
     document.documentElement.toggleAttribute("data-contract", this.contract !== null);
+    byId("contract-keys").hidden = this.contract === null || !record.codes.at_risk;
     this.witnesses = this.contract ? Witnesses.in(record, arrays) : Promise.resolve(null);
     this.witness = new WitnessPlay(record, () => this.redraw("marks"), (x, y, across_m) => {
       this.view.look(x, y, across_m);

@@ -5,9 +5,9 @@ import { before, test } from "node:test";
 import { frames, opened, openedFile, picture, readout, turnTo } from "./browser.mjs";
 import { bytesOf, hasPage, query, recordOf, rocks, run, scenario, view } from "./runs.mjs";
 
-const contract = "[vehicle.contract]\ncommand_error_m = 3.0\nheading_error_rad = 0.05\nturn_radius_m = [10.0, 14.0]\nspeed_mps = [9.0, 11.0]\n";
-const rocky = { "contract.pgm": rocks(200, [[140, 100, 12], [100, 60, 8]]) };
-const plain = scenario({ map: "contract.pgm", scale_m: 1, cell_m: 4, goal: [60, 100], undecided: 0.1 });
+const contract = "[vehicle.contract]\ncommand_error_m = 2.0\nheading_error_rad = 0.04\nturn_radius_m = [10.0, 14.0]\nspeed_mps = [9.0, 11.0]\n";
+const rocky = { "contract.pgm": rocks(140, [[110, 90, 10], [100, 30, 6]]) };
+const plain = scenario({ map: "contract.pgm", scale_m: 1, cell_m: 4, goal: [52, 66], undecided: 0.1 });
 let exact, kept, record;
 before(() => {
   exact = run("contract-none", plain, rocky);
@@ -95,7 +95,7 @@ test("whose verdicts the map shows can be chosen, at the heading that was shown"
   const slider = page.locator("#heading-range");
   await choose(page, "Exact vehicle");
   await turnTo(page, 24);  // 120 degrees
-  await press(page, { x: 40, y: 140 });
+  await press(page, { x: 30, y: 100 });
   const own = await picture(page);
   await choose(page, "Under the contract");
   assert.equal(await slider.getAttribute("max"), String(under().heading_rad.length - 1));
@@ -150,6 +150,21 @@ test("pressing on a state at risk plays a behaviour that fails from there, and s
     }
     await press(page, sampleWith(record.codes.reach, 200));
     assert.ok(await box.isHidden(), "where all reach there is none");
+    // From the keyboard.
+    const place = sampleWith(record.codes.at_risk, 20);
+    await turnTo(page, place.k);
+    await page.mouse.move(...await onScreen(page, place));
+    await page.locator("#map").focus();
+    await page.keyboard.press("Enter");
+    await page.waitForFunction((x) => document.querySelector("#witness").dataset.start?.startsWith(x), String(place.x));
+    assert.ok(await box.isVisible());
+    const near = await picture(page);
+    await box.getByRole("button", { name: "Zoom to it" }).click();
+    await frames(page, 6);
+    assert.notEqual(await picture(page), near);
+    await page.getByRole("button", { name: "Show the whole map" }).click();
+    await frames(page, 6);
+    await page.getByRole("button", { name: "Close the witness" }).click();
   }
   // For the exact vehicle nothing is at risk.
   await choose(page, "Exact vehicle");
@@ -171,6 +186,19 @@ test("a witness is animated where motion is welcome", async (t) => {
   await page.waitForFunction(() => { const [now, all] = document.querySelector("#witness output").innerText.split(" s of "); return parseFloat(now) === parseFloat(all); }, null, { timeout: 30_000 });
   await page.getByRole("button", { name: "Close the witness" }).click();
   assert.ok(await page.locator("#witness").isHidden());
+});
+
+test("on paper nothing is beside the sheet", async (t) => {
+  const { page, trouble } = await openedFile(t, kept);
+  await page.evaluate(() => { window.dispatchEvent(new Event("beforeprint")); });
+  await frames(page, 6);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= Math.max(700, window.innerWidth)));
+  assert.match(await page.locator("#shown-words").innerText(), /under the contract/);
+  assert.ok(await page.locator("#chokes tbody tr").last().isVisible());
+  await page.evaluate(() => { window.dispatchEvent(new Event("afterprint")); });
+  await frames(page, 6);
+  assert.ok(await page.locator("#map-beside").isVisible());
+  assert.deepEqual(trouble, []);
 });
 
 test("chokes are listed with their shares and reasons, and pressing one goes there", async (t) => {
@@ -230,9 +258,9 @@ test("live: a state is answered under the contract, too, and its own witness is 
   }
   // Nothing is known under the contract for another goal.
   await page.getByRole("button", { name: "Move the goal" }).click();
-  for (const [name, value] of [["goal_x", 60], ["goal_y", 60]]) await page.locator(`#live input[name=${name}]`).fill(String(value));
+  for (const [name, value] of [["goal_x", 52], ["goal_y", 74]]) await page.locator(`#live input[name=${name}]`).fill(String(value));
   await page.keyboard.press("Enter");
-  await page.waitForFunction(() => /moved to 60, 60/.test(document.querySelector("#withdrawn").innerText), null, { timeout: 30_000 });
+  await page.waitForFunction(() => /moved to 52, 74/.test(document.querySelector("#withdrawn").innerText), null, { timeout: 30_000 });
   await page.getByRole("button", { name: "Fly from here" }).click();
   await page.waitForFunction(() => /flown: /.test(document.querySelector("#live .answer").innerText));
   assert.doesNotMatch(await answer.innerText(), /under the contract/);
