@@ -7,8 +7,6 @@
 
 #include "fairway/base/parallel.hpp"
 #include "fairway/base/random.hpp"
-#include "fairway/behaviour/behaviour_choices.hpp"
-#include "fairway/behaviour/failure_guide.hpp"
 #include "fairway/behaviour/find_witness.hpp"
 #include "fairway/verify/verdict.hpp"
 
@@ -52,25 +50,26 @@ std::vector<State> UndecidedStates::in_random_order(std::uint64_t seed) {
   return states_;
 }
 
-RiskCount search_for_failures(const ContractCertificate& certificate,
-                              const std::vector<State>& states, std::uint64_t seed,
-                              const std::function<bool()>& go_on) {
+FailureSearch::FailureSearch(const ContractCertificate& certificate)
+    : certificate_(certificate),
+      choices_(certificate.flow(), certificate.contract),
+      guide_(choices_) {}
+
+RiskCount FailureSearch::count(const std::vector<State>& states, std::uint64_t seed,
+                               const std::function<bool()>& go_on) const {
   RiskCount count;
-  if (states.empty() || !go_on()) return count;
-  const BehaviourChoices choices(certificate.flow(), certificate.contract);
-  const FailureGuide guide(choices);
   std::vector<Answer> answers(states.size(), Answer::not_asked);
   for_ranges(states.size(), 16, [&](std::size_t begin, std::size_t end) {
-    WitnessSearch search(choices, guide);
+    WitnessSearch search(choices_, guide_);
     for (std::size_t i = begin; i < end && go_on(); ++i) {
       answers[i] = search.find(states[i], {}, seed) ? Answer::found : Answer::not_found;
     }
   });
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (answers[i] == Answer::not_asked) continue;
-    const Cell cell = certificate.grid.cell_of(states[i].position_m);
-    const bool is_free = certificate.grid.contains(cell) &&
-                         certificate.region[certificate.grid.index(cell)] == Region::free;
+    const Cell cell = certificate_.grid.cell_of(states[i].position_m);
+    const bool is_free = certificate_.grid.contains(cell) &&
+                         certificate_.region[certificate_.grid.index(cell)] == Region::free;
     const std::size_t found = answers[i] == Answer::found ? 1 : 0;
     ++count.asked;
     count.at_risk += found;

@@ -12,6 +12,8 @@
 #include <mutex>
 #include <vector>
 
+#include "fairway/behaviour/behaviour_choices.hpp"
+#include "fairway/behaviour/failure_guide.hpp"
 #include "fairway/certificate/contract_certificate.hpp"
 #include "fairway/inclusion/contract_shares.hpp"
 #include "fairway/vehicle/vehicle.hpp"
@@ -38,10 +40,21 @@ struct RiskCount {
   std::size_t at_risk_free = 0;
 };
 
-/// Searches from each state while `go_on`, asked by several threads at once, says so.
-[[nodiscard]] RiskCount search_for_failures(const ContractCertificate& certificate,
-                                            const std::vector<State>& states, std::uint64_t seed,
-                                            const std::function<bool()>& go_on);
+/// Takes a while to make: it follows all failures of the plan backwards.
+class FailureSearch {
+ public:
+  /// `certificate` must outlive this.
+  explicit FailureSearch(const ContractCertificate& certificate);
+
+  /// Searches from each state while `go_on`, asked by several threads at once, says so.
+  [[nodiscard]] RiskCount count(const std::vector<State>& states, std::uint64_t seed,
+                                const std::function<bool()>& go_on) const;
+
+ private:
+  const ContractCertificate& certificate_;
+  BehaviourChoices choices_;
+  FailureGuide guide_;
+};
 
 /// Adds what a search of `states` found, scaled up to all of them when it ended early. False when
 /// too few were asked to tell a share.

@@ -60,7 +60,7 @@ TEST(AtRiskShares, AreCountedOrScaled) {
   EXPECT_EQ(shares.at_risk, 0.0);
 }
 
-TEST(SearchForFailures, FindsWhatAQueryFindsAndStopsWhenTold) {
+TEST(FailureSearch, FindsWhatAQueryFindsAndStopsWhenTold) {
   const Plan plan = random_plan(5);
   VehicleContract contract = VehicleContract::of(plan.vehicle);
   contract.command_error_m = 0.3 * plan.grid.cell_m;
@@ -85,13 +85,14 @@ TEST(SearchForFailures, FindsWhatAQueryFindsAndStopsWhenTold) {
   const auto replies = ask(certificate, states);
   const auto at_risk = std::count_if(replies.begin(), replies.end(),
                                      [](const ContractReply& r) { return r.witness.has_value(); });
-  const RiskCount all = search_for_failures(certificate, states, 1, [] { return true; });
+  const FailureSearch search(certificate);
+  const RiskCount all = search.count(states, 1, [] { return true; });
   EXPECT_EQ(all.asked, states.size());
   EXPECT_EQ(all.at_risk, static_cast<std::size_t>(at_risk));
   EXPECT_GT(all.at_risk, 0U);
-  EXPECT_EQ(search_for_failures(certificate, states, 1, [] { return false; }).asked, 0U);
+  EXPECT_EQ(search.count(states, 1, [] { return false; }).asked, 0U);
   std::atomic<int> left{20};
-  const RiskCount some = search_for_failures(certificate, states, 1, [&] { return left-- > 0; });
+  const RiskCount some = search.count(states, 1, [&] { return left-- > 0; });
   EXPECT_GT(some.asked, 0U);
   EXPECT_LT(some.asked, 21U);
 }

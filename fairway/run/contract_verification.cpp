@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
-#include "fairway/base/share_text.hpp"
 #include "fairway/plan/plan_digests.hpp"
 #include "fairway/run/at_risk_search.hpp"
-#include "fairway/run/contract_file.hpp"
 #include "fairway/run/contract_warning.hpp"
-#include "fairway/run/summary.hpp"
 #include "fairway/run/verification_summary.hpp"
 #include "fairway/run/version.hpp"
 #include "fairway/vehicle/contract_defect.hpp"
@@ -116,25 +112,7 @@ void measure(const Parts& parts, const InclusionProver& prover,
                        undecided.gatherer());
 }
 
-double share_of(const std::array<double, verdict_count>& shares, Verdict verdict) {
-  return shares[static_cast<std::size_t>(verdict)];
-}
-
 }  // namespace
-
-const char* reason_of(Trouble why) {
-  switch (why) {
-    case Trouble::gave_up:
-      return "opposing commands: too many ways to turn";
-    case Trouble::no_progress:
-      return "no direction in which all move on";
-    case Trouble::none:
-    case Trouble::waits:
-    case Trouble::mixed:
-      break;
-  }
-  return "some behaviours may end otherwise than others";
-}
 
 int usual_parts_per_cell(const VehicleContract& contract, double cell_m) {
   const double rho = contract.command_error_m + contract.look_ahead_m;
@@ -199,9 +177,10 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
     const std::vector<State> states = undecided.in_random_order(options.seed);
     // Measuring has not used up what is left for it.
     const double rest_s = std::max(limit_s - proof_s, (1.0 - share_of_the_proof) * limit_s);
+    const FailureSearch failures(c);
     const Stopwatch search_watch;
-    const RiskCount found = search_for_failures(c, states, options.seed,
-                                                [&] { return search_watch.is_within(rest_s); });
+    const RiskCount found =
+        failures.count(states, options.seed, [&] { return search_watch.is_within(rest_s); });
     made.undecided_states = states.size();
     made.searched_states = found.asked;
     made.searched = add_at_risk(made.survey.shares, states.size(), found);
@@ -216,87 +195,6 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
         [&] { return watch.is_within(limit_s); }, progress);
   }
   return made;
-}
-
-json contract_verification_json(const ContractVerification& made) {
-  const ContractCertificate& c = made.certificate;
-  json summary = json::parse(record_text(c));
-  summary["method"] = "contract";
-  summary["cells"] = {c.grid.nx, c.grid.ny};
-  summary["leaves"] = c.verdicts.leaves();
-  if (made.following) summary["follow"] = following_json(*made.following);
-  return summary;
-}
-
-std::vector<Finding> findings(const Plan& plan, const ContractVerification& made) {
-  const ContractShares& s = made.survey.shares;
-  const int decimals = decimals_of_sample(s.samples);
-  const bool is_goal = made.certificate.region_of_interest.kind == RegionOfInterest::Kind::goal;
-  const std::string goal = is_goal ? goal_word(plan) : "region";
-  constexpr const char* all = "all states";
-  std::vector<Finding> found{
-      {percent_text(share_of(s.all, Verdict::reach), decimals), all,
-       "are proved to reach the " + goal + " whatever the vehicle does within its contract"}};
-  if (is_goal) {
-    for (Finding& finding : plan_findings(plan)) found.push_back(std::move(finding));
-  }
-  const auto add = [&](double share, const std::string& what) {
-    if (share > 0.0) found.push_back({percent_text(share, decimals), all, what});
-  };
-  add(share_of(s.all, Verdict::collide), "are proved to collide, whatever it does");
-  add(s.at_risk, "are at risk: a behaviour within the contract fails");
-  add(share_of(s.all, Verdict::leave), "are proved to leave the map, whatever it does");
-  add(share_of(s.all, Verdict::trapped), "are proved to be trapped: they circle for ever");
-  add(share_of(s.all, Verdict::undecided) - s.at_risk, "are undecided");
-  if (made.stopped_by_limit) found.push_back({"", "", "the proof stopped at its limit"});
-  if (share_of(s.free, Verdict::reach) > 0.0) {
-    found.push_back({percent_text(share_of(s.free, Verdict::reach), decimals), "safe starts",
-                     "are proved to reach the " + goal});
-  }
-  if (made.following) {
-    for (Finding& finding : findings(*made.following)) found.push_back(std::move(finding));
-  }
-  return found;
-}
-
-std::optional<std::string> limit_warning(const ContractVerification& made) {
-  std::string words;
-  if (made.stopped_by_limit) {
-    words =
-        "The proof under the contract stopped at its limit of time or memory: raise the limit, or "
-        "a share of the states stays undecided.";
-  }
-  if (made.searched_states < made.undecided_states) {
-    words += fmt::format(
-        "{}The limit of time left no time to search for behaviours that fail from all undecided "
-        "states: {}.",
-        words.empty() ? "" : " ",
-        made.searched ? fmt::format("the share at risk is that of {} of {}",
-                                    grouped(made.searched_states), grouped(made.undecided_states))
-                      : "which of them are at risk is not known");
-  }
-  return words.empty() ? std::nullopt : std::optional(std::move(words));
-}
-
-std::string contract_notes(const ContractVerification& made) {
-  const ContractShares& s = made.survey.shares;
-  std::string words = fmt::format(
-      "The vehicle {}.\nShares of {} sampled states, each proved or flown; a map that does not "
-      "change.",
-      contract_words(made.certificate.contract), grouped(s.samples));
-  if (s.worst_time_s > 0.0) {
-    words +=
-        fmt::format("\nNo sampled state that reaches takes longer than {:.1f} s.", s.worst_time_s);
-  }
-  const std::size_t shown = std::min<std::size_t>(made.survey.chokes.size(), 5);
-  for (std::size_t i = 0; i < shown; ++i) {
-    const Choke& choke = made.survey.chokes[i];
-    const Vec2 at = made.certificate.grid.center(choke.cell);
-    words += fmt::format("\n{}{} of all states wait for ({:g}, {:g}): {}",
-                         i == 0 ? "What is not proved hangs on few places:\n" : "",
-                         percent_text(choke.share, 2), at.x, at.y, reason_of(choke.why));
-  }
-  return words;
 }
 
 }  // namespace fairway
