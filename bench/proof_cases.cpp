@@ -70,7 +70,7 @@ Plan plan_of(const Case& c) {
 }
 
 void add_check_row(std::vector<Row>& rows, const Settings& settings, const fs::path& file,
-                   const Took& proving, double limit) {
+                   const Took& proving, std::size_t samples, double limit) {
   const fs::path checker = fs::canonical(settings.program).parent_path() / "fairway-check";
   const std::string name = "  checking it again, times as long as proving";
   if (!fs::exists(checker)) {
@@ -79,16 +79,17 @@ void add_check_row(std::vector<Row>& rows, const Settings& settings, const fs::p
     return;
   }
   std::string answer;
-  const Took took = timed([&] {
+  const double before_s = ended_children_cpu_s();
+  Took took = timed([&] {
     ChildProcess child({checker.string(), file.string(), "--quiet", "--threads",
-                        std::to_string(settings.threads)});
+                        std::to_string(settings.threads), "--samples", std::to_string(samples)});
     while (const auto line = child.read_line()) answer += *line + "\n";
   });
+  took.cpu_s = ended_children_cpu_s() - before_s;
   if (answer.find("accepted") == std::string::npos) {
     throw std::runtime_error("fairway-check does not accept the certificate: " + answer);
   }
-  Row row =
-      at_most_row(name, fmt::format("{:.2f} s", took.wall_s), took.wall_s / proving.wall_s, limit);
+  Row row = at_most_row(name, shown(took), took.wall_s / proving.wall_s, limit);
   row.peer = shown(proving);
   row.ratio = fmt::format("{:.2f}", took.wall_s / proving.wall_s);
   rows.push_back(std::move(row));

@@ -1,6 +1,7 @@
 // Plans to prove, for the exact vehicle and under a contract, and the time that checking takes.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -25,8 +26,9 @@ struct Case {
 /// Throws std::runtime_error when the mission is refused.
 [[nodiscard]] Plan plan_of(const Case& c);
 
-/// Checks the certificate; at most `limit` times as long as proving holds.
+/// Checks the certificate and `samples` states; at most `limit` times as long as proving holds.
 void add_check_row(std::vector<Row>& rows, const Settings& settings,
-                   const std::filesystem::path& file, const Took& proving, double limit);
+                   const std::filesystem::path& file, const Took& proving, std::size_t samples,
+                   double limit);
 
 }  // namespace fairway::bench

@@ -16,14 +16,16 @@ struct Took {
   double cpu_s = 0.0;  ///< of all threads of the process that did the work
 };
 
-inline double process_cpu_s() {
+inline double cpu_s_of(decltype(RUSAGE_SELF) who) {
   rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
+  getrusage(who, &usage);
   const auto seconds = [](const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
+inline double process_cpu_s() { return cpu_s_of(RUSAGE_SELF); }
+inline double ended_children_cpu_s() { return cpu_s_of(RUSAGE_CHILDREN); }
 
 template <typename Work>
 Took timed(Work&& work) {
