@@ -17,8 +17,10 @@ namespace {
 
 // In turning radii.
 constexpr double circle_radii = 3.0;
-constexpr double wall_radii = 1.1;       // nearer to a wall the command points away from it
-constexpr double overshoot_radii = 0.5;  // and the line is overshot by no more than this
+constexpr double wall_radii = 1.1;    // nearer to a wall the command points away from it
+constexpr double beyond_radii = 0.4;  // the line is overshot by as much as leaves this to a wall
+constexpr double least_overshoot_radii = 0.5;
+constexpr double most_overshoot_radii = 0.9;
 constexpr double least_band_radii = 0.15;
 constexpr double shadow_radii = 1.0;
 constexpr double sight_radii = 1.0;
@@ -68,7 +70,11 @@ class Follower {
     const Heading along = direction_ahead(frame.station_m);
     const double flat_m =
         0.5 * grid_.cell_m * (std::abs(frame.tangent.x) + std::abs(frame.tangent.y));
-    const Approach approach{circle_radii * r_, flat_m, std::max(flat_m, band_m(i, p, frame)), r_};
+    const double wall_m = wall_beside_m(i, p, frame);
+    const double band_m = std::max({flat_m, least_band_radii * r_, wall_m - wall_radii * r_});
+    const double overshoot_m = std::clamp(wall_m - beyond_radii * r_, least_overshoot_radii * r_,
+                                          most_overshoot_radii * r_);
+    const Approach approach{circle_radii * r_, flat_m, band_m, r_, overshoot_m};
     const double angle = approach_angle_rad(distance_m, approach);
     return Heading::from_rad(along.rad() + (frame.offset_m > 0.0 ? -angle : angle));
   }
@@ -80,14 +86,13 @@ class Follower {
                               : Heading::of(line_.frame(line_.place(station_m)).tangent);
   }
 
-  /// How far from the line a wall on the same side begins to count.
-  double band_m(std::size_t i, Vec2 p, const PathFrame& frame) const {
+  /// How far from the line a wall on the same side is; +inf: none.
+  double wall_beside_m(std::size_t i, Vec2 p, const PathFrame& frame) const {
     if (nearest_obstacle_[i] == no_feature) return infinity;
     const Vec2 way = grid_.center(grid_.cell_at(nearest_obstacle_[i])) - p;
     const double outward = (frame.offset_m > 0.0 ? 1.0 : -1.0) * cross(frame.tangent, way);
     if (outward <= 0.0) return infinity;
-    const double wall_m = std::abs(frame.offset_m) + norm(way) - 0.5 * grid_.cell_m;
-    return std::max(least_band_radii * r_, wall_m - wall_radii * r_);
+    return std::abs(frame.offset_m) + norm(way) - 0.5 * grid_.cell_m;
   }
 
   /// As far as the sight reaches, or to the first obstacle.
@@ -129,7 +134,8 @@ double approach_angle_rad(double distance_m, const Approach& approach) {
   const double angle = std::acos(1.0 - std::min(1.0, on_circle));
   if (distance_m <= approach.band_m) return angle;
   const double r = approach.turn_radius_m;
-  const double beside_wall = std::acos(std::max(0.0, 1.0 - (distance_m + overshoot_radii * r) / r));
+  const double beside_wall =
+      std::acos(std::max(0.0, 1.0 - (distance_m + approach.overshoot_m) / r));
   return std::max(angle, std::min(steepest_rad, beside_wall));
 }
 

@@ -23,16 +23,17 @@ struct Approach {
   double flat_m = 0.0;    ///< nearer than this the command runs along the line
   double band_m = 0.0;    ///< farther than this there is a wall close by; +inf: none
   double turn_radius_m = 0.0;
+  double overshoot_m = 0.0;  ///< beyond the band: how far the line may be overshot
 };
 
 /// A(distance), 0 to pi / 2, for distance_m >= 0:
 ///   acos(1 - (distance - flat) / R), 0 within flat, pi / 2 from flat + R on;
-///   beyond the band at least acos(1 - (distance + r / 2) / r), 88 degrees at most.
+///   beyond the band at least acos(1 - (distance + overshoot) / r), 88 degrees at most.
 /// With R >= r, and flat at least half a cell's extent across the line, a vehicle that flies
 /// backwards along a straight line turns away from it: it does not weave along it for ever. The
 /// second term turns vehicles away from a wall early and lets those that face backwards come round
 /// in a corridor narrower than two turns; whoever obeys it is parallel to the line again before it
-/// is r / 2 beyond it.
+/// is the overshoot beyond it.
 [[nodiscard]] double approach_angle_rad(double distance_m, const Approach& approach);
 
 /// Sets the commands of cells within R = 3 r of the line; beyond the ends of an open path they

@@ -67,6 +67,7 @@ TEST(ApproachAngle, GrowsWithDistanceAndBesideAWall) {
   for (int i = 0; i < 2000; ++i) {
     const Approach open{60.0, random.uniform(0.0, 10.0), 1e9, r};
     Approach walled = open;
+    walled.overshoot_m = random.uniform(0.0, r);
     walled.band_m = random.uniform(0.0, 40.0);
     const double near_m = random.uniform(0.0, 80.0);
     const double far_m = near_m + random.uniform(0.0, 20.0);
@@ -77,9 +78,9 @@ TEST(ApproachAngle, GrowsWithDistanceAndBesideAWall) {
   }
 }
 
-// Whoever obeys the command beside a wall turns parallel to the line within r / 2 beyond it.
-TEST(ApproachAngle, BesideAWallLetsTheLineBeOvershotByHalfATurn) {
-  const Approach walled{60.0, 0.0, 0.0, r};
+// Whoever obeys the command beside a wall turns parallel to the line within r / 2 beyond it, here.
+TEST(ApproachAngle, BesideAWallLetsTheLineBeOvershotByNoMoreThanIsAllowed) {
+  const Approach walled{60.0, 0.0, 0.0, r, 0.5 * r};
   for (double distance_m = 0.1; distance_m < 60.0; distance_m += 0.1) {
     const double angle = approach_angle_rad(distance_m, walled);
     const bool steepest = std::abs(angle - 88.0 * pi / 180.0) < 1e-9;
