@@ -118,6 +118,7 @@ Flight later_part(const Flight& flight, double from_s) {
 
 PathCurves fly_along_path(const std::filesystem::path& scenario, const std::vector<Curve>& curves,
                           FieldOptions options) {
+  options.path_field = PathField::paper;  // what the paper's figures show
   PathCurves out;
   const World coarse = world_of(scenario, cell_of_figures_m);
   out.plan = plan_in(coarse, options);

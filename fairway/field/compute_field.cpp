@@ -10,6 +10,7 @@
 #include "fairway/field/buffer_border.hpp"
 #include "fairway/field/complete_map.hpp"
 #include "fairway/field/cost_to_go.hpp"
+#include "fairway/field/follow_field.hpp"
 #include "fairway/field/gaussian_filter.hpp"
 #include "fairway/field/raw_field.hpp"
 #include "fairway/field/transition.hpp"
@@ -125,6 +126,10 @@ FieldOrRefusal compute_field(const ObstacleMap& map, const Vehicle& vehicle, con
   const VectorField turned = transition_field(grid, complete, border, raw, vehicle, options);
   VectorField smoothed = turned;
   smooth(smoothed, map, options);
+  const auto* path = std::get_if<PathMission>(&mission);
+  if (path != nullptr && options.path_field == PathField::follow) {
+    follow_field(grid, complete, *path, cost, vehicle, smoothed);
+  }
 
   Field out;
   out.grid = grid;

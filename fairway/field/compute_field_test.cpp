@@ -231,6 +231,7 @@ TEST(ComputeField, TurnsAndMirrorsWithMapAndMissionExceptForTiedExitsAndRidges) 
       FieldOptions options = modest();
       options.metric = metric;
       options.axis_capture_rad = 0.0;
+      options.path_field = PathField::paper;  // the other's looks for obstacles meet cells' corners
       options.sigma_path = options.sigma_border = options.sigma_cells = 0.0;
       const Image raw = image_of(map, mission, field_of(map, mission, options), turn);
       const Field other = field_of(raw.map, raw.mission, options);

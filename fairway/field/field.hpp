@@ -33,6 +33,12 @@ enum class Blend {
   continuous  ///< the rotation falls to zero at the rim
 };
 
+/// The field near the path of a path mission.
+enum class PathField {
+  follow,  ///< commands approach the line on circles and run along it (follow_field.hpp)
+  paper    ///< commands point at the line, but for the transition next to it (paper 1)
+};
+
 /// The paper's parameters, by the paper's names, with their ranges; readers refuse values outside.
 struct FieldOptions {
   double alpha = 2.0;  ///< buffer width / turn radius, > 0 (the paper: >= 2)
@@ -49,6 +55,7 @@ struct FieldOptions {
   /// commands on both sides of a border oppose each other at an angle d to it, the vehicle weaves
   /// along the border in hops of 2 r sin d: without this, in millions of them.
   double axis_capture_rad = 0.02;
+  PathField path_field = PathField::follow;  ///< path missions only
 };
 
 /// The product. Arrays are [iy][ix] over `grid`.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "fairway/base/number_text.hpp"
+#include "fairway/run/mission_on_map.hpp"
 #include "fairway/vehicle/path_troubles.hpp"
 
 namespace fairway {
@@ -54,7 +55,7 @@ std::vector<std::string> design_warnings(const Scenario& scenario, const Mission
   if (path == nullptr) return std::move(warnings).found();
   warnings.add_width("plan.sigma_path", plan.sigma_path);
   for (const PathTrouble& trouble : path_troubles(*path, scenario.vehicle.turn_radius_m)) {
-    warnings.add("mission.path_file", trouble.message);
+    warnings.add(place_key(scenario), trouble.message);
   }
   return std::move(warnings).found();
 }

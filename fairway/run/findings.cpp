@@ -17,6 +17,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* all_states = "all states";
+constexpr const char* usable_states = "states that the mission can use";
 constexpr const char* commanded_starts = "safe starts with a command";
 
 double share_of(const std::array<double, verdict_count>& volume, Verdict verdict) {
@@ -63,6 +64,12 @@ Finding given_finding(const OutcomeCounts& counts, const std::string& goal) {
                       after(": ", failure_words(counts)))};
 }
 
+/// More than a tenth of the free cells.
+bool is_mostly_cut_off(const RegionCells& cells) {
+  constexpr std::size_t one_in = 10;
+  return cells.free < one_in * cells.unreachable;
+}
+
 }  // namespace
 
 std::vector<Finding> plan_findings(const Plan& plan) {
@@ -81,13 +88,18 @@ std::vector<Finding> findings(const Plan& plan, const Verification& v) {
     return Finding{percent_text(share_of(shares, verdict), decimals), of,
                    done_by_states(verdict, goal)};
   };
-  std::vector<Finding> found{line(volume.all, Verdict::reach, all_states)};
-  if (v.certificate.region_of_interest.kind == RegionOfInterest::Kind::goal) {
+  const bool is_goal = v.certificate.region_of_interest.kind == RegionOfInterest::Kind::goal;
+  // Where much is cut off, as outside the walls of a race track, shares of all states say little.
+  const bool of_usable = is_goal && is_mostly_cut_off(count_regions(plan));
+  const auto& counted = of_usable ? volume.usable : volume.all;
+  const char* of = of_usable ? usable_states : all_states;
+  std::vector<Finding> found{line(counted, Verdict::reach, of)};
+  if (is_goal) {
     for (Finding& finding : plan_findings(plan)) found.push_back(std::move(finding));
   }
   for (const Verdict verdict : verdicts_in_order) {
-    if (verdict == Verdict::reach || share_of(volume.all, verdict) <= 0.0) continue;
-    found.push_back(line(volume.all, verdict, all_states));
+    if (verdict == Verdict::reach || share_of(counted, verdict) <= 0.0) continue;
+    found.push_back(line(counted, verdict, of));
   }
   if (const std::string words = stopped_words(v); !words.empty()) found.push_back({"", "", words});
   const auto some = [](double share) { return share > 0.0; };

@@ -1,9 +1,10 @@
 // The findings, one line each: a share, what it is a share of, and what happens to it. The same
 // lines end a command's output, are in its summary, and are at the top of the page.
 //
-// The first says how many of all states reach. What goes wrong comes next, bad news first, and only
-// then the shares of states that start well. Each line has one denominator and names it; a share of
-// zero has no line.
+// The first says how many of all states reach; where more than a tenth of the free cells is cut
+// off, of the states that the mission can use: those in cells with a command. What goes wrong comes
+// next, bad news first, and only then the shares of states that start well. Each line has one
+// denominator and names it; a share of zero has no line.
 #pragma once
 
 #include <cstddef>

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/heading.hpp"
 #include "fairway/base/number_text.hpp"
 #include "fairway/map/degrees_from_frame.hpp"
 #include "fairway/map/earth_frame.hpp"
@@ -64,7 +65,9 @@ std::string hint(const Scenario& scenario, const ObstacleMap& map) {
 }  // namespace
 
 const char* place_key(const Scenario& scenario) {
-  if (scenario.mission.kind == MissionKind::path) return "mission.path_file";
+  if (scenario.mission.kind == MissionKind::path) {
+    return scenario.mission.loiter.center_m ? "mission.loiter" : "mission.path_file";
+  }
   return scenario.mission.goal_deg ? "mission.goal_deg" : "mission.goal_m";
 }
 
@@ -80,6 +83,12 @@ MapRequest map_request(const Scenario& scenario) {
   for (const State& s : scenario.simulate.states) request.also_hold_m.push_back(s.position_m);
   for (const EarthState& s : scenario.simulate.states_deg)
     request.also_hold_deg.push_back({s.latitude_deg, s.longitude_deg});
+  if (asked.loiter.center_m) {
+    const double radius_m = *asked.loiter.radius_m;
+    for (const double side : {-radius_m, radius_m}) {
+      request.also_hold_m.push_back(*asked.loiter.center_m + Vec2{side, side});
+    }
+  }
   request.also_hold_path = asked.path_file;
   if (!scenario.file.empty()) {
     request.place_of = [of = std::make_shared<const Scenario>(scenario)](std::string_view key) {
@@ -91,8 +100,23 @@ MapRequest map_request(const Scenario& scenario) {
 
 namespace {
 
+/// Straight pieces nowhere farther from the circle than a few ten-thousandths of its radius.
+std::vector<Vec2> circle(const LoiterRequest& loiter) {
+  constexpr int pieces = 120;
+  const double side = loiter.direction == LoiterDirection::left ? 1.0 : -1.0;
+  std::vector<Vec2> vertices;
+  for (int k = 0; k < pieces; ++k) {
+    const Heading way = Heading::from_rad(side * k * two_pi / pieces);
+    vertices.push_back(*loiter.center_m + *loiter.radius_m * way.unit());
+  }
+  return vertices;
+}
+
 PathMission path_on_map(const Scenario& scenario, const ObstacleMap& map) {
   const MissionRequest& asked = scenario.mission;
+  if (asked.loiter.center_m) {
+    return {circle(asked.loiter), true, asked.delta_position_m, asked.delta_heading_rad};
+  }
   try {
     return {read_path(*asked.path_file, map, asked.closed), asked.closed, asked.delta_position_m,
             asked.delta_heading_rad};

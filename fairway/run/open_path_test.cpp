@@ -113,6 +113,8 @@ TEST(OpenPath, IsReachedFromEverywhereWhateverItsShapeAndTheFieldsParameters) {
     options.sigma_path = random.uniform(0.2, 3.0);
     options.sigma_cells = random.uniform(0.0, 3.0);
     options.metric = random.below(3) == 0 ? Metric::octile : Metric::euclidean;
+    options.path_field = draw % 3 == 0 ? PathField::paper : PathField::follow;
+    if (draw % 3 == 1) options.blend = Blend::paper;
     const double cell_m = std::min(random.uniform(2.5, 9.0), 0.6 * turn_radius_m);
     const PathMission path = random_path(random, turn_radius_m);
     const Count count = failures(plan_of(path, cell_m, turn_radius_m, options), 400, 43);
@@ -138,7 +140,10 @@ TEST(OpenPath, UnderThePapersBlendFlightsCircleBeyondItsEnd) {
   // As the paper has it, whose paths have no end: kept by that name.
   FieldOptions options;
   options.blend = Blend::paper;
+  options.path_field = PathField::paper;
   EXPECT_GT(failures(plan_of(straight, 8.0, 20.0, options), 500, 44).trapped, 10U);
+  options.path_field = PathField::follow;
+  EXPECT_EQ(failures(plan_of(straight, 8.0, 20.0, options), 500, 44).trapped, 0U);
 }
 
 TEST(OpenPath, ThatFitsIntoATurnIsTheOneThatMayBeCircledAndIsTold) {

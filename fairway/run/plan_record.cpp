@@ -54,6 +54,7 @@ PlanRecord plan_record(const ObstacleMap& map, const Mission& mission,
                        const FieldOptions& options) {
   Scenario asked;
   asked.plan = options;
+  if (std::holds_alternative<PathMission>(mission)) asked.mission.kind = MissionKind::path;
   const json all = {{"plan", effective_values(asked, "plan")}};
   return {program_version, mission, map.frame, map.inputs, text_of(all), {}};
 }

@@ -34,6 +34,8 @@ FieldOptions field_options_of(const PlanRecord& record, const std::string& where
     throw InputError(where, "its record names no options; expected a plan made by fairway");
   }
   Scenario scenario;
+  // Plans from before there was a choice have the paper's.
+  if (!plan->contains("path_field")) scenario.plan.path_field = PathField::paper;
   const auto& keys = scenario_keys();
   for (const auto& [leaf, value] : plan->items()) {
     const std::string name = "plan." + leaf;

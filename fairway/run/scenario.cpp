@@ -1,8 +1,12 @@
 #include "fairway/run/scenario.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/number_text.hpp"
 #include "fairway/run/scenario_keys.hpp"
 #include "fairway/run/scenario_text.hpp"
 #include "fairway/vehicle/contract_defect.hpp"
@@ -27,9 +31,35 @@ void forbid(const Scenario& s, const char* key, const char* because) {
   if (s.lines.contains(key)) refuse(s, key, because);
 }
 
+/// A circle instead of a path file.
+void check_loiter(const Scenario& s) {
+  for (const char* key : {"mission.path_file", "mission.closed"}) {
+    forbid(s, key, "is given in addition to mission.loiter, expected only one of them");
+  }
+  for (const char* key : {"mission.loiter.center_m", "mission.loiter.radius_m"}) {
+    require_given(s, key, "a circle has a centre, [x, y] in metres, and a radius");
+  }
+  const double radius_m = *s.mission.loiter.radius_m;
+  if (!(radius_m >= s.vehicle.turn_radius_m)) {
+    refuse(s, "mission.loiter.radius_m",
+           fmt::format("is {}, expected at least vehicle.turn_radius_m = {}", length_text(radius_m),
+                       length_text(s.vehicle.turn_radius_m)));
+  }
+}
+
 void check_mission(const Scenario& s) {
+  const std::array loiter_keys{"mission.loiter", "mission.loiter.center_m",
+                               "mission.loiter.radius_m", "mission.loiter.direction"};
   if (s.mission.kind == MissionKind::path) {
-    require_given(s, "mission.path_file", "a mission of kind \"path\" needs the path to follow");
+    const bool loiters = std::any_of(loiter_keys.begin(), loiter_keys.end(),
+                                     [&](const char* key) { return s.lines.contains(key); });
+    if (loiters) {
+      check_loiter(s);
+    } else {
+      require_given(
+          s, "mission.path_file",
+          "a mission of kind \"path\" needs the path to follow, or a circle, mission.loiter");
+    }
     for (const char* key : {"mission.goal_m", "mission.goal_deg", "mission.goal_heading_rad"}) {
       forbid(s, key, "belongs to missions of kind \"goal\", this one is of kind \"path\"");
     }
@@ -37,6 +67,9 @@ void check_mission(const Scenario& s) {
   }
   forbid(s, "mission.path_file",
          "belongs to missions of kind \"path\", this one is of kind \"goal\"");
+  for (const char* key : loiter_keys) {
+    forbid(s, key, "belongs to missions of kind \"path\", this one is of kind \"goal\"");
+  }
   forbid(s, "mission.closed", "belongs to missions of kind \"path\", this one is of kind \"goal\"");
   if (s.mission.goal_deg && s.mission.goal_m) {
     refuse(s, "mission.goal_deg",

@@ -28,6 +28,15 @@ namespace fairway {
 
 enum class MissionKind { goal, path };
 
+enum class LoiterDirection { left, right };
+
+/// A path that is a circle, flown round and round.
+struct LoiterRequest {
+  std::optional<Vec2> center_m;  ///< in the grid's frame
+  std::optional<double> radius_m;
+  LoiterDirection direction = LoiterDirection::left;
+};
+
 /// The [mission] table; becomes a Mission once the map, hence the frame, is known.
 struct MissionRequest {
   MissionKind kind = MissionKind::goal;
@@ -35,6 +44,7 @@ struct MissionRequest {
   std::optional<GeodeticPoint> goal_deg;  ///< instead, on maps in degrees
   std::optional<double> goal_heading_rad;
   std::optional<std::filesystem::path> path_file;
+  LoiterRequest loiter;  ///< instead of a path file, when it has a centre
   bool closed = false;
   double delta_position_m = PathMission{}.delta_position_m;
   double delta_heading_rad = PathMission{}.delta_heading_rad;

@@ -150,6 +150,15 @@ std::vector<ScenarioKey> mission_keys() {
              "takes over where a flight enters the goal"),
       key("mission.path_file", "file", any_finite, FAIRWAY_MEMBER(mission.path_file),
           "path missions: CSV with x_m,y_m, GeoJSON LineString, QGC waypoints or .plan"),
+      key("mission.loiter.center_m", "[x, y]", metres, FAIRWAY_MEMBER(mission.loiter.center_m),
+          "path missions: centre of a circle to fly round and round, instead of "
+          "`mission.path_file`; metres in the map's frame"),
+      number("mission.loiter.radius_m", positive, FAIRWAY_MEMBER(mission.loiter.radius_m),
+             "path missions: radius of that circle, metres; at least `vehicle.turn_radius_m`"),
+      choice<LoiterDirection>("mission.loiter.direction",
+                              {{"left", LoiterDirection::left}, {"right", LoiterDirection::right}},
+                              FAIRWAY_MEMBER(mission.loiter.direction),
+                              "path missions: which way that circle turns"),
       key("mission.closed", "true or false", any_finite, FAIRWAY_MEMBER(mission.closed),
           "path missions: the last vertex joins the first"),
       number("mission.delta_position_m", positive, FAIRWAY_MEMBER(mission.delta_position_m),
@@ -193,6 +202,11 @@ std::vector<ScenarioKey> plan_keys() {
       choice<Blend>("plan.blend", {{"paper", Blend::paper}, {"continuous", Blend::continuous}},
                     FAIRWAY_MEMBER(plan.blend),
                     "how a transition begins: with a jump as printed (Eq. 16), or without"),
+      choice<PathField>("plan.path_field",
+                        {{"follow", PathField::follow}, {"paper", PathField::paper}},
+                        FAIRWAY_MEMBER(plan.path_field),
+                        "path missions: commands that approach the line on circles and run along "
+                        "it, or the paper's, which point at the line until next to it"),
       number(
           "plan.axis_capture_rad", Range{0.0, 0.1}, FAIRWAY_MEMBER(plan.axis_capture_rad),
           "commands this close to a grid axis are snapped to it, so that vehicles do not weave "
@@ -272,6 +286,10 @@ json effective_values(const Scenario& scenario, std::string_view table) {
   for (const ScenarioKey& k : scenario_keys()) {
     if (k.table() == table) values[k.leaf()] = k.shown(scenario);
   }
+  // Goals have no path, and their records never named its field.
+  if (table == "plan" && scenario.mission.kind == MissionKind::goal) values.erase("path_field");
+  if (table == "mission" && scenario.mission.loiter.center_m)
+    values["loiter"] = effective_values(scenario, "mission.loiter");
   if (table == "vehicle" && scenario.contract) {
     values["contract"] = effective_values(scenario, contract_table);
   }

@@ -64,6 +64,7 @@ json verification_json(const Verification& v) {
   const Certificate& c = v.certificate;
   json summary = json::parse(record_text(c));
   summary["volume_fraction_free_commanded"] = shares_json(v.outcome.volume.commanded);
+  summary["volume_fraction_usable"] = shares_json(v.outcome.volume.usable);
   summary["method"] = "certified";
   summary["cells"] = {c.grid.nx, c.grid.ny};
   summary["leaves"] = c.sections.leaves();

@@ -81,6 +81,24 @@ TEST(PathFrame, IsTheSameMirroredWithTheOtherSide) {
   }
 }
 
+TEST(PathFrame, OfThePlaceAtAStationHasThatStation) {
+  Random random(83);
+  for (int i = 0; i < 100; ++i) {
+    const PathMission path = random_path(random, 3);
+    const PathLocator locator(path);
+    const double station_m = random.uniform(0.0, locator.length_m());
+    EXPECT_NEAR(norm(locator.place(station_m) - place_at(path, station_m)), 0.0, 1e-9);
+    if (path.closed) {
+      const Vec2 again = locator.place(station_m - 2.0 * locator.length_m());
+      EXPECT_NEAR(norm(again - locator.place(station_m)), 0.0, 1e-9);
+    } else {
+      const PathFrame beyond = locator.frame(locator.place(locator.length_m() + 1e-3));
+      EXPECT_NEAR(beyond.beyond_m, 1e-3, 1e-9);
+      EXPECT_NEAR(locator.frame(locator.place(-1e-3)).beyond_m, 1e-3, 1e-9);
+    }
+  }
+}
+
 TEST(PathFrame, HasTheLeftOfTheDirectionPositive) {
   const PathLocator locator(corner);
   EXPECT_EQ(locator.frame({5.0, 2.0}).offset_m, 2.0);
@@ -124,6 +142,15 @@ TEST(PathFrame, OfThereAndBackHasThePlaceBeyondTheTurnOnTheRight) {
   const PathFrame frame = locator.frame({12.0, 0.0});
   EXPECT_EQ(frame.offset_m, -2.0);
   EXPECT_EQ(frame.tangent, (Vec2{0.0, 1.0}));
+}
+
+TEST(PathFrame, HasBothSidesBesideAVertexOnAStraightLine) {
+  const PathLocator locator(PathMission{{{0.0, 0.0}, {5.0, 0.0}, {10.0, 0.0}}, false});
+  for (const double side : {-2.0, 2.0}) {
+    const PathFrame frame = locator.frame({5.0, side});
+    EXPECT_EQ(frame.offset_m, side);
+    EXPECT_EQ(frame.tangent, (Vec2{1.0, 0.0}));
+  }
 }
 
 TEST(PathFrame, OnAVertexItselfIsThePieceBeforeIt) {

@@ -107,9 +107,10 @@ PathFrame PathLocator::frame_at_vertex(Vec2 point_m, const Found& found) const {
     if (cross(out.tangent, way) < 0.0) out.offset_m = -out.offset_m;
     return out;
   }
-  // The wedge lies on the outer side of the turn. Where the path turns back on itself it is the
-  // half plane beyond, and the turn counts as one to the left.
-  const bool on_right = cross(before, after) >= 0.0;
+  // The wedge lies on one side of the mean direction. Where the path turns back on itself there is
+  // none: the place beyond is on the right.
+  const Vec2 mean = before + after;
+  const bool on_right = norm2(mean) < 1e-20 || cross(mean, way) < 0.0;
   if (out.offset_m > 0.0) out.tangent = (on_right ? 1.0 : -1.0) / out.offset_m * left_of(way);
   if (on_right) out.offset_m = -out.offset_m;
   return out;
@@ -124,6 +125,17 @@ PathFrame PathLocator::frame(Vec2 point_m) const {
   const bool on_left = cross(piece.tangent(), point_m - piece.from) >= 0.0;
   const double distance_m = found.nearest.distance_m;
   return {found.nearest.along_m, on_left ? distance_m : -distance_m, piece.tangent(), 0.0};
+}
+
+Vec2 PathLocator::place(double station_m) const {
+  if (pieces_.empty()) return path_.vertices_m.front();
+  if (path_.closed) {
+    station_m = std::fmod(station_m, length_m_);
+    if (station_m < 0.0) station_m += length_m_;
+  }
+  const auto after = std::upper_bound(before_m_.begin() + 1, before_m_.end(), station_m);
+  const auto piece = static_cast<std::size_t>(after - before_m_.begin()) - 1;
+  return pieces_[piece].at(station_m - before_m_[piece]);
 }
 
 bool PathLocator::any_on(const State& state, std::size_t node, std::size_t first,

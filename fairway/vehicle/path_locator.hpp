@@ -21,6 +21,8 @@ class PathLocator {
   [[nodiscard]] PathPoint nearest(Vec2 point_m) const;
   /// The same point as a frame, with the side on which the place lies.
   [[nodiscard]] PathFrame frame(Vec2 point_m) const;
+  /// The place at a station: a closed path goes round, an open one straight on beyond its ends.
+  [[nodiscard]] Vec2 place(double station_m) const;
   /// on_path (paper 1, Eq. 5).
   [[nodiscard]] bool on_path(const State& state) const;
 

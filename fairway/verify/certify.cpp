@@ -79,6 +79,7 @@ class VolumeMeter {
     const std::size_t each = cells == 0 ? 0 : states_.size() / cells;
     std::size_t free_count = 0;
     std::size_t commanded_count = 0;
+    std::size_t usable_count = 0;
     std::size_t i = 0;  // the states are ordered by cell, as they were drawn
     for (std::size_t c = 0; c < flow_.grid.size(); ++c) {
       if (flow_.kind[c] != CellKind::ordinary) continue;
@@ -88,9 +89,11 @@ class VolumeMeter {
         volume.all[v] += 1.0;
         (is_free_[c] ? volume.free : volume.buffer)[v] += 1.0;
         free_count += is_free_[c] ? 1 : 0;
-        if (is_free_[c] && !std::isnan(flow_.heading_rad[c])) {
-          volume.commanded[v] += 1.0;
-          ++commanded_count;
+        if (!std::isnan(flow_.heading_rad[c])) {
+          volume.usable[v] += 1.0;
+          ++usable_count;
+          volume.commanded[v] += is_free_[c] ? 1.0 : 0.0;
+          commanded_count += is_free_[c] ? 1 : 0;
         }
         if (verdict == Verdict::reach) {
           volume.worst_time_s = std::max(volume.worst_time_s, found_[i].time_s);
@@ -103,6 +106,7 @@ class VolumeMeter {
     share(volume.all, states_.size());
     share(volume.free, free_count);
     share(volume.commanded, commanded_count);
+    share(volume.usable, usable_count);
     share(volume.buffer, states_.size() - free_count);
     return volume;
   }

@@ -48,6 +48,7 @@ struct VolumeFractions {
   std::array<double, verdict_count> free{};       ///< of these, the safe-start cells
   std::array<double, verdict_count> commanded{};  ///< of those, the ones with a command
   std::array<double, verdict_count> buffer{};     ///< and the buffer cells
+  std::array<double, verdict_count> usable{};     ///< of all, the cells with a command
   std::size_t samples = 0;
   double worst_time_s = 0.0;  ///< largest bound of a sampled state proved to reach
 };

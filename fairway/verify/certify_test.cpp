@@ -464,6 +464,7 @@ TEST(Certify, CountsSafeStartsWithACommandApart) {
   const std::size_t reach = static_cast<std::size_t>(Verdict::reach);
   EXPECT_GT(volume.commanded[reach], volume.free[reach] + 0.05);
   EXPECT_EQ(volume.free[reach], volume.all[reach]);  // there is no buffer
+  EXPECT_EQ(volume.usable[reach], volume.commanded[reach]);
 }
 
 }  // namespace

@@ -426,6 +426,7 @@ def plan_arrays(
     filter: Literal["free_space", "paper"] = ...,
     blend: Literal["continuous", "paper"] = ...,
     axis_capture_rad: float = ...,
+    path_field: Literal["follow", "paper"] = ...,
 ) -> Plan: ...
 def load_plan(path: _Path) -> Plan: ...
 def verify(

@@ -7,7 +7,7 @@ const names: Record<string, string> = {
   unreachable_free_cells: "free cells cut off from the goal",
   random: "random flights", given: "given starts", count: "flown", outcomes: "", share: "share", seed: "seed",
   reach_share_interval_95: "share that reach, 95 % interval",
-  volume_fraction: "of all states", volume_fraction_free: "of safe starts", volume_fraction_free_commanded: "of safe starts with a command",
+  volume_fraction: "of all states", volume_fraction_free: "of safe starts", volume_fraction_free_commanded: "of safe starts with a command", volume_fraction_usable: "of the states that the mission can use",
   volume_fraction_buffer: "of the buffer", samples: "sampled states for the shares", worst_time_s: "longest bound on the time to reach, s",
   stopped_by: "what ended the proof", leaves: "leaves of the proof", checked: "re-proved by the separate program",
   region_of_interest: "region to reach", program: "made by",
