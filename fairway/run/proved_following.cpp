@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "fairway/base/share_text.hpp"
+#include "fairway/field/flyable_path.hpp"
 #include "fairway/verify/region_of_interest.hpp"
 
 namespace fairway {
@@ -43,7 +44,8 @@ std::optional<ProvedFollowing> prove_following(
   const std::vector<CellKind> kind = flown_over(plan);
   const Flow flow{plan.grid, plan.vehicle, plan.heading_rad.data(), kind.data()};
   const Parts parts(flow, contract, parts_per_cell);
-  const PathLocator path(*mission);
+  // The line that the field follows: corners sharper than the vehicle turns are cut.
+  const PathLocator path(flyable_path(*mission, plan.vehicle.turn_radius_m));
   const Tube tube(parts, plan.grid, path, widest_radii * plan.vehicle.turn_radius_m);
   FollowOptions options;
   options.limits.go_on = go_on;
