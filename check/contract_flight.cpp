@@ -8,6 +8,9 @@
 namespace fairway_check {
 namespace {
 
+/// By which ends of arcs may differ from those of the certificate's author.
+constexpr double along_slack = 0x1p-20;
+
 /// Adjacent headings from which a set turns to one side alike.
 struct Run {
   int turn;
@@ -32,7 +35,13 @@ void Behaviours::follow_leaf(std::size_t part, int side, double low, double high
   double most = arc.right + arc.width;
   if (parts_.kind[part] != ordinary || is_loose(arc, following_.contract()))
     return following_.lose();
-  if (!point_outwards(side, least, most)) return;
+  if (!point_outwards(side, least, most)) {
+    // The author's arc may reach a little farther than this one, just over the side: then those
+    // that fly along it are followed, so that nothing is concluded from nobody.
+    least = arc.right - along_slack;
+    most = arc.right + arc.width + along_slack;
+    if (!point_outwards(side, least, most)) return;
+  }
   // Near the ends of a wide arc a side may be held: the one that leads into the arc. (Those that
   // hold the other one have turned that way without pause, and are followed as such.)
   const double far_left = arc.right + arc.width - following_.contract().hold_side + angle_slack;

@@ -146,6 +146,27 @@ TEST_F(ContractMutation, WhateverTheProverProvesIsAccepted) {
   }
 }
 
+TEST_F(ContractMutation, AnArcThatOnlyTheProversReachesOverASideIsAccepted) {
+  // All fly west, nearly along the sides of their parts: by the prover's arc just over them.
+  fairway::Plan plan = fairway::empty_plan(8, 6, 8.0, 20.0);
+  const float west = 3.1F;
+  for (std::size_t i = 0; i < plan.grid.size(); ++i) {
+    plan.heading_rad[i] = west;
+    if (plan.grid.cell_at(i).ix == 0) plan.region[i] = fairway::Region::goal;
+  }
+  fairway::VehicleContract contract = a_contract();
+  contract.heading_error_rad = std::numbers::pi - 0.99 * 0x1p-22 - static_cast<double>(west);
+  fairway::ContractVerifyOptions options;
+  options.samples = 1000;
+  options.find_witnesses = false;
+  const auto made = fairway::verify_contract(plan, "plan", fairway::RegionOfInterest{}, contract,
+                                             options, [](const std::string&) {});
+  write_contract_certificate(made.certificate, folder_ / "made", fairway::Existing::replace);
+  nlohmann::ordered_json report;
+  EXPECT_EQ(judge(folder_ / "made", "", 0, report), "");
+  EXPECT_GT(report["leaves"]["reach"], 20);
+}
+
 TEST_F(ContractMutation, TheCertificateIsAcceptedWithItsPlanAndNoOther) {
   EXPECT_EQ(refusal(good_), "");
   EXPECT_EQ(refusal(good_, folder_ / "plan"), "");
