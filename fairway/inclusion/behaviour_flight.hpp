@@ -47,9 +47,8 @@ struct BehaviourImage {
   double flown = 0.0;     ///< at most, in parts, by those that end
   bool gave_up = false;
   // With a tube, over all parts on the way (tube.hpp):
-  float distance_m = 0.0F;    ///< of the farthest
-  double off_rad = 0.0;       ///< between a heading and the path, at the middle of a part
-  double most_off_rad = 0.0;  ///< anywhere
+  float distance_m = 0.0F;  ///< of the farthest
+  double off_rad = 0.0;     ///< between a heading and the path, at most
 
   bool may_end(Verdict v) const { return (ends >> static_cast<unsigned>(v) & 1U) != 0; }
 };

@@ -116,7 +116,6 @@ void CrossingGraph::fly(const Parts& parts, const BehaviourOptions& options,
         leaf.gave_up = image.gave_up;
         leaf.distance_m = image.distance_m;
         leaf.off_rad = std::nextafter(static_cast<float>(image.off_rad), HUGE_VALF);
-        leaf.most_off_rad = std::nextafter(static_cast<float>(image.most_off_rad), HUGE_VALF);
         leaf.end_flown = static_cast<float>(image.flown * generous);
         if (image.gave_up) continue;
         for (const Crossing& crossing : image.crossings) {

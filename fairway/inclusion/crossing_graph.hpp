@@ -63,7 +63,6 @@ struct Leaf {
   float end_flown = 0.0F;   ///< by behaviours that end, in parts
   float distance_m = 0.0F;  ///< as in the image
   float off_rad = 0.0F;
-  float most_off_rad = 0.0F;
 };
 
 class CrossingGraph {

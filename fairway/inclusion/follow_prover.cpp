@@ -49,14 +49,13 @@ void FollowProver::for_targets(Id id, const Body& body) const {
   }
 }
 
-/// Leaves whose behaviours, as far as the next crossing, are in the tube, forwards.
+/// Leaves whose behaviours, as far as the next crossing, are in the tube.
 std::vector<bool> FollowProver::near_path() const {
   std::vector<bool> which(graph_.leaves(), false);
   for (Id id = 0; id < graph_.leaves(); ++id) {
     const Leaf& leaf = graph_.leaf(id);
     which[id] = leaf.state == LeafState::open && !leaf.gave_up && leaf.ends == 0 &&
-                leaf.distance_m < Tube::outside &&
-                static_cast<double>(leaf.off_rad) <= most_off_progress_rad;
+                leaf.distance_m < Tube::outside;
   }
   return which;
 }
@@ -161,7 +160,7 @@ bool FollowProver::measure(const std::vector<bool>& core, SizeRange speed_mps,
       const auto n = static_cast<long>(stretches);
       TubeStretch& s = found.profile[static_cast<std::size_t>(((k % n) + n) % n)];
       s.distance_m = std::max(s.distance_m, static_cast<double>(leaf.distance_m));
-      s.off_rad = std::max(s.off_rad, static_cast<double>(leaf.most_off_rad));
+      s.off_rad = std::max(s.off_rad, static_cast<double>(leaf.off_rad));
     }
   }
   std::vector<bool> bent(stretches);

@@ -139,7 +139,6 @@ void SetFlight::note(PartPlace part, const HeadingArc& headings) {
   image_.distance_m = std::max(image_.distance_m, options_.tube->distance_m(at));
   if (image_.distance_m == Tube::outside) return;
   image_.off_rad = std::max(image_.off_rad, options_.tube->off_rad(at, headings));
-  image_.most_off_rad = std::max(image_.most_off_rad, options_.tube->most_off_rad(at, headings));
 }
 
 /// Ends where nothing flies on.

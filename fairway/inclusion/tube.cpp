@@ -15,12 +15,6 @@ double distance_to(const PathPiece& piece, Vec2 place) {
   return norm(place - piece.at(along));
 }
 
-/// The largest angle between headings of two arcs.
-double apart_rad(const HeadingArc& a, const HeadingArc& b) {
-  const double middles = a.lo_rad + 0.5 * a.width_rad - b.lo_rad - 0.5 * b.width_rad;
-  return std::abs(std::remainder(middles, whole_turn_rad)) + 0.5 * (a.width_rad + b.width_rad);
-}
-
 }  // namespace
 
 Tube::Tube(const Parts& parts, const Grid& grid, const PathLocator& path, double widest_m)
@@ -29,7 +23,6 @@ Tube::Tube(const Parts& parts, const Grid& grid, const PathLocator& path, double
       widest_m_(widest_m),
       distance_m_(parts.size(), outside),
       station_m_(parts.size(), 0.0F),
-      tangent_rad_(parts.size(), 0.0F),
       tangents_(parts.size()) {
   std::vector<PathPiece> pieces;
   std::vector<double> heading_rad;
@@ -58,7 +51,6 @@ Tube::Tube(const Parts& parts, const Grid& grid, const PathLocator& path, double
         const std::size_t part = parts.index({ix, static_cast<int>(iy)});
         distance_m_[part] = std::nextafter(static_cast<float>(most_m), outside);
         station_m_[part] = static_cast<float>(frame.station_m);
-        tangent_rad_[part] = static_cast<float>(heading_of(frame.tangent));
         // The nearest point of any place of the part lies so near the middle.
         HeadingArc arc{heading_of(frame.tangent), 0.0};
         const double reach_m = most_m + half_m;
@@ -72,11 +64,10 @@ Tube::Tube(const Parts& parts, const Grid& grid, const PathLocator& path, double
 }
 
 double Tube::off_rad(std::size_t part, const HeadingArc& headings) const {
-  return apart_rad(headings, {static_cast<double>(tangent_rad_[part]), 0.0});
-}
-
-double Tube::most_off_rad(std::size_t part, const HeadingArc& headings) const {
-  return apart_rad(headings, tangents_[part]);
+  const HeadingArc& t = tangents_[part];
+  const double middles = headings.lo_rad + 0.5 * headings.width_rad - t.lo_rad - 0.5 * t.width_rad;
+  return std::abs(std::remainder(middles, whole_turn_rad)) +
+         0.5 * (headings.width_rad + t.width_rad);
 }
 
 double Tube::turning_rad(double from_m, double to_m) const {

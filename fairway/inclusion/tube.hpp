@@ -3,9 +3,8 @@
 //
 // Properties that always hold, for parts up to `widest_m` away:
 //   1. No place of the part is farther from the path than distance_m.
-//   2. `tangent_rad` and `station_m` are those of the point nearest to the part's middle; elsewhere
-//   in
-//      the part they are others where the path bends.
+//   2. The tangents of the path at the points nearest to the part's places lie in `tangents`. (Its
+//      station is that of its middle.)
 #pragma once
 
 #include <cstddef>
@@ -34,14 +33,11 @@ class Tube {
 
   float distance_m(std::size_t part) const { return distance_m_[part]; }  ///< or `outside`
   float station_m(std::size_t part) const { return station_m_[part]; }    ///< of its middle
-  double tangent_rad(std::size_t part) const { return static_cast<double>(tangent_rad_[part]); }
 
   const HeadingArc& tangents(std::size_t part) const { return tangents_[part]; }
 
-  /// The largest angle between a heading of the arc and the part's own tangent.
+  /// The largest angle between a heading of the arc and a tangent of the part.
   double off_rad(std::size_t part, const HeadingArc& headings) const;
-  /// The largest between a heading of the arc and a tangent of the part.
-  double most_off_rad(std::size_t part, const HeadingArc& headings) const;
   /// How far forward one station lies from another: of a closed path the shorter way round,
   /// negative when that leads back.
   double ahead_m(double from_m, double to_m) const;
@@ -53,7 +49,6 @@ class Tube {
   std::vector<std::pair<double, double>> corner_;  // station, rad
   std::vector<float> distance_m_;                  // [parts]
   std::vector<float> station_m_;                   // [parts]
-  std::vector<float> tangent_rad_;                 // [parts]
   std::vector<HeadingArc> tangents_;               // [parts]
 };
 

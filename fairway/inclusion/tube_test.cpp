@@ -51,7 +51,7 @@ TEST(Tube, HoldsDistancesAndTangentsOfEveryPlace) {
       const HeadingArc headings{random.uniform(-7.0, 7.0), random.uniform(0.0, 1.0)};
       const double heading = headings.lo_rad + random.unit() * headings.width_rad;
       EXPECT_LE(std::abs(std::remainder(heading - nearest.tangent.rad(), whole_turn_rad)),
-                tube.most_off_rad(part, headings) + 1e-9);
+                tube.off_rad(part, headings) + 1e-9);
     }
   }
   EXPECT_GT(inside, 3000);
