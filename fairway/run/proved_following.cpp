@@ -1,5 +1,6 @@
 #include "fairway/run/proved_following.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
 
@@ -15,6 +16,9 @@ namespace {
 /// How far from the path leaves are looked for from which nothing leaves: wide enough for those
 /// that overshoot when they join.
 constexpr double widest_radii = 3.0;
+
+/// Coarser ones mix the commands of both sides of the line.
+constexpr int fewest_parts = 2;
 
 /// The path's cells end nothing. Cells without a command, cut off from the path, are taken as
 /// obstacles: nobody who follows comes there, and states in them are none that the mission can use.
@@ -43,7 +47,7 @@ std::optional<ProvedFollowing> prove_following(
   progress("proving that the path is followed");
   const std::vector<CellKind> kind = flown_over(plan);
   const Flow flow{plan.grid, plan.vehicle, plan.heading_rad.data(), kind.data()};
-  const Parts parts(flow, contract, parts_per_cell);
+  const Parts parts(flow, contract, std::max(parts_per_cell, fewest_parts));
   // The line that the field follows: corners sharper than the vehicle turns are cut.
   const PathLocator path(flyable_path(*mission, plan.vehicle.turn_radius_m));
   const Tube tube(parts, plan.grid, path, widest_radii * plan.vehicle.turn_radius_m);
