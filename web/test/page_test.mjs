@@ -32,7 +32,7 @@ test("opens from disk, fetches nothing, and logs nothing", async (t) => {
   assert.ok(await page.locator("#live").isHidden(), "from disk there is no server to ask");
 });
 
-test("what must not be missed comes first: cut-off cells, then the share of all states", async (t) => {
+test("what must not be missed comes first: cut-off cells, then the share of what the mission can use", async (t) => {
   const image = rocks(120, []);
   for (let y = 0; y < 120; ++y) image.fill(0, image.length - 14400 + y * 120 + 70, image.length - 14400 + y * 120 + 73);  // a wall
   const walled = run("walled", scenario({ map: "walled.pgm", scale_m: 1, cell_m: 2, goal: [30, 60], undecided: 0.1 }), { "walled.pgm": image });
@@ -40,7 +40,7 @@ test("what must not be missed comes first: cut-off cells, then the share of all 
   assert.match(await page.locator("#warnings li").first().innerText(), /of the free cells .* are cut off from the goal/);
   const [warnings, facts] = await Promise.all(["#warnings", "#facts"].map((id) => page.locator(id).boundingBox()));
   assert.ok(warnings.y < facts.y, "the warnings are above the figures");
-  assert.match(await page.locator("#facts > div").first().innerText(), /^(of all states are proved to reach the goal\s+[\d.]+ %|[\d.]+ %\s+of all states are proved to reach the goal)$/);
+  assert.match(await page.locator("#facts > div").first().innerText(), /^(of states that the mission can use are proved to reach the goal\s+[\d.]+ %|[\d.]+ %\s+of states that the mission can use are proved to reach the goal)$/);
   assert.match(await page.locator("#facts").innerText(), /of free cells are cut off from the goal/);
   const box = await page.locator("#map").boundingBox();
   await page.mouse.move(box.x + 0.8 * box.width, box.y + 0.5 * box.height);
