@@ -13,22 +13,13 @@
 namespace fairway {
 namespace {
 
-constexpr std::uint32_t core_group = 1;
 /// Behaviours that follow do not come so far along the path in one crossing: else a neighbouring
 /// stretch of it is too near.
 constexpr double longest_hop = 0.125;
 constexpr std::size_t most_stretches = 512;
-
-/// Whoever comes to these leaves has come to the core.
-void close(Leaf& leaf) {
-  leaf.state = LeafState::closed;
-  leaf.verdict = Verdict::reach;
-  leaf.group = core_group;
-}
-GroupRecord groups_to_core() {
-  constexpr float none = std::numeric_limits<float>::quiet_NaN();
-  return {{none, none}, {std::numeric_limits<float>::infinity(), 0.0F}};
-}
+/// The station of a part is that of its middle, so it may fall by some parts although that of the
+/// nearest point rises. A path that comes back to itself makes it fall by more.
+constexpr double farthest_back = 4.0;
 
 }  // namespace
 
@@ -137,6 +128,7 @@ bool FollowProver::measure(const std::vector<bool>& core, SizeRange speed_mps,
   const std::size_t stretches = std::clamp<std::size_t>(
       static_cast<std::size_t>(length_m / (2.0 * parts_.part_m())), 8, most_stretches);
   found.profile.assign(stretches, {});
+  std::vector<bool> bent(stretches);
   const double stretch_m = length_m / static_cast<double>(stretches);
   const double part_m = 1.5 * parts_.part_m();  // from its middle, and more
   double hop_m = 0.0;
@@ -158,19 +150,20 @@ bool FollowProver::measure(const std::vector<bool>& core, SizeRange speed_mps,
     const auto last = static_cast<long>(std::floor((from + on) / stretch_m));
     for (long k = first; k <= last; ++k) {
       const auto n = static_cast<long>(stretches);
-      TubeStretch& s = found.profile[static_cast<std::size_t>(((k % n) + n) % n)];
+      const auto at = static_cast<std::size_t>(((k % n) + n) % n);
+      TubeStretch& s = found.profile[at];
       s.distance_m = std::max(s.distance_m, static_cast<double>(leaf.distance_m));
       s.off_rad = std::max(s.off_rad, static_cast<double>(leaf.off_rad));
+      if (back < -farthest_back * parts_.part_m()) bent[at] = true;
     }
   }
-  std::vector<bool> bent(stretches);
   double most_m = 0.0;  // of way, as if straight along the path
   for (std::size_t k = 0; k < stretches; ++k) {
     const TubeStretch& s = found.profile[k];
     if (s.distance_m == 0.0) return false;  // nobody comes by
     found.tube_m = std::max(found.tube_m, s.distance_m);
     found.off_rad = std::max(found.off_rad, s.off_rad);
-    bent[k] = s.off_rad > most_off_progress_rad;
+    if (s.off_rad > most_off_progress_rad) bent[k] = true;
     if (bent[k]) continue;
     // Around a corner, on its outer side, the nearest point stands still.
     const double begin_m = static_cast<double>(k) * stretch_m;
@@ -181,53 +174,9 @@ bool FollowProver::measure(const std::vector<bool>& core, SizeRange speed_mps,
   const auto margin = static_cast<std::size_t>(std::ceil((hop_m + part_m) / stretch_m));
   const double through = through_bends(core, bent, margin);
   most_m += through * parts_.part_m();
-  const double least_m = length_m - found.tube_m * tube_.turning_rad(0.0, length_m);
-  found.lap_least_s = std::max(0.0, least_m) / speed_mps.most;
+  found.lap_least_s = least_lap_m(found.tube_m + hop_m + part_m) / speed_mps.most;
   found.lap_most_s = most_m / speed_mps.least;
-  return std::isfinite(through);
-}
-
-/// Where the path bends so sharply that the tube's places see it from all sides, its tangents say
-/// little. The longest way, in parts, through such stretches, with `margin` of others before and
-/// after them, where the nearest point moves on: from groups, each with a direction. Infinite when
-/// some behaviour may stay there.
-double FollowProver::through_bends(const std::vector<bool>& core, const std::vector<bool>& bent,
-                                   std::size_t margin) const {
-  const std::size_t n = bent.size();
-  std::vector<bool> about(n, false);
-  for (std::size_t k = 0; k < n; ++k) {
-    for (std::size_t m = 0; bent[k] && m <= 2 * margin; ++m) about[(k + n + m - margin) % n] = true;
-  }
-  const auto begin = std::find(about.begin(), about.end(), false);
-  if (begin == about.end()) return std::numeric_limits<double>::infinity();
-  const auto first = static_cast<std::size_t>(begin - about.begin());
-  double sum = 0.0;
-  for (std::size_t k = first; k < first + n; ++k) {
-    if (!about[k % n] || about[(k + n - 1) % n]) continue;
-    std::size_t last = k;  // of the run that begins here
-    while (about[(last + 1) % n]) ++last;
-    CrossingGraph run = graph_;
-    for (Id id = 0; id < run.leaves(); ++id) {
-      Leaf& leaf = run.leaf(id);
-      const double along = static_cast<double>(tube_.station_m(part_of_[id])) / tube_.length_m();
-      const auto at = std::min(n - 1, static_cast<std::size_t>(along * static_cast<double>(n)));
-      if (!core[id]) {
-        leaf.state = LeafState::idle;
-      } else if ((at + n - k % n) % n > last - k) {
-        close(leaf);
-      }
-    }
-    GroupRecord groups = groups_to_core();
-    static_cast<void>(decide_groups(parts_, run, groups));
-    double longest = 0.0;
-    for (Id id = 0; id < run.leaves(); ++id) {
-      const Leaf& leaf = run.leaf(id);
-      if (leaf.state == LeafState::open) return std::numeric_limits<double>::infinity();
-      if (core[id]) longest = std::max(longest, static_cast<double>(groups.flown[leaf.group]));
-    }
-    sum += longest;
-  }
-  return sum;
+  return std::isfinite(through) && passes_gates(core, 2.0 * hop_m + 2.0 * part_m);
 }
 
 /// Until the core is known, only leaves near the path matter.
@@ -275,7 +224,7 @@ bool FollowProver::join(const std::function<void(const InclusionLevel&)>& progre
   for (Id id = 0; id < start.leaves(); ++id) {
     Leaf& leaf = start.leaf(id);
     if (leaf.state == LeafState::aside) leaf.state = LeafState::fresh;
-    if (core_[id]) close(leaf);
+    if (core_[id]) close_as_core(leaf);
   }
   InclusionLimits limits = options_.limits;
   limits.flight.tube = nullptr;

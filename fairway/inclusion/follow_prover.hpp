@@ -65,6 +65,10 @@ class FollowProver {
   void remove_leaks(std::vector<bool>& stays) const;
   std::vector<bool> core_of(const std::vector<bool>& stays) const;
   bool measure(const std::vector<bool>& core, SizeRange speed_mps, Following& found) const;
+  bool passes_gates(const std::vector<bool>& core, double long_m) const;
+  double least_lap_m(double aside_m) const;
+  static void close_as_core(Leaf& leaf);
+  static GroupRecord groups_to_core();
   double through_bends(const std::vector<bool>& core, const std::vector<bool>& bent,
                        std::size_t margin) const;
   template <typename Body>

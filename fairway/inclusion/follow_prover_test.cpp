@@ -25,6 +25,12 @@ struct Lap {
     grid.cell_m = 8.0;
     kind.assign(grid.size(), CellKind::ordinary);
     const bool right = random.below(2) == 0;  // the way round
+    obey_path(circle_m);
+    if (right) turn_round();
+  }
+
+  void obey_path(double circle_m) {
+    heading.clear();
     for (std::size_t i = 0; i < grid.size(); ++i) {
       const PathFrame frame = path.frame(grid.center(grid.cell_at(i)));
       const double off = std::acos(1.0 - std::min(1.0, std::abs(frame.offset_m) / circle_m));
@@ -32,7 +38,6 @@ struct Lap {
       heading.push_back(static_cast<float>(
           std::remainder(tangent + (frame.offset_m > 0.0 ? -off : off), 2.0 * pi)));
     }
-    if (right) turn_round();
   }
 
   static PathMission mission(Random& random) {
@@ -175,6 +180,29 @@ TEST(FollowProver, APathThroughAnObstacleIsNotFollowed) {
     const Vec2 on = lap.path.path().vertices_m[static_cast<std::size_t>(random.below(90))];
     lap.kind[lap.grid.index(lap.grid.cell_of(on))] = CellKind::obstacle;
     EXPECT_FALSE(Proof(lap, some_contract(random, lap.vehicle)).found) << round;
+  }
+}
+
+TEST(FollowProver, APathWithALoopBesideItselfIsNotSaidToBeGoneRound) {
+  // Where the loop leaves the great circle both run the same way: who obeys may stay in the loop
+  // for ever, or never come into it, though the nearest point of the path always moves on.
+  Random random(16);
+  for (const double loop_m : {42.0, 60.0}) {
+    Lap lap(random);
+    PathMission path;
+    path.closed = true;
+    for (int k = 0; k < 120; ++k) {
+      const double at = 2.0 * pi * k / 120.0;
+      path.vertices_m.push_back({200.0 + 135.0 * std::cos(at), 184.0 + 135.0 * std::sin(at)});
+      for (int i = 1; k == 0 && i < 60; ++i) {
+        const double in = 2.0 * pi * i / 60.0;
+        path.vertices_m.push_back(
+            {335.0 - loop_m + loop_m * std::cos(in), 184.0 + loop_m * std::sin(in)});
+      }
+    }
+    lap.path = PathLocator(path);
+    lap.obey_path(60.0);
+    EXPECT_FALSE(Proof(lap, VehicleContract::of(lap.vehicle)).found) << loop_m;
   }
 }
 

@@ -20,24 +20,22 @@ double distance_to(const PathPiece& piece, Vec2 place) {
 Tube::Tube(const Parts& parts, const Grid& grid, const PathLocator& path, double widest_m)
     : length_m_(path.length_m()),
       closed_(path.path().closed),
-      widest_m_(widest_m),
       distance_m_(parts.size(), outside),
       station_m_(parts.size(), 0.0F),
       tangents_(parts.size()) {
-  std::vector<PathPiece> pieces;
   std::vector<double> heading_rad;
   for_pieces(path.path(), [&](const PathPiece& piece) {
     heading_rad.push_back(heading_of(piece.tangent()));
-    pieces.push_back(piece);
+    pieces_.push_back(piece);
   });
   double station_m = 0.0;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const double before = heading_rad[(i + pieces.size() - 1) % pieces.size()];
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const double before = heading_rad[(i + pieces_.size() - 1) % pieces_.size()];
     if (closed_ || i > 0) {
       corner_.emplace_back(station_m,
                            std::abs(std::remainder(heading_rad[i] - before, whole_turn_rad)));
     }
-    station_m += pieces[i].length_m;
+    station_m += pieces_[i].length_m;
   }
   const double half_m = std::sqrt(0.5) * parts.part_m() * (1.0 + place_slack);
   for_ranges(static_cast<std::size_t>(parts.ny()), 1, [&](std::size_t a, std::size_t b) {
@@ -54,8 +52,8 @@ Tube::Tube(const Parts& parts, const Grid& grid, const PathLocator& path, double
         // The nearest point of any place of the part lies so near the middle.
         HeadingArc arc{heading_of(frame.tangent), 0.0};
         const double reach_m = most_m + half_m;
-        for (std::size_t i = 0; i < pieces.size(); ++i) {
-          if (distance_to(pieces[i], middle) <= reach_m) arc = arc.with({heading_rad[i], 0.0});
+        for (std::size_t i = 0; i < pieces_.size(); ++i) {
+          if (distance_to(pieces_[i], middle) <= reach_m) arc = arc.with({heading_rad[i], 0.0});
         }
         tangents_[part] = arc;
       }
@@ -76,6 +74,14 @@ double Tube::turning_rad(double from_m, double to_m) const {
     if (station_m >= from_m && station_m <= to_m) sum += rad;
   }
   return sum;
+}
+
+Vec2 Tube::place_m(double station_m) const {
+  for (const PathPiece& piece : pieces_) {
+    if (station_m <= piece.length_m) return piece.at(std::max(station_m, 0.0));
+    station_m -= piece.length_m;
+  }
+  return pieces_.back().to;
 }
 
 double Tube::ahead_m(double from_m, double to_m) const {

@@ -14,6 +14,7 @@
 
 #include "fairway/inclusion/heading_arc.hpp"
 #include "fairway/inclusion/parts.hpp"
+#include "fairway/vehicle/path_geometry.hpp"
 #include "fairway/vehicle/path_locator.hpp"
 
 namespace fairway {
@@ -26,8 +27,8 @@ class Tube {
   Tube(const Parts& parts, const Grid& grid, const PathLocator& path, double widest_m);
 
   double length_m() const { return length_m_; }
+  Vec2 place_m(double station_m) const;  ///< of the path
   bool closed() const { return closed_; }
-  double widest_m() const { return widest_m_; }
   /// How much the path turns from one station to another, both ways added up: at its corners.
   double turning_rad(double from_m, double to_m) const;
 
@@ -45,7 +46,7 @@ class Tube {
  private:
   double length_m_;
   bool closed_;
-  double widest_m_;
+  std::vector<PathPiece> pieces_;
   std::vector<std::pair<double, double>> corner_;  // station, rad
   std::vector<float> distance_m_;                  // [parts]
   std::vector<float> station_m_;                   // [parts]

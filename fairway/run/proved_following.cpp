@@ -100,7 +100,7 @@ std::vector<Finding> findings(const ProvedFollowing& f) {
   return {
       {percent_text(share_of(f.shares.all, Verdict::reach), decimals),
        "states with a way to the path", "are proved to join the path and to follow it for ever"},
-      {percent_text(share_of(f.shares.free, Verdict::reach), decimals), "safe starts",
+      {percent_text(share_of(f.shares.free, Verdict::reach), decimals), "safe starts among them",
        "are proved to join the path and to follow it for ever"},
       {"", "",
        fmt::format("who follows is within {:.3g} m of the path, heads within {:.0f} degrees of "
