@@ -41,14 +41,20 @@ struct Crossing {
   double flown = 0.0;   ///< at most, in parts
 };
 
+struct PartVisit {
+  std::size_t part;
+  HeadingArc headings;
+};
+
 struct BehaviourImage {
   std::vector<Crossing> crossings;
   std::uint8_t ends = 0;  ///< bit v: some behaviour may end with Verdict v
   double flown = 0.0;     ///< at most, in parts, by those that end
   bool gave_up = false;
   // With a tube, over all parts on the way (tube.hpp):
-  float distance_m = 0.0F;  ///< of the farthest
-  double off_rad = 0.0;     ///< between a heading and the path, at most
+  float distance_m = 0.0F;        ///< of the farthest
+  double off_rad = 0.0;           ///< between a heading and the path, at most
+  std::vector<PartVisit> visits;  ///< when they are told: all parts on the way
 
   bool may_end(Verdict v) const { return (ends >> static_cast<unsigned>(v) & 1U) != 0; }
 };
@@ -57,6 +63,8 @@ struct BehaviourOptions {
   double step_rad = 0.0872664625997165;  ///< of the heading, while turning
   int most_steps = 600;                  ///< of all sets of one image, before it is given up
   const Tube* tube = nullptr;            ///< to tell how far from the path an image leads
+  bool tells_visits = false;
+  Verdict goal_ends = Verdict::reach;  ///< what coming to the goal is
 };
 
 /// Of all that leave `part`, an ordinary one, over places [lo, hi] of `side`, aligned with it.

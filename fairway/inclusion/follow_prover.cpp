@@ -7,19 +7,23 @@
 #include <utility>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/parallel.hpp"
 #include "fairway/inclusion/contract_verdicts.hpp"
 #include "fairway/inclusion/leaf_components.hpp"
 
 namespace fairway {
 namespace {
 
-/// Behaviours that follow do not come so far along the path in one crossing: else a neighbouring
-/// stretch of it is too near.
-constexpr double longest_hop = 0.125;
 constexpr std::size_t most_stretches = 512;
-/// The station of a part is that of its middle, so it may fall by some parts although that of the
-/// nearest point rises. A path that comes back to itself makes it fall by more.
-constexpr double farthest_back = 4.0;
+/// Who checks may find a little more.
+constexpr double more_m = 1.0 + 1e-5;
+constexpr double more_off_rad = 2e-3;
+/// Beside the line: parts so near, with headings so near its tangent.
+constexpr double beside_parts = 1.5;
+constexpr double beside_rad = 0.5;
+
+constexpr std::uint8_t only_reach = 1U << static_cast<unsigned>(Verdict::reach);
+constexpr std::uint8_t only_leave = 1U << static_cast<unsigned>(Verdict::leave);
 
 }  // namespace
 
@@ -27,8 +31,8 @@ FollowProver::FollowProver(const Parts& parts, const Tube& tube, const FollowOpt
     : parts_(parts),
       tube_(tube),
       options_(options),
-      graph_(parts, 1U << static_cast<unsigned>(options.limits.first_level)) {
-  require(tube.closed(), "a path that is followed for ever is closed");
+      graph_(parts, 1U << static_cast<unsigned>(options.limits.first_level)),
+      groups_(groups_to_core()) {
   options_.limits.flight.tube = &tube;
 }
 
@@ -43,9 +47,10 @@ void FollowProver::for_targets(Id id, const Body& body) const {
 /// Leaves whose behaviours, as far as the next crossing, are in the tube.
 std::vector<bool> FollowProver::near_path() const {
   std::vector<bool> which(graph_.leaves(), false);
+  const unsigned bad_ends = tube_.closed() ? ~0U : ~unsigned{only_reach};
   for (Id id = 0; id < graph_.leaves(); ++id) {
     const Leaf& leaf = graph_.leaf(id);
-    which[id] = leaf.state == LeafState::open && !leaf.gave_up && leaf.ends == 0 &&
+    which[id] = leaf.state == LeafState::open && !leaf.gave_up && (leaf.ends & bad_ends) == 0 &&
                 leaf.distance_m < Tube::outside;
   }
   return which;
@@ -67,7 +72,7 @@ void FollowProver::remove_leaks(std::vector<bool>& stays) const {
   std::vector<Id> leaking;
   for (Id id = 0; id < graph_.leaves(); ++id) {
     if (!stays[id]) continue;
-    bool leaks = graph_.links(id).empty();
+    bool leaks = graph_.links(id).empty() && graph_.leaf(id).ends == 0;
     for_targets(id, [&](Id to, const CrossingLink&) { leaks = leaks || !stays[to]; });
     if (leaks) leaking.push_back(id);
   }
@@ -84,11 +89,9 @@ void FollowProver::remove_leaks(std::vector<bool>& stays) const {
   }
 }
 
-/// All that leads on from a group of leaves in which behaviours may be for ever: one without a
-/// direction in which all move on.
-std::vector<bool> FollowProver::core_of(const std::vector<bool>& stays) const {
-  std::vector<bool> core(graph_.leaves(), false);
-  std::vector<Id> reached;
+/// Groups of leaves in which behaviours may be for ever: without a direction in which all move on.
+std::vector<FollowProver::Id> FollowProver::round_trips(const std::vector<bool>& stays) const {
+  std::vector<Id> found;
   std::vector<std::uint32_t> group(graph_.leaves(), 0);
   std::uint32_t groups = 0;
   for_components(
@@ -106,77 +109,118 @@ std::vector<bool> FollowProver::core_of(const std::vector<bool>& stays) const {
           });
         }
         if (!comes_back || headings.width_rad < 2.0 * most_off_progress_rad - 1e-3) return;
-        for (const Id id : members) core[id] = true;
-        reached.insert(reached.end(), members.begin(), members.end());
+        found.insert(found.end(), members.begin(), members.end());
       });
+  return found;
+}
+
+std::vector<FollowProver::Id> FollowProver::beside_line(const std::vector<bool>& stays) const {
+  std::vector<Id> found;
+  for (Id id = 0; id < graph_.leaves(); ++id) {
+    if (!stays[id]) continue;
+    const Leaf& leaf = graph_.leaf(id);
+    if (static_cast<double>(leaf.distance_m) < beside_parts * parts_.part_m() &&
+        static_cast<double>(leaf.off_rad) < beside_rad) {
+      found.push_back(id);
+    }
+  }
+  return found;
+}
+
+/// All that leads on from these.
+void FollowProver::take_core(std::vector<Id> reached) {
+  core_.in.assign(graph_.leaves(), false);
+  for (const Id id : reached) core_.in[id] = true;
   while (!reached.empty()) {
     const Id id = reached.back();
     reached.pop_back();
     for_targets(id, [&](Id to, const CrossingLink&) {
-      if (core[to]) return;
-      core[to] = true;
+      if (core_.in[to]) return;
+      core_.in[to] = true;
       reached.push_back(to);
     });
   }
-  return core;
 }
 
-/// What is true of the core; false when it does not go round.
-bool FollowProver::measure(const std::vector<bool>& core, SizeRange speed_mps,
-                           Following& found) const {
-  const double length_m = tube_.length_m();
-  const std::size_t stretches = std::clamp<std::size_t>(
-      static_cast<std::size_t>(length_m / (2.0 * parts_.part_m())), 8, most_stretches);
-  found.profile.assign(stretches, {});
-  std::vector<bool> bent(stretches);
-  const double stretch_m = length_m / static_cast<double>(stretches);
-  const double part_m = 1.5 * parts_.part_m();  // from its middle, and more
-  double hop_m = 0.0;
+/// Of an open path: all of the core come to its end, group by group.
+bool FollowProver::leads_to_end(SizeRange speed_mps) {
+  CrossingGraph core = graph_;
+  for (Id id = 0; id < core.leaves(); ++id) {
+    if (!core_.in[id]) core.leaf(id).state = LeafState::idle;
+  }
+  static_cast<void>(decide_groups(parts_, core, groups_));
+  core_.stage.assign(graph_.leaves(), 0);
+  core_.group.assign(graph_.leaves(), core_group);
+  double most = 0.0;  // parts
+  for (Id id = 0; id < core.leaves(); ++id) {
+    if (!core_.in[id]) continue;
+    if (core.leaf(id).verdict != Verdict::reach) return false;
+    core_.stage[id] = 1;
+    core_.group[id] = core.leaf(id).group;
+    most = std::max(most, static_cast<double>(groups_.flown[core.leaf(id).group]));
+  }
+  const auto most_s = static_cast<float>(most * parts_.part_m() / speed_mps.least);
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  stages_ = {{0.0F}, {none}, {std::nextafter(most_s, HUGE_VALF)}, {0.0F}, 0.0, 0.0};
+  stages_.lap_most_s = static_cast<double>(stages_.time_s[0]);
+  return true;
+}
+
+/// By the stations of the parts where behaviours of the core may be.
+void FollowProver::measure_tube(Following& found) const {
+  const auto count = std::clamp<std::size_t>(
+      static_cast<std::size_t>(tube_.length_m() / (2.0 * parts_.part_m())), 8, most_stretches);
+  std::vector<Id> all;
   for (Id id = 0; id < graph_.leaves(); ++id) {
-    if (!core[id]) continue;
-    const Leaf& leaf = graph_.leaf(id);
-    const auto from = static_cast<double>(tube_.station_m(part_of_[id]));
-    double back = -part_m;
-    double on = part_m;
-    for (const CrossingLink& link : graph_.links(id)) {
-      const std::size_t part = link.section / sections_per_part;
-      const double hop = tube_.ahead_m(from, static_cast<double>(tube_.station_m(part)));
-      if (std::abs(hop) > longest_hop * length_m) return false;
-      hop_m = std::max(hop_m, std::abs(hop));
-      back = std::min(back, hop - part_m);
-      on = std::max(on, hop + part_m);
+    if (core_.in[id]) all.push_back(id);
+  }
+  BehaviourOptions options = options_.limits.flight;
+  options.tells_visits = true;
+  constexpr std::size_t chunk = 256;
+  const std::size_t chunks = (all.size() + chunk - 1) / chunk;
+  std::vector<std::vector<TubeStretch>> of(chunks);
+  for_ranges(chunks, 1, [&](std::size_t a, std::size_t b) {
+    for (std::size_t c = a; c < b; ++c) {
+      of[c].resize(count);
+      for (std::size_t k = c * chunk; k < std::min(all.size(), (c + 1) * chunk); ++k) {
+        const Id id = all[k];
+        const std::size_t s = graph_.section_of(id);
+        const BehaviourImage image =
+            image_of_crossing(parts_, parts_.place(s / sections_per_part),
+                              static_cast<PartSide>(s % sections_per_part),
+                              graph_.leaf(id).begin / static_cast<double>(side_units),
+                              graph_.end_of(id, s) / static_cast<double>(side_units), options);
+        for (const auto& [part, headings] : image.visits) {
+          const auto at = static_cast<std::size_t>(static_cast<double>(tube_.station_m(part)) /
+                                                   tube_.length_m() * static_cast<double>(count));
+          TubeStretch& stretch = of[c][std::min(at, count - 1)];
+          stretch.distance_m = std::max(stretch.distance_m, tube_.distance_m(part));
+          stretch.off_rad =
+              std::max(stretch.off_rad, static_cast<float>(tube_.off_rad(part, headings)));
+        }
+      }
     }
-    const auto first = static_cast<long>(std::floor((from + back) / stretch_m));
-    const auto last = static_cast<long>(std::floor((from + on) / stretch_m));
-    for (long k = first; k <= last; ++k) {
-      const auto n = static_cast<long>(stretches);
-      const auto at = static_cast<std::size_t>(((k % n) + n) % n);
-      TubeStretch& s = found.profile[at];
-      s.distance_m = std::max(s.distance_m, static_cast<double>(leaf.distance_m));
-      s.off_rad = std::max(s.off_rad, static_cast<double>(leaf.off_rad));
-      if (back < -farthest_back * parts_.part_m()) bent[at] = true;
+  });
+  std::vector<TubeStretch> own(count);
+  for (const auto& part : of) {
+    for (std::size_t k = 0; k < count; ++k) {
+      own[k].distance_m = std::max(own[k].distance_m, part[k].distance_m);
+      own[k].off_rad = std::max(own[k].off_rad, part[k].off_rad);
     }
   }
-  double most_m = 0.0;  // of way, as if straight along the path
-  for (std::size_t k = 0; k < stretches; ++k) {
-    const TubeStretch& s = found.profile[k];
-    if (s.distance_m == 0.0) return false;  // nobody comes by
-    found.tube_m = std::max(found.tube_m, s.distance_m);
-    found.off_rad = std::max(found.off_rad, s.off_rad);
-    if (s.off_rad > most_off_progress_rad) bent[k] = true;
-    if (bent[k]) continue;
-    // Around a corner, on its outer side, the nearest point stands still.
-    const double begin_m = static_cast<double>(k) * stretch_m;
-    const double turning = tube_.turning_rad(begin_m, begin_m + stretch_m);
-    most_m += (stretch_m + s.distance_m * turning) / std::cos(s.off_rad);
+  // Who checks may find a part on the other side of where two stretches meet.
+  found.tube.assign(count, {});
+  for (std::size_t k = 0; k < count; ++k) {
+    TubeStretch& s = found.tube[k];
+    for (const std::size_t near : {(k + count - 1) % count, k, (k + 1) % count}) {
+      s.distance_m = std::max(s.distance_m, own[near].distance_m);
+      s.off_rad = std::max(s.off_rad, own[near].off_rad);
+    }
+    s.distance_m = static_cast<float>(more_m * static_cast<double>(s.distance_m));
+    s.off_rad = static_cast<float>(static_cast<double>(s.off_rad) + more_off_rad);
+    found.tube_m = std::max(found.tube_m, static_cast<double>(s.distance_m));
+    found.off_rad = std::max(found.off_rad, static_cast<double>(s.off_rad));
   }
-  if (std::find(bent.begin(), bent.end(), false) == bent.end()) return false;
-  const auto margin = static_cast<std::size_t>(std::ceil((hop_m + part_m) / stretch_m));
-  const double through = through_bends(core, bent, margin);
-  most_m += through * parts_.part_m();
-  found.lap_least_s = least_lap_m(found.tube_m + hop_m + part_m) / speed_mps.most;
-  found.lap_most_s = most_m / speed_mps.least;
-  return std::isfinite(through) && passes_gates(core, 2.0 * hop_m + 2.0 * part_m);
 }
 
 /// Until the core is known, only leaves near the path matter.
@@ -195,10 +239,10 @@ std::optional<Following> FollowProver::find_core(SizeRange speed_mps) {
   set_aside_far_leaves();
   for (int level = 0;; ++level) {
     graph_.fly(parts_, options_.limits.flight, options_.limits.go_on);
-    part_of_.clear();
+    core_.part.clear();
     for (std::size_t s = 0; s < graph_.sections(); ++s) {
       for (Id id = graph_.first(s); id < graph_.first(s + 1); ++id) {
-        part_of_.push_back(static_cast<std::uint32_t>(s / sections_per_part));
+        core_.part.push_back(static_cast<std::uint32_t>(s / sections_per_part));
       }
     }
     stays = near_path();
@@ -207,15 +251,27 @@ std::optional<Following> FollowProver::find_core(SizeRange speed_mps) {
     std::vector<bool> which(graph_.leaves(), false);
     for (Id id = 0; id < graph_.leaves(); ++id) {
       which[id] = !stays[id] && graph_.leaf(id).state == LeafState::open &&
-                  tube_.distance_m(part_of_[id]) < Tube::outside;
+                  tube_.distance_m(core_.part[id]) < Tube::outside;
     }
     graph_.cut(which);
   }
+  take_core(tube_.closed() ? round_trips(stays) : beside_line(stays));
   Following found;
-  core_ = core_of(stays);
   found.staying = static_cast<std::size_t>(std::count(stays.begin(), stays.end(), true));
-  found.core = static_cast<std::size_t>(std::count(core_.begin(), core_.end(), true));
-  if (found.core == 0 || !measure(core_, speed_mps, found)) return {};
+  found.core = static_cast<std::size_t>(std::count(core_.in.begin(), core_.in.end(), true));
+  if (found.core == 0) return {};
+  if (tube_.closed()) {
+    std::optional<LapStages> stages =
+        find_lap_stages(parts_, tube_, graph_, speed_mps, core_, groups_);
+    if (!stages) return {};
+    stages_ = std::move(*stages);
+  } else if (!leads_to_end(speed_mps)) {
+    return {};
+  }
+  measure_tube(found);
+  stretches_ = found.tube;
+  found.lap_least_s = stages_.lap_least_s;
+  found.lap_most_s = stages_.lap_most_s;
   return found;
 }
 
@@ -224,12 +280,46 @@ bool FollowProver::join(const std::function<void(const InclusionLevel&)>& progre
   for (Id id = 0; id < start.leaves(); ++id) {
     Leaf& leaf = start.leaf(id);
     if (leaf.state == LeafState::aside) leaf.state = LeafState::fresh;
-    if (core_[id]) close_as_core(leaf);
+    if (core_.in[id]) {
+      close_as_core(leaf);
+    } else if ((leaf.ends & only_reach) != 0) {
+      // Who comes to the end beside the core has not followed.
+      leaf.ends = static_cast<std::uint8_t>((leaf.ends & ~unsigned{only_reach}) | only_leave);
+    }
   }
   InclusionLimits limits = options_.limits;
   limits.flight.tube = nullptr;
-  joining_.emplace(parts_, limits, std::move(start), groups_to_core());
+  limits.flight.goal_ends = Verdict::leave;
+  joining_.emplace(parts_, limits, std::move(start), groups_);
   return joining_->run(progress);
+}
+
+ContractVerdicts FollowProver::verdicts(double speed_least_mps) const {
+  ContractVerdicts made = joining_->verdicts(speed_least_mps);
+  // Leaves of the core are as they were, and in the same order.
+  std::size_t id = 0;
+  for (std::uint32_t& group : made.group) {
+    if (group != core_group) continue;
+    while (!core_.in[id]) ++id;
+    group = core_.group[id++];
+  }
+  return made;
+}
+
+FollowProof FollowProver::proof() const {
+  FollowProof made;
+  made.path.closed = tube_.closed();
+  made.stages = stages_;
+  made.tube = stretches_;
+  const ContractVerdicts verdicts = joining_->verdicts(1.0);
+  made.leaf_stage.assign(verdicts.leaves(), 0);
+  std::size_t id = 0;
+  for (std::size_t k = 0; k < verdicts.leaves(); ++k) {
+    if (verdicts.group[k] != core_group) continue;
+    while (!core_.in[id]) ++id;
+    made.leaf_stage[k] = core_.stage[id++];
+  }
+  return made;
 }
 
 }  // namespace fairway

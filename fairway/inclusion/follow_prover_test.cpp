@@ -109,7 +109,7 @@ TEST(FollowProver, BehavioursJoinInTimeStayAndGoRound) {
     const Flow flow = lap.flow();
     const auto commands = filled_commands(lap.grid, lap.heading.data());
     const double length_m = lap.path.length_m();
-    const auto stretches = static_cast<double>(proof.found->profile.size());
+    const auto stretches = static_cast<double>(proof.found->tube.size());
     for (int k = 0; k < 60; ++k) {
       const Vec2 p{random.uniform(80.0, 320.0), random.uniform(80.0, 290.0)};
       const double heading = random.uniform(-pi, pi);
@@ -137,7 +137,7 @@ TEST(FollowProver, BehavioursJoinInTimeStayAndGoRound) {
         const PathFrame frame = lap.path.frame(behaviour.place());
         const auto stretch = static_cast<std::size_t>(
             std::min(stretches - 1.0, frame.station_m / length_m * stretches));
-        const TubeStretch& bound = proof.found->profile[stretch];
+        const TubeStretch& bound = proof.found->tube[stretch];
         ASSERT_LE(std::abs(frame.offset_m), bound.distance_m) << round << ", " << k;
         const double off = std::remainder(
             behaviour.heading_rad() - std::atan2(frame.tangent.y, frame.tangent.x), 2.0 * pi);

@@ -134,8 +134,9 @@ void SetFlight::add_turning(const ArrivingSet& arriving, HeadingArc wanted, Turn
 }
 
 void SetFlight::note(PartPlace part, const HeadingArc& headings) {
+  const std::size_t at = options_.tube != nullptr || options_.tells_visits ? parts_.index(part) : 0;
+  if (options_.tells_visits) image_.visits.push_back({at, headings});
   if (options_.tube == nullptr) return;
-  const std::size_t at = parts_.index(part);
   image_.distance_m = std::max(image_.distance_m, options_.tube->distance_m(at));
   if (image_.distance_m == Tube::outside) return;
   image_.off_rad = std::max(image_.off_rad, options_.tube->off_rad(at, headings));
@@ -146,7 +147,7 @@ bool SetFlight::ends_there(PartKind kind) {
   const auto end = [&](Verdict v) { image_.ends |= 1U << static_cast<unsigned>(v); };
   if (kind == PartKind::obstacle) end(Verdict::collide);
   if (kind == PartKind::outside) end(Verdict::leave);
-  if (kind == PartKind::goal) end(Verdict::reach);
+  if (kind == PartKind::goal) end(options_.goal_ends);
   return !is_flown_over(kind);
 }
 

@@ -73,9 +73,9 @@ std::optional<ProvedFollowing> prove_following(
 nlohmann::json following_json(const ProvedFollowing& f) {
   if (!f.found) return {{"proved", false}, {"stopped_by", f.stopped_by_limit ? "limit" : "done"}};
   nlohmann::json profile = nlohmann::json::array();
-  const double stretch_m = f.length_m / static_cast<double>(f.found->profile.size());
-  for (std::size_t k = 0; k < f.found->profile.size(); ++k) {
-    const TubeStretch& s = f.found->profile[k];
+  const double stretch_m = f.length_m / static_cast<double>(f.found->tube.size());
+  for (std::size_t k = 0; k < f.found->tube.size(); ++k) {
+    const TubeStretch& s = f.found->tube[k];
     profile.push_back({{"station_m", static_cast<double>(k) * stretch_m},
                        {"distance_m", s.distance_m},
                        {"heading_rad", s.off_rad}});
