@@ -29,12 +29,17 @@ struct Claims {
   double worst_time_s = 0.0;
 };
 
+/// Who reaches the core follows the path.
+const char* name_in(const nlohmann::json& record, std::size_t verdict) {
+  return verdict == reach && record.contains("follow") ? "follow" : verdict_name[verdict];
+}
+
 Claims claims_of(const nlohmann::json& record) {
   Claims claims{.samples = record.at("samples"), .worst_time_s = record.at("worst_time_s")};
   for (std::size_t p = 0; p < claims.shares.size(); ++p) {
     double sum = 0.0;
     for (std::size_t v = 0; v < verdict_count; ++v) {
-      sum += claims.shares[p][v] = record.at(portion_name[p]).at(verdict_name[v]);
+      sum += claims.shares[p][v] = record.at(portion_name[p]).at(name_in(record, v));
       require(claims.shares[p][v] >= 0.0, "volume_fraction: negative share");
     }
     require(sum == 0.0 || std::abs(sum - 1.0) < 1e-9,
@@ -89,7 +94,7 @@ std::string defect_of_claims(const nlohmann::json& record, const Loop& loop,
   const Measured m = measure(loop, region, samples, claims.worst_time_s, tell);
   report["samples"] = m.states[all_cells];
   for (std::size_t v = 0; v < verdict_count; ++v) {
-    report["measured_fraction"][verdict_name[v]] = m.shares[all_cells][v];
+    report["measured_fraction"][name_in(record, v)] = m.shares[all_cells][v];
   }
   for (std::size_t p = 0; p < m.shares.size(); ++p) {
     const double here = m.states[p];
@@ -105,7 +110,7 @@ std::string defect_of_claims(const nlohmann::json& record, const Loop& loop,
       if (is_modest || std::abs(claimed - found) <= 5.0 * error + 5.0 / here + 5.0 / there)
         continue;
       return fmt::format("{}: {} is claimed as {:.6f}, measured as {:.6f} +- {:.6f}",
-                         portion_name[p], verdict_name[v], claimed, found, error);
+                         portion_name[p], name_in(record, v), claimed, found, error);
     }
   }
   // None of the states behind the claim was slower: that has a probability of exp(-20) if a share

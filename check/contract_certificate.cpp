@@ -21,8 +21,9 @@ double almost_wild(const Contract& contract) {
 }
 
 void take_arrays(const TensorFile& file, ContractCertificate& c) {
-  require(file.tensors.size() == 10, "does not have the arrays of a contract certificate",
-          unreadable);
+  const bool follows = file.record.contains("follow");
+  require(file.tensors.size() == (follows ? 17 : 10),
+          "does not have the arrays of a contract certificate", unreadable);
   take_plan_arrays(file, c.geometry, c.loop, c.region);
   const nlohmann::json& k = file.record.at("parts_per_cell");
   require(k.is_number_unsigned() && k >= 1U && k <= 16U, "parts_per_cell: expected 1 to 16");
@@ -40,6 +41,7 @@ void take_arrays(const TensorFile& file, ContractCertificate& c) {
   require(groups.size() == 1 && groups[0] >= 1, "group_time_s: is not a list", unreadable);
   c.group_time_s = values<float>(file, "group_time_s", "F32", groups);
   c.group_heading_rad = values<float>(file, "group_heading_rad", "F32", groups);
+  if (follows) c.follow = follow_claims_of(file, c.first.back());
 }
 
 void require_groups(const ContractCertificate& c) {
@@ -63,7 +65,8 @@ void require_leaves(ContractCertificate& c) {
     const bool has_leaves = c.first[4 * part] < c.first[4 * part + 1];
     const bool is_wild = is_ordinary && !has_leaves && arc.width > almost_wild(c.contract);
     if (is_wild) arc = {};
-    const bool expected = is_ordinary && !is_wild;
+    // Where no way leads to a path nothing is claimed: who comes there comes to no leaf.
+    const bool expected = is_ordinary && !is_wild && (has_leaves || !c.follow);
     for (std::size_t s = 4 * part; s < 4 * part + 4; ++s) {
       require((c.first[s] < c.first[s + 1]) == expected,
               "a section has leaves where it cannot have any, or none where it must");

@@ -1,13 +1,16 @@
 // A contract certificate as its file claims it to be (docs/formats.md, "Contract certificate").
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "check/contract_parts.hpp"
+#include "check/follow_claims.hpp"
 #include "check/plan_arrays.hpp"
 
 namespace fairway_check {
@@ -22,6 +25,7 @@ struct ContractCertificate {
   std::vector<std::uint8_t> verdict;     ///< [leaves], Verdict
   std::vector<float> group_heading_rad;  ///< [groups], of progress; NaN: no links inside
   std::vector<float> group_time_s;       ///< [groups]
+  std::optional<FollowClaims> follow;    ///< then verdict reach is: joins the core, and follows
   nlohmann::json record;
   Contract contract{};
   Parts parts;
@@ -34,6 +38,20 @@ struct ContractCertificate {
   /// "leaf 3 (0 on side 2 of part (4, 5))".
   std::string name_of(std::size_t leaf) const;
   std::size_t section_of(std::size_t leaf) const;
+
+  /// Calls visit(leaf) for those of a section that [low, high] shares more than an end with; for
+  /// all that meet at a single place.
+  template <typename Visit>
+  void for_leaves(std::size_t section, double low, double high, Visit visit) const {
+    const auto from = begin.begin() + first[section];
+    const auto to = begin.begin() + first[section + 1];
+    const bool single = low == high;
+    auto at = std::lower_bound(from, to, low * 0x1p32);
+    if (at != from && (single || at == to || *at > low * 0x1p32)) --at;
+    for (; at != to && (single ? *at <= high * 0x1p32 : *at < high * 0x1p32); ++at) {
+      visit(static_cast<std::size_t>(at - begin.begin()));
+    }
+  }
 };
 
 /// Whether the file says that it is one. Throws as below when it cannot be read.

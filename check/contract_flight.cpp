@@ -54,6 +54,7 @@ void Behaviours::follow_leaf(std::size_t part, int side, double low, double high
   const Memory none{.nothing = true, .side = false};
   const Memory any{.nothing = true, .side = true};
   const Cell beyond = Cell{0, 0}.beyond(side);
+  following_.visit({0, 0}, least, most);
   if (to_left > least) begin(beyond, at, least, to_left, any, none, sure, past);
   if (to_right > to_left || least == most)
     begin(beyond, at, to_left, to_right, none, none, sure, past);
@@ -76,6 +77,7 @@ void Behaviours::begin(Cell part, const Shape& at, double least, double most, Me
   following_.touch_ends(at, past);
   if (following_.kind_of(part) != ordinary || following_.is_over() || !following_.spend()) return;
   const Arc arc = following_.arc_of(part);
+  following_.visit(part, least, most);
   if (is_loose(arc, following_.contract())) return roam(part, at, least, most, past);
 
   // Between these headings the choices are the same.
@@ -128,6 +130,7 @@ void Behaviours::roam(Cell part, const Shape& at, double least, double most, con
   if (!(high_rad - low_rad < std::numbers::pi - 0x1p-20)) return following_.lose();  // also NaN
   const double length = part_diagonal / std::cos(0.5 * (high_rad - low_rad));
   const Past then = past.with(low_rad, high_rad, length, roaming_rad_);
+  following_.visit(part, low_rad, high_rad);
   if (then.turned > most_turned) return following_.lose();
   const Shape inside = moved(at, -1.0 * corner_of(part));
   for (int side = 0; side < 4; ++side) {

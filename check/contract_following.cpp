@@ -81,6 +81,7 @@ void Following::align(Cell part, const Shape& at, bool begins, const Box& sure, 
   const double right = heading - around_from(heading - arc.right);
   const double middle_rad = right + 0.5 * arc.width;
   const Point middle = unit(middle_rad);
+  visit(part, right, right + arc.width);
   const bool exact = begins && sure.x0 > -HUGE_VAL;
   const double length =
       (1.0 + 8.0 * touch) * (std::abs(middle.x) + std::abs(middle.y)) / std::cos(0.5 * arc.width);

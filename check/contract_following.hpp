@@ -31,6 +31,8 @@ class Sightings {
   /// looks outwards to 1.
   virtual void cross(std::size_t part, int side, double low, double high, const Past& past) = 0;
   virtual void end(Verdict verdict, const Past& past) = 0;
+  /// In an ordinary part, with headings in [least, most].
+  virtual void visit(std::size_t /*part*/, double /*least*/, double /*most*/) {}
   /// Cannot follow further: the reports are incomplete.
   virtual void give_up() = 0;
   /// Whether nothing further can matter.
@@ -61,6 +63,10 @@ class Following {
   double least_radius() const { return least_radius_; }  ///< in parts
   double most_radius() const { return most_radius_; }
 
+  /// They are in an ordinary part, with headings in [least, most].
+  void visit(Cell part, double least, double most) const {
+    sightings_->visit(index_of(part), least, most);
+  }
   /// In a part that is not ordinary.
   void end_in(CellKind kind, const Past& past) const;
   /// Tells of all ends that they touch.

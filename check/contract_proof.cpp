@@ -4,7 +4,9 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,6 +14,7 @@
 #include <tbb/parallel_for.h>
 
 #include "check/contract_flight.hpp"
+#include "check/follow_proof.hpp"
 #include "check/leaf_findings.hpp"
 
 namespace fairway_check {
@@ -35,17 +38,14 @@ class Outcome : public Sightings {
 
   void cross(std::size_t part, int side, double low, double high, const Past& past) override {
     const std::size_t section = 4 * part + static_cast<std::size_t>(side);
-    const auto from = c_.begin.begin() + c_.first[section];
-    const auto to = c_.begin.begin() + c_.first[section + 1];
-    if (from == to) tell(undecided);
-    // Leaves that it shares more than an end with; all that meet at a single place.
-    const bool single = low == high;
-    auto at = std::lower_bound(from, to, low * 0x1p32);
-    if (at != from && (single || at == to || *at > low * 0x1p32)) --at;
-    for (; at != to && (single ? *at <= high * 0x1p32 : *at < high * 0x1p32); ++at) {
-      const auto leaf = static_cast<std::size_t>(at - c_.begin.begin());
+    if (c_.first[section] == c_.first[section + 1]) tell(undecided);
+    c_.for_leaves(section, low, high, [&](std::size_t leaf) {
       const std::uint32_t group = c_.group[leaf];
       tell(c_.verdict[leaf]);
+      if (c_.follow && c_.follow->stage[leaf] != 0) {  // has come to the core
+        onwards_s = std::max(onwards_s, past.length * seconds_);
+        return;
+      }
       most_group = std::max(most_group, group);
       if (group_ != 0 && group == group_) {
         stray(past);
@@ -53,9 +53,11 @@ class Outcome : public Sightings {
         onwards_s = std::max(onwards_s,
                              past.length * seconds_ + static_cast<double>(c_.group_time_s[group]));
       }
-    }
+    });
   }
   void end(Verdict verdict, const Past& past) override {
+    // Nothing is known of who comes to the end of a path without having joined it.
+    if (c_.follow && verdict == reach) return give_up();
     tell(verdict);
     onwards_s = std::max(onwards_s, past.length * seconds_);
   }
@@ -95,12 +97,6 @@ class Outcome : public Sightings {
   double seconds_;
 };
 
-/// What a leaf adds to the bound of its group.
-struct Share {
-  double onwards_s = 0.0;
-  double astray_rad = -1.0;
-};
-
 /// The rule for one leaf: "" when it holds, else why not.
 std::string defect_of_leaf(const ContractCertificate& c, Behaviours& behaviours,
                            std::size_t section, std::size_t leaf, Share& share) {
@@ -129,21 +125,45 @@ std::string defect_of_leaf(const ContractCertificate& c, Behaviours& behaviours,
   return {};
 }
 
+/// The rules for single leaves.
+class LeafRules {
+ public:
+  explicit LeafRules(const ContractCertificate& c) : c_(c) {
+    if (c.follow) core_.emplace(c);
+  }
+  LapSums no_laps() const { return core_ ? LapSums(c_) : LapSums(); }
+  std::string defect(Behaviours& behaviours, std::size_t section, std::size_t leaf, Share& share,
+                     LapSums& laps) const {
+    return core_ && c_.follow->stage[leaf] != 0
+               ? core_->defect_of_leaf(behaviours, section, leaf, share, laps)
+               : defect_of_leaf(c_, behaviours, section, leaf, share);
+  }
+
+ private:
+  const ContractCertificate& c_;
+  std::optional<CoreProof> core_;
+};
+
 /// Which leaves are decided and fail, 1 or 0.
-std::vector<std::uint8_t> failing_leaves(const ContractCertificate& c, std::vector<Share>& shares) {
+std::vector<std::uint8_t> failing_leaves(const ContractCertificate& c, const LeafRules& rules,
+                                         std::vector<Share>& shares, LapSums& laps) {
   std::vector<std::uint8_t> fails(c.verdict.size());
   shares.resize(c.verdict.size());
+  std::mutex adding;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, c.parts.kind.size(), 16),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       Behaviours behaviours(c.parts, c.contract);
+                      LapSums here = rules.no_laps();
                       for (std::size_t s = 4 * range.begin(); s < 4 * range.end(); ++s) {
                         for (std::size_t leaf = c.first[s]; leaf < c.first[s + 1]; ++leaf) {
                           if (c.verdict[leaf] == undecided) continue;
                           const std::string why =
-                              defect_of_leaf(c, behaviours, s, leaf, shares[leaf]);
+                              rules.defect(behaviours, s, leaf, shares[leaf], here);
                           fails[leaf] = why.empty() ? 0 : 1;
                         }
                       }
+                      const std::lock_guard lock(adding);
+                      laps.add(here);
                     });
   return fails;
 }
@@ -216,13 +236,17 @@ std::string judge_contract(const std::string& path, const std::string& plan, std
                            nlohmann::ordered_json& report) {
   const ContractCertificate c = read_contract_certificate(path, plan);
   std::vector<Share> shares;
-  const std::vector<std::uint8_t> fails = failing_leaves(c, shares);
+  const LeafRules rules(c);
+  LapSums laps = rules.no_laps();
+  const std::vector<std::uint8_t> fails = failing_leaves(c, rules, shares, laps);
   const auto why = [&](std::size_t section, std::size_t leaf) {
     Behaviours behaviours(c.parts, c.contract);
-    return defect_of_leaf(c, behaviours, section, leaf, shares[leaf]);
+    LapSums none = rules.no_laps();
+    return rules.defect(behaviours, section, leaf, shares[leaf], none);
   };
   std::string wrong = defect_of_leaves(c, fails, why, report);
   if (wrong.empty()) wrong = defect_of_groups(c, shares);
+  if (wrong.empty() && c.follow) wrong = laps.defect(c);
   if (!wrong.empty() || !c.record.contains("volume_fraction")) return wrong;
   return defect_of_claims(
       c.record, c.loop, c.region, samples, true,

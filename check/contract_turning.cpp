@@ -103,6 +103,7 @@ bool TurningSets::advance(Turning& set) {
   const Past past = set.turn > 0
                         ? set.past.with(set.clock, end, following_.most_radius() * step, step)
                         : set.past.with(-end, -set.clock, following_.most_radius() * step, step);
+  if (!joins && align_all(set, step, past)) return false;
   Memory memory = joins ? set.memory : Memory{};
   meet(set, step, swept, past, memory);
   const bool stays =
@@ -114,6 +115,34 @@ bool TurningSets::advance(Turning& set) {
   set.past = past;
   if (memory.any()) set.memory = memory;  // else it has only left parts behind
   return joins || part_from(set);
+}
+
+/// Whether all are in parts whose arcs hold their heading when the step begins: then nobody turns
+/// on, and who would come to other parts during the step is told of as leaving these.
+bool TurningSets::align_all(const Turning& set, double step, const Past& past) {
+  bool all = true;
+  bool any = false;
+  for_parts(set.at, skin + blur, [&](Cell part, const Shape& there) {
+    const Shape in_part = within(there, box_of(part).grown(skin));
+    if (!all || is_followed_beyond(set, set.clock + step, part, in_part)) return;
+    any = true;
+    all = following_.kind_of(part) == ordinary;
+    if (!all) return;
+    const Arc arc = following_.arc_of(part);
+    const double first = set.turn > 0 ? arc.right : -(arc.right + arc.width);
+    const bool wholly = around_from(set.clock - first) + step <= arc.width + angle_slack;
+    all = wholly && !is_loose(arc, following_.contract()) &&
+          !choices_in(first, arc.width, set.clock, step, set.memory, following_.contract()).goes_on;
+  });
+  if (!all || !any) return false;
+  const double least = set.turn > 0 ? set.clock : -(set.clock + step);
+  for_parts(set.at, skin + blur, [&](Cell part, const Shape& there) {
+    const Shape in_part = within(there, box_of(part).grown(skin));
+    if (is_followed_beyond(set, set.clock + step, part, in_part)) return;
+    following_.visit(part, least, least + step);
+    following_.align(part, in_part, false, set.sure, least + 0.5 * step, past);
+  });
+  return true;
 }
 
 void TurningSets::meet(const Turning& set, double step, const Shape& swept, const Past& past,
@@ -183,6 +212,7 @@ void TurningSets::meet_part(const Turning& set, double step, Cell part, const Sh
   const double end = set.clock + step;
   if (is_followed_beyond(set, end, part, there)) return;
   const double least = set.turn > 0 ? set.clock : -end;
+  following_.visit(part, least, least + step);
   const Arc arc = following_.arc_of(part);
   if (is_loose(arc, following_.contract())) {
     met_.push_back({part, false});

@@ -56,6 +56,7 @@ class TurningSets {
 
   bool advance(Turning& set);
   double step_before_changes(const Turning& set, const Box& swept, double step) const;
+  bool align_all(const Turning& set, double step, const Past& past);
   void meet(const Turning& set, double step, const Shape& swept, const Past& past, Memory& memory);
   void meet_part(const Turning& set, double step, Cell part, const Shape& there, const Past& past,
                  Memory& memory);

@@ -21,11 +21,13 @@ namespace fairway::runtime {
 namespace {
 
 constexpr int arrays_in_file = 10;
+constexpr int arrays_to_follow = 7;  // and these, when a path is followed
 constexpr int most_parts_per_cell = 16;
 
 struct ContractRecord {
   VehicleContract contract;
   int parts_per_cell = 0;
+  bool follows = false;
 };
 
 /// Throws InputError.
@@ -46,6 +48,7 @@ ContractRecord record_of(std::span<const std::byte> bytes, const Vehicle& vehicl
   if (parts.is_number_integer() && parts >= 1 && parts <= most_parts_per_cell) {
     found.parts_per_cell = parts.get<int>();
   }
+  found.follows = record.contains("follow");
   return found;
 }
 
@@ -100,13 +103,16 @@ struct ContractCertificate::Opened {
 Status ContractCertificate::Opened::take(const void* bytes, std::size_t size) {
   FileArrays arrays;
   if (const Status status = arrays.open(bytes, size); status != Status::ok) return status;
-  if (arrays.count() != arrays_in_file || arrays.find("group_heading_rad") == nullptr) {
+  const int more = arrays.count() - arrays_in_file;
+  if ((more != 0 && more != arrays_to_follow) || arrays.find("group_heading_rad") == nullptr) {
     return Status::not_certificate;
   }
   if (const Status status = arrays.take_flow(flow); status != Status::ok) return status;
   const ContractRecord record =
       record_of({static_cast<const std::byte*>(bytes), size}, flow.vehicle);
-  if (record.parts_per_cell == 0) return Status::not_certificate;
+  if (record.parts_per_cell == 0 || record.follows != (more == arrays_to_follow)) {
+    return Status::not_certificate;
+  }
   contract = record.contract;
   const VehicleContract ground = over_ground(contract);
   least_speed_mps = ground.speed_mps.least;
@@ -121,6 +127,7 @@ Status ContractCertificate::Opened::take(const void* bytes, std::size_t size) {
   verdicts.group_time_s = numbers<float>(arrays, "group_time_s", "F32", groups);
   if (!is_in_order(verdicts, sections)) return Status::misfit;
   parts.emplace(flow, ground, record.parts_per_cell);
+  if (record.follows) parts->close_goal();
   return Status::ok;
 }
 

@@ -135,7 +135,7 @@ class Follow(unittest.TestCase):
         again = self.expect(0, "simulate", plan, "--states", "out/outcomes.csv", "--laps", 1, "--outcomes", "-")
         self.assertEqual(list(csv.DictReader(again.stdout.splitlines())), rows)
 
-    def test_verify_under_a_contract_proves_that_a_closed_path_is_followed(self):
+    def test_verify_under_a_contract_proves_that_a_path_is_followed(self):
         (self.folder / "path.csv").write_text("x_m,y_m\n60,60\n340,60\n340,240\n60,240\n")
         (self.folder / "c.toml").write_text(
             "[vehicle.contract]\ncommand_error_m = 1.0\nheading_error_rad = 0.01\n"
@@ -144,19 +144,28 @@ class Follow(unittest.TestCase):
             self.expect(0, "plan", self.scenario(alpha=2.0), "-o", "p.safetensors", "--force", *settings)
             done = self.expect(0, "verify", "p.safetensors", "--contract", "c.toml", "-o", "p.cc", "--force",
                                "--volume-samples", 1000)
+            self.assertIn("accepted", self.expect(0, "check", "p.cc", "--plan", "p.safetensors").stdout)
             return json.loads((self.folder / "p.summary.json").read_text()), done.stdout
         summary, words = verified("--set", "map.cell_m=8")
         follow = summary["follow"]
-        self.assertTrue(follow["proved"], words)
-        self.assertGreater(follow["volume_fraction_free"], 0.9)
+        self.assertNotIn("reach", summary["volume_fraction"])
+        self.assertGreater(summary["volume_fraction_free"]["follow"], 0.9)
+        self.assertGreater(summary["volume_fraction_usable"]["follow"], 0.5)
         self.assertIn("are proved to join the path and to follow it for ever", words)
+        told = json.loads(self.expect(0, "--json", "info", "p.cc").stdout)
+        self.assertEqual(told["follow"]["lap_time_s"], follow["lap_time_s"])
+        row = self.expect(0, "query", "p.cc", "--state", "200,62,0").stdout.splitlines()[1].split(",")
+        self.assertEqual(row[3], "follow")
+        self.assertLess(float(row[4]), 30.0)
         self.assertEqual(follow["tube_m"], max(s["distance_m"] for s in follow["profile"]))
         self.assertLess(follow["tube_m"], 40.0)
         least_s, most_s = follow["lap_time_s"]
         self.assertLess(least_s, 920 / 10.0)
         self.assertGreater(most_s, 880 / 10.0)
-        summary, _ = verified("--set", "map.cell_m=8", "--set", "mission.closed=false")
-        self.assertNotIn("follow", summary)
+        summary, words = verified("--set", "map.cell_m=8", "--set", "mission.closed=false")
+        self.assertGreater(summary["volume_fraction_usable"]["follow"], 0.5)
+        self.assertIn("comes to its end within", words)
+        self.assertEqual(summary["follow"]["lap_time_s"][0], 0.0)
 
     def test_following_is_refused_where_there_is_no_path(self):
         self.expect(0, "plan", self.scenario(), "-o", "p.safetensors")

@@ -20,7 +20,7 @@ NOUNS = {
     "verify": {"verdict.hpp", "flow.hpp", "region_of_interest.hpp", "region_of_interest_json.hpp", "section_view.hpp",
                "section_verdicts.hpp", "verdict_map.hpp"},
     "behaviour": {"behaviour_flight.hpp", "explained_behaviour.hpp"},
-    "inclusion": {"parts.hpp", "contract_verdicts.hpp"},
+    "inclusion": {"parts.hpp", "contract_verdicts.hpp", "follow_proof.hpp"},
     "certificate": {"certificate.hpp", "contract_certificate.hpp"},
     "cellular": {"border_heading_set.hpp", "cell_sets.hpp"},
     "bitmap": {"border_bitmap.hpp", "bitmap.hpp", "sampled.hpp", "reachability_map.hpp"},

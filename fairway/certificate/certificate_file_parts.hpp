@@ -87,12 +87,12 @@ void take_plan_arrays(const Safetensors& file, const std::string& where, Certifi
 /// of the record, without the keys of its own that `c` holds, is evidence.
 template <typename Certificate>
 void take_record(const Safetensors& file, const CertificateFormat& format, const std::string& where,
-                 nlohmann::json record, std::initializer_list<const char*> own_keys,
-                 Certificate& c) {
+                 nlohmann::json record, std::initializer_list<const char*> own_keys, Certificate& c,
+                 std::size_t more_arrays = 0) {
   const std::string place = where + ": fairway";
   c.region_of_interest = region_of_interest_of(member(record, "region_of_interest", place), c.kind,
                                                place + ".region_of_interest");
-  if (file.tensors.size() != format.arrays) {
+  if (file.tensors.size() != format.arrays + more_arrays) {
     throw InputError(where, std::string("has arrays that do not belong in a ") + format.noun);
   }
   const nlohmann::json found = digests_of(file.tensors);

@@ -13,6 +13,7 @@
 #include "fairway/base/frame.hpp"
 #include "fairway/base/grid.hpp"
 #include "fairway/inclusion/contract_verdicts.hpp"
+#include "fairway/inclusion/follow_proof.hpp"
 #include "fairway/inclusion/parts.hpp"
 #include "fairway/map/region.hpp"
 #include "fairway/plan/plan_digests.hpp"
@@ -33,14 +34,17 @@ struct ContractCertificate {
   std::vector<Region> region;      ///< [iy][ix]
   std::vector<CellKind> kind;      ///< [iy][ix]
   ContractVerdicts verdicts;
+  /// That a path is followed: verdict reach of a leaf then says that its behaviours join the core.
+  std::optional<FollowProof> follow;
   PlanDigests plan;            ///< which plan it belongs to
   std::optional<Frame> frame;  ///< where the plan's grid lies; none when the plan did not say
   /// How it was found and its overall results, one JSON object.
   std::string evidence_json = "{}";
 
   Flow flow() const { return {grid, vehicle, heading_rad.data(), kind.data()}; }
-  /// Of the motions over ground that include all that keeps the contract (over_ground).
-  Parts parts() const { return {flow(), over_ground(contract), parts_per_cell}; }
+  /// Of the motions over ground that include all that keeps the contract (over_ground). Nothing is
+  /// claimed of who comes to the end of an open path without having joined it.
+  Parts parts() const;
   double least_speed_mps() const { return over_ground(contract).speed_mps.least; }
 };
 

@@ -10,6 +10,7 @@
 #include "fairway/base/file_kind.hpp"
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/certificate/certificate_file_parts.hpp"
+#include "fairway/certificate/follow_proof_arrays.hpp"
 #include "fairway/vehicle/contract_defect.hpp"
 #include "fairway/vehicle/contract_json.hpp"
 #include "fairway/verify/verdict.hpp"
@@ -28,22 +29,26 @@ std::vector<Tensor> tensors_of(const ContractCertificate& c, const Geometry& geo
   const ContractVerdicts& v = c.verdicts;
   const std::vector<std::uint64_t> leaves{v.leaves()};
   const std::vector<std::uint64_t> groups{v.group_time_s.size()};
-  return {{"geometry", "F64", {geometry_numbers}, std::as_bytes(std::span(&geometry, 1))},
-          cell_tensor(c, "heading_rad", "F32", c.heading_rad),
-          {"section_first", "U32", {v.first.size()}, bytes_of(v.first)},
-          {"leaf_begin", "U32", leaves, bytes_of(v.begin)},
-          {"leaf_group", "U32", leaves, bytes_of(v.group)},
-          {"group_heading_rad", "F32", groups, bytes_of(v.group_heading_rad)},
-          {"group_time_s", "F32", groups, bytes_of(v.group_time_s)},
-          cell_tensor(c, "region", "I8", c.region),
-          cell_tensor(c, "cell_kind", "U8", c.kind),
-          {"leaf_verdict", "U8", leaves, bytes_of(v.verdict)}};
+  std::vector<Tensor> tensors{
+      {"geometry", "F64", {geometry_numbers}, std::as_bytes(std::span(&geometry, 1))},
+      cell_tensor(c, "heading_rad", "F32", c.heading_rad),
+      {"section_first", "U32", {v.first.size()}, bytes_of(v.first)},
+      {"leaf_begin", "U32", leaves, bytes_of(v.begin)},
+      {"leaf_group", "U32", leaves, bytes_of(v.group)},
+      {"group_heading_rad", "F32", groups, bytes_of(v.group_heading_rad)},
+      {"group_time_s", "F32", groups, bytes_of(v.group_time_s)},
+      cell_tensor(c, "region", "I8", c.region),
+      cell_tensor(c, "cell_kind", "U8", c.kind),
+      {"leaf_verdict", "U8", leaves, bytes_of(v.verdict)}};
+  if (c.follow) add_tensors(*c.follow, tensors);
+  return tensors;
 }
 
 json record_of(const ContractCertificate& c) {
   json record = plan_record_of(c);
   record["contract"] = json_of(c.contract);
   record["parts_per_cell"] = c.parts_per_cell;
+  if (c.follow) record["follow"] = record_of(*c.follow);
   return record;
 }
 
@@ -89,11 +94,21 @@ ContractCertificate certificate_of_bytes(std::span<const std::byte> bytes,
   take_plan_arrays(file, where, c);
   take_contract(record, where + ": fairway", c);
   take_verdicts(file, where, c);
-  take_record(file, this_format, where, std::move(record), {"contract", "parts_per_cell"}, c);
+  if (record.contains("follow")) {
+    c.follow = follow_proof_of(file, record["follow"], c.verdicts.leaves(), where);
+  }
+  take_record(file, this_format, where, std::move(record), {"contract", "parts_per_cell", "follow"},
+              c, c.follow ? follow_arrays : 0);
   return c;
 }
 
 }  // namespace
+
+Parts ContractCertificate::parts() const {
+  Parts made(flow(), over_ground(contract), parts_per_cell);
+  if (follow) made.close_goal();
+  return made;
+}
 
 std::string record_text(const ContractCertificate& c) { return text_of_record(record_of(c)); }
 

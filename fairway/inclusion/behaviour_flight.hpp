@@ -64,7 +64,6 @@ struct BehaviourOptions {
   int most_steps = 600;                  ///< of all sets of one image, before it is given up
   const Tube* tube = nullptr;            ///< to tell how far from the path an image leads
   bool tells_visits = false;
-  Verdict goal_ends = Verdict::reach;  ///< what coming to the goal is
 };
 
 /// Of all that leave `part`, an ordinary one, over places [lo, hi] of `side`, aligned with it.

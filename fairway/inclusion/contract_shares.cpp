@@ -17,6 +17,7 @@ using Place = std::pair<std::size_t, Trouble>;  // a cell, and what is the matte
 struct Tally {
   std::array<std::size_t, verdict_count> free{};
   std::array<std::size_t, verdict_count> buffer{};
+  std::array<std::size_t, verdict_count> usable{};
   std::size_t at_risk = 0;
   std::size_t at_risk_free = 0;
   double worst_time_s = 0.0;
@@ -26,6 +27,7 @@ struct Tally {
     for (std::size_t v = 0; v < verdict_count; ++v) {
       free[v] += other.free[v];
       buffer[v] += other.buffer[v];
+      usable[v] += other.usable[v];
     }
     at_risk += other.at_risk;
     at_risk_free += other.at_risk_free;
@@ -40,13 +42,22 @@ class Surveyor {
            const InclusionProver& prover, double speed_mps)
       : flow_(flow), parts_(parts), verdicts_(verdicts), prover_(prover), speed_mps_(speed_mps) {}
 
-  void look(Cell cell, Vec2 offset, double heading_rad, bool is_free, const IsAtRisk& is_at_risk,
+  /// Which of the totals a sampled state counts for.
+  struct Counts {
+    bool of_all;
+    bool is_free;
+    bool is_usable;
+  };
+  void look(Cell cell, Vec2 offset, double heading_rad, Counts counts, const IsAtRisk& is_at_risk,
             Tally& tally) const {
     const double per_cell = static_cast<double>(parts_.nx()) / flow_.grid.nx;
     const Vec2 place{(cell.ix + offset.x) * per_cell, (cell.iy + offset.y) * per_cell};
     const ContractAnswer answer =
         contract_answer(parts_, verdicts_, speed_mps_, place, heading_rad);
-    ++(is_free ? tally.free : tally.buffer)[static_cast<std::size_t>(answer.verdict)];
+    const auto verdict = static_cast<std::size_t>(answer.verdict);
+    tally.usable[verdict] += counts.is_usable ? 1 : 0;
+    if (!counts.of_all) return;
+    ++(counts.is_free ? tally.free : tally.buffer)[verdict];
     if (answer.verdict == Verdict::reach) {
       tally.worst_time_s = std::max(tally.worst_time_s, answer.worst_time_s);
     }
@@ -57,7 +68,7 @@ class Surveyor {
                     middle.y + (offset.y - 0.5) * grid.cell_m};
     if (is_at_risk && is_at_risk({at_m, Heading::from_rad(heading_rad)})) {
       ++tally.at_risk;
-      tally.at_risk_free += is_free ? 1 : 0;
+      tally.at_risk_free += counts.is_free ? 1 : 0;
     }
     ++tally.waiting[cause_of(answer, cell)];
   }
@@ -103,17 +114,25 @@ std::array<double, verdict_count> shares_of(const std::array<std::size_t, verdic
 
 }  // namespace
 
-ContractSurvey survey(const Flow& flow, const std::vector<bool>& is_free, const Parts& parts,
+ContractSurvey survey(const Flow& flow, const std::vector<bool>& is_free,
+                      const std::vector<bool>& is_usable, const Parts& parts,
                       const ContractVerdicts& verdicts, const InclusionProver& prover,
                       double speed_least_mps, const SurveyOptions& options,
                       const std::function<IsAtRisk()>& make_search) {
   const Grid& grid = flow.grid;
   std::size_t cells = 0;
-  for (std::size_t i = 0; i < grid.size(); ++i) cells += flow.kind[i] == CellKind::ordinary ? 1 : 0;
+  std::size_t usable = 0;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    if (flow.kind[i] != CellKind::ordinary) continue;
+    ++cells;
+    usable += is_usable[i] ? 1 : 0;
+  }
   ContractSurvey made;
   if (cells == 0) return made;
   constexpr std::size_t fewest = 1000;  // fewer say nothing of shares, and the checker refuses them
-  const std::size_t per_cell = (std::max(options.samples, fewest) + cells - 1) / cells;
+  const std::size_t samples_asked = std::max(options.samples, fewest);
+  const std::size_t per_cell = (samples_asked + cells - 1) / cells;
+  const std::size_t per_usable = usable == 0 ? 0 : (samples_asked + usable - 1) / usable;
   std::vector<Tally> rows(static_cast<std::size_t>(grid.ny));
   const Surveyor surveyor(flow, parts, verdicts, prover, speed_least_mps);
   for_ranges(rows.size(), 4, [&](std::size_t a, std::size_t b) {
@@ -124,9 +143,11 @@ ContractSurvey survey(const Flow& flow, const std::vector<bool>& is_free, const 
         const std::size_t i = grid.index(cell);
         if (flow.kind[i] != CellKind::ordinary) continue;
         Random random(options.seed * 0x9e3779b97f4a7c15U + i);
-        for (std::size_t k = 0; k < per_cell; ++k) {
+        for (std::size_t k = 0; k < (is_usable[i] ? per_usable : per_cell); ++k) {
           const Vec2 offset{random.unit(), random.unit()};
-          surveyor.look(cell, offset, random.uniform(-pi, pi), is_free[i], is_at_risk, rows[row]);
+          const double heading_rad = random.uniform(-pi, pi);
+          surveyor.look(cell, offset, heading_rad, {k < per_cell, is_free[i], is_usable[i]},
+                        is_at_risk, rows[row]);
         }
       }
     }
@@ -144,6 +165,8 @@ ContractSurvey survey(const Flow& flow, const std::vector<bool>& is_free, const 
   made.shares.all = shares_of(all);
   made.shares.free = shares_of(total.free);
   made.shares.buffer = shares_of(total.buffer);
+  made.shares.usable = shares_of(total.usable);
+  made.shares.usable_samples = usable * per_usable;
   made.shares.at_risk = static_cast<double>(total.at_risk) / samples;
   if (free_states > 0) {
     made.shares.at_risk_free =

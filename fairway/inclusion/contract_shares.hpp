@@ -25,9 +25,11 @@ struct ContractShares {
   std::array<double, verdict_count> all{};   ///< cells that are neither obstacle nor target
   std::array<double, verdict_count> free{};  ///< of these, the safe-start cells
   std::array<double, verdict_count> buffer{};
-  double at_risk = 0.0;  ///< of all; all[undecided] holds it
+  std::array<double, verdict_count> usable{};  ///< of the cells that the mission can use
+  double at_risk = 0.0;                        ///< of all; all[undecided] holds it
   double at_risk_free = 0.0;
   std::size_t samples = 0;
+  std::size_t usable_samples = 0;
   double worst_time_s = 0.0;  ///< largest bound of a sampled state proved to reach
 };
 
@@ -53,11 +55,12 @@ struct SurveyOptions {
 /// several threads at once, with the number of the row of cells that the state is in.
 using IsAtRisk = std::function<bool(const State& state)>;
 
-/// `region[cell]` tells safe starts. `make_search`: called once for each thread's rows.
+/// `is_free`: safe starts; `is_usable`: cells that the mission can use, where enough states are
+/// sampled however few they are; [cells]. `make_search`: called once for each thread's rows.
 [[nodiscard]] ContractSurvey survey(const Flow& flow, const std::vector<bool>& is_free,
-                                    const Parts& parts, const ContractVerdicts& verdicts,
-                                    const InclusionProver& prover, double speed_least_mps,
-                                    const SurveyOptions& options,
+                                    const std::vector<bool>& is_usable, const Parts& parts,
+                                    const ContractVerdicts& verdicts, const InclusionProver& prover,
+                                    double speed_least_mps, const SurveyOptions& options,
                                     const std::function<IsAtRisk()>& make_search);
 
 }  // namespace fairway

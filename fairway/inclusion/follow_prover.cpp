@@ -7,23 +7,17 @@
 #include <utility>
 
 #include "fairway/base/error.hpp"
-#include "fairway/base/parallel.hpp"
 #include "fairway/inclusion/contract_verdicts.hpp"
 #include "fairway/inclusion/leaf_components.hpp"
 
 namespace fairway {
 namespace {
 
-constexpr std::size_t most_stretches = 512;
-/// Who checks may find a little more.
-constexpr double more_m = 1.0 + 1e-5;
-constexpr double more_off_rad = 2e-3;
-/// Beside the line: parts so near, with headings so near its tangent.
+/// Beside the line: parts so near, with commands so near its tangent.
 constexpr double beside_parts = 1.5;
-constexpr double beside_rad = 0.5;
+constexpr double beside_rad = 0.25 * pi;
 
 constexpr std::uint8_t only_reach = 1U << static_cast<unsigned>(Verdict::reach);
-constexpr std::uint8_t only_leave = 1U << static_cast<unsigned>(Verdict::leave);
 
 }  // namespace
 
@@ -117,10 +111,9 @@ std::vector<FollowProver::Id> FollowProver::round_trips(const std::vector<bool>&
 std::vector<FollowProver::Id> FollowProver::beside_line(const std::vector<bool>& stays) const {
   std::vector<Id> found;
   for (Id id = 0; id < graph_.leaves(); ++id) {
-    if (!stays[id]) continue;
-    const Leaf& leaf = graph_.leaf(id);
-    if (static_cast<double>(leaf.distance_m) < beside_parts * parts_.part_m() &&
-        static_cast<double>(leaf.off_rad) < beside_rad) {
+    const std::size_t part = core_.part[id];
+    if (stays[id] && static_cast<double>(tube_.distance_m(part)) < beside_parts * parts_.part_m() &&
+        tube_.off_rad(part, parts_.arc(parts_.place(part))) < beside_rad) {
       found.push_back(id);
     }
   }
@@ -164,63 +157,6 @@ bool FollowProver::leads_to_end(SizeRange speed_mps) {
   stages_ = {{0.0F}, {none}, {std::nextafter(most_s, HUGE_VALF)}, {0.0F}, 0.0, 0.0};
   stages_.lap_most_s = static_cast<double>(stages_.time_s[0]);
   return true;
-}
-
-/// By the stations of the parts where behaviours of the core may be.
-void FollowProver::measure_tube(Following& found) const {
-  const auto count = std::clamp<std::size_t>(
-      static_cast<std::size_t>(tube_.length_m() / (2.0 * parts_.part_m())), 8, most_stretches);
-  std::vector<Id> all;
-  for (Id id = 0; id < graph_.leaves(); ++id) {
-    if (core_.in[id]) all.push_back(id);
-  }
-  BehaviourOptions options = options_.limits.flight;
-  options.tells_visits = true;
-  constexpr std::size_t chunk = 256;
-  const std::size_t chunks = (all.size() + chunk - 1) / chunk;
-  std::vector<std::vector<TubeStretch>> of(chunks);
-  for_ranges(chunks, 1, [&](std::size_t a, std::size_t b) {
-    for (std::size_t c = a; c < b; ++c) {
-      of[c].resize(count);
-      for (std::size_t k = c * chunk; k < std::min(all.size(), (c + 1) * chunk); ++k) {
-        const Id id = all[k];
-        const std::size_t s = graph_.section_of(id);
-        const BehaviourImage image =
-            image_of_crossing(parts_, parts_.place(s / sections_per_part),
-                              static_cast<PartSide>(s % sections_per_part),
-                              graph_.leaf(id).begin / static_cast<double>(side_units),
-                              graph_.end_of(id, s) / static_cast<double>(side_units), options);
-        for (const auto& [part, headings] : image.visits) {
-          const auto at = static_cast<std::size_t>(static_cast<double>(tube_.station_m(part)) /
-                                                   tube_.length_m() * static_cast<double>(count));
-          TubeStretch& stretch = of[c][std::min(at, count - 1)];
-          stretch.distance_m = std::max(stretch.distance_m, tube_.distance_m(part));
-          stretch.off_rad =
-              std::max(stretch.off_rad, static_cast<float>(tube_.off_rad(part, headings)));
-        }
-      }
-    }
-  });
-  std::vector<TubeStretch> own(count);
-  for (const auto& part : of) {
-    for (std::size_t k = 0; k < count; ++k) {
-      own[k].distance_m = std::max(own[k].distance_m, part[k].distance_m);
-      own[k].off_rad = std::max(own[k].off_rad, part[k].off_rad);
-    }
-  }
-  // Who checks may find a part on the other side of where two stretches meet.
-  found.tube.assign(count, {});
-  for (std::size_t k = 0; k < count; ++k) {
-    TubeStretch& s = found.tube[k];
-    for (const std::size_t near : {(k + count - 1) % count, k, (k + 1) % count}) {
-      s.distance_m = std::max(s.distance_m, own[near].distance_m);
-      s.off_rad = std::max(s.off_rad, own[near].off_rad);
-    }
-    s.distance_m = static_cast<float>(more_m * static_cast<double>(s.distance_m));
-    s.off_rad = static_cast<float>(static_cast<double>(s.off_rad) + more_off_rad);
-    found.tube_m = std::max(found.tube_m, static_cast<double>(s.distance_m));
-    found.off_rad = std::max(found.off_rad, static_cast<double>(s.off_rad));
-  }
 }
 
 /// Until the core is known, only leaves near the path matter.
@@ -269,7 +205,6 @@ std::optional<Following> FollowProver::find_core(SizeRange speed_mps) {
     return {};
   }
   measure_tube(found);
-  stretches_ = found.tube;
   found.lap_least_s = stages_.lap_least_s;
   found.lap_most_s = stages_.lap_most_s;
   return found;
@@ -283,14 +218,14 @@ bool FollowProver::join(const std::function<void(const InclusionLevel&)>& progre
     if (core_.in[id]) {
       close_as_core(leaf);
     } else if ((leaf.ends & only_reach) != 0) {
-      // Who comes to the end beside the core has not followed.
-      leaf.ends = static_cast<std::uint8_t>((leaf.ends & ~unsigned{only_reach}) | only_leave);
+      leaf.gave_up = true;
     }
   }
   InclusionLimits limits = options_.limits;
   limits.flight.tube = nullptr;
-  limits.flight.goal_ends = Verdict::leave;
-  joining_.emplace(parts_, limits, std::move(start), groups_);
+  joining_parts_.emplace(parts_);
+  joining_parts_->close_goal();
+  joining_.emplace(*joining_parts_, limits, std::move(start), groups_);
   return joining_->run(progress);
 }
 

@@ -51,6 +51,9 @@ class FollowProver {
   bool join(const std::function<void(const InclusionLevel&)>& progress);
 
   const InclusionProver& joining() const { return *joining_; }
+  /// Of states that have not joined yet: nothing is claimed of those that come to the end of an
+  /// open path without it.
+  const Parts& joining_parts() const { return *joining_parts_; }
   [[nodiscard]] ContractVerdicts verdicts(double speed_least_mps) const;
   /// About these verdicts; its path is not filled in.
   [[nodiscard]] FollowProof proof() const;
@@ -65,7 +68,7 @@ class FollowProver {
   std::vector<Id> beside_line(const std::vector<bool>& stays) const;
   void take_core(std::vector<Id> seeds);
   bool leads_to_end(SizeRange speed_mps);
-  void measure_tube(Following& found) const;
+  void measure_tube(Following& found);
   template <typename Body>
   void for_targets(Id id, const Body& body) const;
 
@@ -75,8 +78,9 @@ class FollowProver {
   CrossingGraph graph_;
   LapCore core_;
   LapStages stages_;
-  std::vector<TubeStretch> stretches_;
+  std::vector<TubeStretch> stretches_;  ///< of the tube
   GroupRecord groups_;
+  std::optional<Parts> joining_parts_;
   std::optional<InclusionProver> joining_;
 };
 

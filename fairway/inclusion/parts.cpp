@@ -51,6 +51,7 @@ Parts::Parts(const Flow& flow, const VehicleContract& contract, int per_cell)
       turn_radius_{contract.turn_radius_m.least / part_m_, contract.turn_radius_m.most / part_m_},
       hold_side_rad_(contract.hold_side_rad),
       side_uncertain_rad_(contract.side_uncertain_rad),
+      per_cell_(per_cell),
       kind_(flow.grid.size() * static_cast<std::size_t>(per_cell * per_cell)),
       arc_(kind_.size()) {
   require(per_cell >= 1 && per_cell <= 16, "Parts: expected 1 to 16 parts a side of a cell");
@@ -106,6 +107,19 @@ Parts::Parts(const Flow& flow, const VehicleContract& contract, int per_cell)
       }
     }
   });
+}
+
+void Parts::claim_nothing(Cell cell) {
+  for (int iy = cell.iy * per_cell_; iy < (cell.iy + 1) * per_cell_; ++iy) {
+    for (int ix = cell.ix * per_cell_; ix < (cell.ix + 1) * per_cell_; ++ix) {
+      PartKind& kind = kind_[index({ix, iy})];
+      if (kind == PartKind::ordinary) kind = PartKind::wild;
+    }
+  }
+}
+
+void Parts::close_goal() {
+  std::replace(kind_.begin(), kind_.end(), PartKind::goal, PartKind::wild);
 }
 
 }  // namespace fairway

@@ -56,6 +56,10 @@ class Parts {
     const bool inside = p.ix >= 0 && p.ix < nx_ && p.iy >= 0 && p.iy < ny_;
     return inside ? kind_[index(p)] : PartKind::outside;
   }
+  /// Its parts are wild.
+  void claim_nothing(Cell cell);
+  /// Nothing is claimed of who comes to the goal.
+  void close_goal();
   /// Of an ordinary part.
   const HeadingArc& arc(PartPlace p) const { return arc_[index(p)]; }
 
@@ -71,6 +75,7 @@ class Parts {
   SizeRange turn_radius_;
   double hold_side_rad_;
   double side_uncertain_rad_;
+  int per_cell_;
   std::vector<PartKind> kind_;
   std::vector<HeadingArc> arc_;
 };

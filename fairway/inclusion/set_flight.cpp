@@ -147,7 +147,7 @@ bool SetFlight::ends_there(PartKind kind) {
   const auto end = [&](Verdict v) { image_.ends |= 1U << static_cast<unsigned>(v); };
   if (kind == PartKind::obstacle) end(Verdict::collide);
   if (kind == PartKind::outside) end(Verdict::leave);
-  if (kind == PartKind::goal) end(options_.goal_ends);
+  if (kind == PartKind::goal) end(Verdict::reach);
   return !is_flown_over(kind);
 }
 

@@ -23,10 +23,11 @@ namespace fairway {
 struct ContractReply {
   Verdict verdict = Verdict::undecided;
   double time_bound_s = 0.0;               ///< of every behaviour; only with reach
+  bool follows = false;                    ///< reach: joins the path and follows it
   std::optional<BehaviourFlight> witness;  ///< of an undecided state that is at risk
 
-  /// The verdict's name, or "at_risk".
-  const char* word() const { return witness ? "at_risk" : name_of(verdict); }
+  /// The verdict's name, "follow" or "at_risk".
+  const char* word() const { return witness ? "at_risk" : follows ? "follow" : name_of(verdict); }
 };
 
 /// What questions about one certificate have in common, made once; what searches for witnesses

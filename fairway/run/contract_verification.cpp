@@ -43,6 +43,13 @@ json evidence_of(const ContractVerifyOptions& options, const ContractVerificatio
                       {"undecided_sides", level.undecided_share}});
   }
   const ContractShares& s = made.survey.shares;
+  const auto shares = [&](const std::array<double, verdict_count>& of) {
+    json by_name = shares_json(of);
+    if (!made.following) return by_name;
+    by_name["follow"] = by_name[name_of(Verdict::reach)];
+    by_name.erase(name_of(Verdict::reach));
+    return by_name;
+  };
   json evidence = {
       {"program", program_version},
       {"options",
@@ -52,9 +59,10 @@ json evidence_of(const ContractVerifyOptions& options, const ContractVerificatio
          options.limits.memory_limit_mb ? json(*options.limits.memory_limit_mb) : json()},
         {"samples", options.samples},
         {"seed", options.seed}}},
-      {"volume_fraction", shares_json(s.all)},
-      {"volume_fraction_free", shares_json(s.free)},
-      {"volume_fraction_buffer", shares_json(s.buffer)},
+      {"volume_fraction", shares(s.all)},
+      {"volume_fraction_free", shares(s.free)},
+      {"volume_fraction_buffer", shares(s.buffer)},
+      {"volume_fraction_usable", shares(s.usable)},
       {"at_risk", made.searched ? json(s.at_risk) : json()},
       {"at_risk_free", made.searched ? json(s.at_risk_free) : json()},
       {"samples", s.samples},
@@ -81,6 +89,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
+/// Coarser ones mix the commands of both sides of the line.
+constexpr int fewest_parts_to_follow = 2;
+
 /// What is to be proved, of nothing yet.
 ContractCertificate question(const Plan& plan, const RegionOfInterest& region,
                              const VehicleContract& contract, int parts_per_cell) {
@@ -99,7 +110,7 @@ ContractCertificate question(const Plan& plan, const RegionOfInterest& region,
   return c;
 }
 
-void measure(const Parts& parts, const InclusionProver& prover,
+void measure(const Plan& plan, const Parts& parts, const InclusionProver& prover,
              const ContractVerifyOptions& options, UndecidedStates& undecided,
              ContractVerification& made) {
   const ContractCertificate& c = made.certificate;
@@ -108,8 +119,8 @@ void measure(const Parts& parts, const InclusionProver& prover,
   SurveyOptions sampled;
   sampled.samples = options.samples;
   sampled.seed = options.seed;
-  made.survey = survey(c.flow(), is_free, parts, c.verdicts, prover, c.least_speed_mps(), sampled,
-                       undecided.gatherer());
+  made.survey = survey(c.flow(), is_free, usable_cells(plan), parts, c.verdicts, prover,
+                       c.least_speed_mps(), sampled, undecided.gatherer());
 }
 
 }  // namespace
@@ -139,6 +150,9 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
                               ? earlier->certificate.parts_per_cell
                               : options.parts_per_cell;
   c = question(plan, region, contract, parts_asked);
+  if (PathFollower::is_asked(plan, region) && options.parts_per_cell == 0 && earlier == nullptr) {
+    c.parts_per_cell = std::max(c.parts_per_cell, fewest_parts_to_follow);
+  }
   if (earlier != nullptr) require_same_proof(*earlier, c);
   // Where most states are undecided, a search in each takes too long.
   const bool search = options.find_witnesses && wild_share(plan, contract) <= most_wild_unwarned;
@@ -156,22 +170,40 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
     const int next = finest_level(earlier->certificate.verdicts) + 1;
     limits.last_level = std::clamp(next, limits.last_level, finest);
   }
-  const Parts parts = c.parts();
-  InclusionProver prover(parts, limits);
-  if (earlier != nullptr) prover.start_from(earlier->certificate.verdicts);
   bool in_time = true;  // to prove the earlier leaves again
-  made.stopped_by_limit = !prover.run([&](const InclusionLevel& level) {
+  const auto note = [&](const InclusionLevel& level) {
     if (made.levels.empty()) in_time = limits.go_on();
     made.levels.push_back(level);
     progress(fmt::format("verifying under the contract, {:.1f} % of sides undecided",
                          100.0 * level.undecided_share));
-  });
-  const double proof_s = watch.seconds();
-  c.verdicts = prover.verdicts(c.least_speed_mps());
-  if (earlier != nullptr) made.resumed = taken_over(*earlier, c.verdicts, in_time);
-  progress("measuring shares of states");
+  };
+  double proof_s = 0.0;
   UndecidedStates undecided;
-  measure(parts, prover, options, undecided, made);
+  const auto survey_with = [&](const Parts& parts, const InclusionProver& prover) {
+    proof_s = watch.seconds();
+    progress("measuring shares of states");
+    measure(plan, parts, prover, options, undecided, made);
+  };
+  if (PathFollower::is_asked(plan, region) && earlier == nullptr) {
+    progress("proving that the path is followed");
+    PathFollower follower(plan, c, limits.go_on);
+    made.no_tube = !follower.find_core();
+    if (!made.no_tube) {
+      made.stopped_by_limit = !follower.join(note);
+      follower.fill(c);
+      made.following = follower.found();
+      survey_with(follower.parts(), follower.prover());
+    }
+  }
+  if (!made.following) {
+    const Parts parts = c.parts();
+    InclusionProver prover(parts, limits);
+    if (earlier != nullptr) prover.start_from(earlier->certificate.verdicts);
+    made.stopped_by_limit = !prover.run(note);
+    c.verdicts = prover.verdicts(c.least_speed_mps());
+    if (earlier != nullptr) made.resumed = taken_over(*earlier, c.verdicts, in_time);
+    survey_with(parts, prover);
+  }
   if (search) {
     progress("searching for behaviours that fail");
     const std::vector<State> states = undecided.in_random_order(options.seed);
@@ -186,14 +218,6 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
     made.searched = add_at_risk(made.survey.shares, states.size(), found);
   }
   c.evidence_json = evidence_of(options, made).dump();
-  if (region.kind == RegionOfInterest::Kind::goal) {
-    SurveyOptions sampled;
-    sampled.samples = options.samples;
-    sampled.seed = options.seed;
-    made.following = prove_following(
-        plan, over_ground(contract), c.parts_per_cell, sampled,
-        [&] { return watch.is_within(limit_s); }, progress);
-  }
   return made;
 }
 

@@ -15,7 +15,7 @@
 #include "fairway/plan/plan.hpp"
 #include "fairway/run/contract_resume.hpp"
 #include "fairway/run/findings.hpp"
-#include "fairway/run/proved_following.hpp"
+#include "fairway/run/path_follower.hpp"
 #include "fairway/run/verify_limits.hpp"
 #include "fairway/verify/region_of_interest.hpp"
 
@@ -38,14 +38,17 @@ struct ContractVerification {
   /// Of the sampled states that are undecided, and how many of them were searched from.
   std::size_t undecided_states = 0;
   std::size_t searched_states = 0;
-  std::optional<Resumed> resumed;            ///< when it went on from an earlier one
-  std::optional<ProvedFollowing> following;  ///< of a closed path; in no certificate yet
+  std::optional<Resumed> resumed;  ///< when it went on from an earlier one
+  /// That the path is followed, as the certificate then says.
+  std::optional<Following> following;
+  bool no_tube = false;  ///< following was asked for, and not proved of anybody
 };
 
-/// Proves what all behaviours within `contract` do under `plan`. `earlier`: a contract certificate
-/// of the same proof, to go on cutting where it ended; all of it is proved again. Throws
-/// InputError{earlier->where, ...} when it is of another one, and InputError{where, ...} when the
-/// plan cannot be verified or the contract is none of its vehicle.
+/// Proves what all behaviours within `contract` do under `plan`. Of a path mission: whether they
+/// join the path and follow it; when no tube is found, only whether they touch it. `earlier`: a
+/// contract certificate of the same proof, to go on cutting where it ended; all of it is proved
+/// again. Throws InputError{earlier->where, ...} when it is of another one, and InputError{where,
+/// ...} when the plan cannot be verified or the contract is none of its vehicle.
 ///
 /// A limit of time holds for the proof, of which it gets at most four fifths when witnesses are
 /// searched for, and for that search, which gets the rest. Measuring shares comes in addition: its

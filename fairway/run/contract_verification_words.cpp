@@ -42,7 +42,7 @@ json contract_verification_json(const ContractVerification& made) {
   summary["method"] = "contract";
   summary["cells"] = {c.grid.nx, c.grid.ny};
   summary["leaves"] = c.verdicts.leaves();
-  if (made.following) summary["follow"] = following_json(*made.following);
+  if (made.following) summary["follow"] = following_json(*made.following, *c.follow);
   return summary;
 }
 
@@ -52,9 +52,18 @@ std::vector<Finding> findings(const Plan& plan, const ContractVerification& made
   const bool is_goal = made.certificate.region_of_interest.kind == RegionOfInterest::Kind::goal;
   const std::string goal = is_goal ? goal_word(plan) : "region";
   constexpr const char* all = "all states";
-  std::vector<Finding> found{
-      {percent_text(share_of(s.all, Verdict::reach), decimals), all,
-       "are proved to reach the " + goal + " whatever the vehicle does within its contract"}};
+  const std::string proved = made.following ? "are proved to join the path and to follow it"
+                                            : "are proved to reach the " + goal;
+  const std::string ever =
+      made.following && made.certificate.follow->path.closed ? " for ever," : "";
+  std::vector<Finding> found;
+  if (made.no_tube) {
+    found.push_back({"", "",
+                     "no tube about the path is proved that the vehicle never leaves: what "
+                     "follows says only that the path is touched"});
+  }
+  found.push_back({percent_text(share_of(s.all, Verdict::reach), decimals), all,
+                   proved + ever + " whatever the vehicle does within its contract"});
   if (is_goal) {
     for (Finding& finding : plan_findings(plan)) found.push_back(std::move(finding));
   }
@@ -68,11 +77,16 @@ std::vector<Finding> findings(const Plan& plan, const ContractVerification& made
   add(share_of(s.all, Verdict::undecided) - s.at_risk, "are undecided");
   if (made.stopped_by_limit) found.push_back({"", "", "the proof stopped at its limit"});
   if (share_of(s.free, Verdict::reach) > 0.0) {
-    found.push_back({percent_text(share_of(s.free, Verdict::reach), decimals), "safe starts",
-                     "are proved to reach the " + goal});
+    found.push_back(
+        {percent_text(share_of(s.free, Verdict::reach), decimals), "safe starts", proved});
   }
   if (made.following) {
-    for (Finding& finding : findings(*made.following)) found.push_back(std::move(finding));
+    const double usable = share_of(s.usable, Verdict::reach);
+    found.push_back({percent_text(usable, decimals_of_sample(s.usable_samples)),
+                     "states that the mission can use", proved});
+    for (Finding& finding : findings(*made.following, made.certificate.follow->path.closed)) {
+      found.push_back(std::move(finding));
+    }
   }
   return found;
 }

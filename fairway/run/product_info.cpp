@@ -1,5 +1,6 @@
 #include "fairway/run/product_info.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -64,6 +65,19 @@ class Description {
                               ? "the " + asked.get<std::string>()
                               : fmt::format("the cells wholly inside {} m", asked.dump()));
   }
+  void follow(const FollowProof& proof) {
+    float tube_m = 0.0F;
+    for (const TubeStretch& s : proof.tube) tube_m = std::max(tube_m, s.distance_m);
+    const double least_s = proof.stages.lap_least_s;
+    const double most_s = proof.stages.lap_most_s;
+    line("to be followed",
+         fmt::format(
+             "a{} path, within {:.3g} m; {}", proof.path.closed ? " closed" : "n open", tube_m,
+             proof.path.closed ? fmt::format("a lap takes {:.3g} to {:.3g} s", least_s, most_s)
+                               : fmt::format("to its end in {:.3g} s", most_s)));
+    info_.report["follow"] = {
+        {"closed", proof.path.closed}, {"tube_m", tube_m}, {"lap_time_s", {least_s, most_s}}};
+  }
   /// What the file's own record says, which anybody may have written.
   void evidence(const json& record) {
     const auto& known = record.is_object() ? record : json::object();
@@ -110,6 +124,7 @@ class Description {
       if (open) add("at risk", risk);
       add(name_of(verdict), number_in(*shares, name_of(verdict)) - (open ? risk : 0.0));
     }
+    add("follow", number_in(*shares, "follow"));
     if (!words.empty()) line(title, words);
     return !words.empty();
   }
@@ -172,7 +187,11 @@ ProductInfo describe(const std::filesystem::path& file, const ContractCertificat
                 "a contract certificate: it holds for every vehicle that keeps the contract");
   d.grid(c.grid, c.frame.value_or(Frame{}));
   d.vehicle(c.vehicle, &c.contract);
-  d.region(c.region_of_interest);
+  if (c.follow) {
+    d.follow(*c.follow);
+  } else {
+    d.region(c.region_of_interest);
+  }
   d.line("leaves", fmt::format("{}; cells of {} x {} parts", grouped(c.verdicts.leaves()),
                                c.parts_per_cell, c.parts_per_cell));
   d.report()["leaves"] = c.verdicts.leaves();

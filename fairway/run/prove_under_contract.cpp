@@ -85,8 +85,11 @@ std::vector<Finding> findings(const Plan& plan, const ProvedUnderContract& prove
   const auto add = [&](double share, const std::string& what) {
     found.push_back({percent_text(share, decimals), "all states", what});
   };
-  add(share_of(s.all, Verdict::reach), "are proved to reach the " + goal_of(plan, proved) +
-                                           " whatever the vehicle does within its contract");
+  const bool follows = proved.verification.following.has_value();
+  add(share_of(s.all, Verdict::reach),
+      (follows ? "are proved to join the path and to follow it"
+               : "are proved to reach the " + goal_of(plan, proved)) +
+          " whatever the vehicle does within its contract");
   double failing = 0.0;
   for (const Verdict verdict : verdicts_in_order) {
     if (fails(verdict)) failing += share_of(s.all, verdict);

@@ -1,0 +1,285 @@
+// Certificates that a path is followed, made by the prover: accepted as they are, refused once
+// changed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "check/proof.hpp"
+#include "check/testing/taken_apart.hpp"
+#include "fairway/certificate/contract_certificate_file.hpp"
+#include "fairway/plan/plan_file.hpp"
+#include "fairway/run/contract_verification.hpp"
+#include "fairway/vehicle/path_locator.hpp"
+#include "fairway/verify/testing/plans_to_verify.hpp"
+
+namespace fairway_check {
+namespace {
+
+namespace fs = std::filesystem;
+using std::numbers::pi;
+
+/// Commands that approach a path on circles of 60 m.
+fairway::Plan plan_along(const fairway::PathMission& path, int nx, int ny) {
+  fairway::Plan plan = fairway::empty_plan(nx, ny, 8.0, 20.0);
+  const fairway::PathLocator locator(path);
+  plan.record.mission = path;
+  for (std::size_t i = 0; i < plan.grid.size(); ++i) {
+    const auto frame = locator.frame(plan.grid.center(plan.grid.cell_at(i)));
+    const double off = std::acos(1.0 - std::min(1.0, std::abs(frame.offset_m) / 60.0));
+    const double tangent = std::atan2(frame.tangent.y, frame.tangent.x);
+    plan.heading_rad[i] =
+        static_cast<float>(std::remainder(tangent + (frame.offset_m > 0.0 ? -off : off), 2.0 * pi));
+    plan.cost_m[i] = static_cast<float>(std::abs(frame.offset_m));
+  }
+  return plan;
+}
+
+fairway::PathMission an_ellipse() {
+  fairway::PathMission path;
+  path.closed = true;
+  for (int k = 0; k < 72; ++k) {
+    const double at = 2.0 * pi * k / 72.0;
+    path.vertices_m.push_back({128.0 + 84.0 * std::cos(at), 120.0 + 76.0 * std::sin(at)});
+  }
+  return path;
+}
+
+fairway::PathMission a_line() {
+  fairway::PathMission path;
+  path.vertices_m = {{40.0, 60.0}, {200.0, 60.0}};
+  return path;
+}
+
+fairway::VehicleContract a_contract() {
+  fairway::VehicleContract contract;
+  contract.command_error_m = 1.0;
+  contract.heading_error_rad = 0.01;
+  contract.turn_radius_m = {19.0, 21.0};
+  contract.speed_mps = {9.0, 11.0};
+  return contract;
+}
+
+class FollowMutation : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fs::temp_directory_path() / ("fairway-follow-" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+    closed_ = certificate(plan_along(an_ellipse(), 32, 30));
+    open_ = certificate(plan_along(a_line(), 30, 15));
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+  static std::string certificate(const fairway::Plan& plan) {
+    fairway::ContractVerifyOptions options;
+    options.samples = 5000;
+    options.find_witnesses = false;
+    const auto made = fairway::verify_contract(plan, "plan", fairway::RegionOfInterest{},
+                                               a_contract(), options, [](const std::string&) {});
+    EXPECT_TRUE(made.following);
+    write_contract_certificate(made.certificate, folder_ / "good", fairway::Existing::replace);
+    std::ifstream in(folder_ / "good", std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  static std::string refusal(TakenApart parts) {
+    parts.sign();
+    std::ofstream(folder_ / "changed", std::ios::binary) << parts.file();
+    nlohmann::ordered_json report;
+    try {
+      return judge(folder_ / "changed", "", 2000, report);
+    } catch (const Defect& defect) {
+      return std::string("unreadable: ") + defect.what();
+    } catch (const nlohmann::json::exception& error) {
+      return std::string("unreadable: ") + error.what();
+    }
+  }
+  static void expect_refused(const TakenApart& parts, const std::string& because) {
+    EXPECT_THAT(refusal(parts), testing::HasSubstr(because));
+  }
+  static std::uint16_t stage_of(const TakenApart& parts, std::size_t leaf) {
+    return parts.at<std::uint16_t>("leaf_stage", leaf);
+  }
+  static std::size_t core_leaf(const TakenApart& parts) {
+    return parts.find([&](std::size_t leaf) { return stage_of(parts, leaf) != 0; });
+  }
+
+  static fs::path folder_;
+  static std::string closed_;
+  static std::string open_;
+};
+fs::path FollowMutation::folder_;
+std::string FollowMutation::closed_;
+std::string FollowMutation::open_;
+
+TEST_F(FollowMutation, WhatTheProverProvesIsAccepted) {
+  EXPECT_EQ(refusal(TakenApart(closed_)), "");
+  EXPECT_EQ(refusal(TakenApart(open_)), "");
+  for (const std::string& file : {closed_, open_}) {
+    const TakenApart parts(file);
+    EXPECT_GT(parts.record["volume_fraction"]["follow"], 0.2);
+  }
+}
+
+TEST_F(FollowMutation, ALeafIsNotOfTheCoreUnlessItIs) {
+  for (const std::string& file : {closed_, open_}) {
+    TakenApart parts(file);
+    std::size_t core = 0;
+    for (std::size_t leaf = 0; leaf < parts.leaves(); ++leaf) {
+      if (stage_of(parts, leaf) == 0) continue;
+      if (++core % 2 == 0) parts.put<std::uint16_t>("leaf_stage", leaf, 0);
+    }
+    expect_refused(parts, "leave the core");
+    parts = TakenApart(file);
+    const std::size_t joins = parts.find([&](std::size_t leaf) {
+      return stage_of(parts, leaf) == 0 && parts.at<std::uint8_t>("leaf_verdict", leaf) == reach;
+    });
+    parts.put<std::uint16_t>("leaf_stage", joins, 1);
+    expect_refused(parts, "could not be re-proved");
+    parts = TakenApart(file);
+    parts.put<std::uint16_t>("leaf_stage", core_leaf(parts), 0xffff);
+    expect_refused(parts, "stage that does not exist");
+    parts = TakenApart(file);
+    parts.put<std::uint8_t>("leaf_verdict", core_leaf(parts), collide);
+    expect_refused(parts, "could not be re-proved");
+  }
+}
+
+TEST_F(FollowMutation, StagesArePassedInTheirOrder) {
+  const TakenApart good(closed_);
+  const auto stages = static_cast<int>(good.arrays.at("stage_off_rad").size() / 4);
+  const std::size_t leaf = core_leaf(good);
+  TakenApart parts = good;
+  const int opposite = (stage_of(parts, leaf) - 1 + stages / 2) % stages + 1;
+  parts.put<std::uint16_t>("leaf_stage", leaf, static_cast<std::uint16_t>(opposite));
+  expect_refused(parts, "could not be re-proved");
+  parts = good;  // to and fro between all
+  for (std::size_t i = 0; i < parts.leaves(); ++i) {
+    if (stage_of(parts, i) != 0) {
+      parts.put<std::uint16_t>("leaf_stage", i, static_cast<std::uint16_t>(1 + i % 3));
+    }
+  }
+  expect_refused(parts, "could not be re-proved");
+  parts = good;  // one that is never left
+  for (std::size_t i = 0; i < parts.leaves(); ++i) {
+    if (stage_of(parts, i) != 0) parts.put<std::uint16_t>("leaf_stage", i, 1);
+  }
+  expect_refused(parts, "could not be re-proved");
+}
+
+TEST_F(FollowMutation, DirectionsOfStagesHoldAllHeadings) {
+  const TakenApart good(closed_);
+  const std::size_t k = stage_of(good, core_leaf(good)) - 1U;
+  const float u = good.at<float>("stage_heading_rad", k);
+  const float off = good.at<float>("stage_off_rad", k);
+  ASSERT_GT(off, 0.0F);
+  TakenApart parts = good;
+  parts.put<float>("stage_heading_rad", k, u > 0.0F ? u - 3.1F : u + 3.1F);
+  expect_refused(parts, "rad from its direction");
+  parts.put<float>("stage_heading_rad", k, 4.0F);
+  expect_refused(parts, "has an invalid direction");
+  parts = good;
+  parts.put<float>("stage_off_rad", k, 0.8F * off);
+  expect_refused(parts, "rad from its direction");
+  for (const float bad : {1.51F, -0.1F, HUGE_VALF}) {
+    parts.put<float>("stage_off_rad", k, bad);
+    expect_refused(parts, "has an invalid direction");
+  }
+  parts.put<float>("stage_off_rad", k, NAN);  // then its leaves are in groups: they are not
+  expect_refused(parts, "could not be re-proved");
+}
+
+TEST_F(FollowMutation, TheTubeHoldsAllThatFollow) {
+  for (const std::string& file : {closed_, open_}) {
+    const TakenApart good(file);
+    const std::size_t stretches = good.arrays.at("tube").size() / 8;
+    for (const std::size_t number : {std::size_t{0}, std::size_t{1}}) {
+      TakenApart parts = good;
+      for (std::size_t k = 0; k < stretches; ++k) {
+        parts.put<float>("tube", 2 * k + number, 0.8F * good.at<float>("tube", 2 * k + number));
+      }
+      expect_refused(parts, "leave the tube");
+      parts.put<float>("tube", 2 * (stretches / 2) + number, NAN);
+      expect_refused(parts, "leave the tube");
+    }
+    TakenApart parts = good;
+    for (std::size_t i = 0; i < parts.arrays.at("path_m").size() / 8; ++i) {
+      parts.put<double>("path_m", i, good.at<double>("path_m", i) + 9.0);
+    }
+    expect_refused(parts, "leave the tube");
+    parts.put<double>("path_m", 0, NAN);
+    expect_refused(parts, "expected finite numbers");
+  }
+}
+
+TEST_F(FollowMutation, APathTheOtherWayRoundIsNotFollowed) {
+  TakenApart parts(closed_);
+  const std::size_t n = parts.arrays.at("path_m").size() / 16;
+  const TakenApart good = parts;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (const std::size_t xy : {std::size_t{0}, std::size_t{1}}) {
+      parts.put<double>("path_m", 2 * i + xy, good.at<double>("path_m", 2 * (n - 1 - i) + xy));
+    }
+  }
+  expect_refused(parts, "could not be re-proved");
+}
+
+TEST_F(FollowMutation, LapsTakeNoLessAndNoLonger) {
+  TakenApart parts(closed_);
+  const double least = parts.record["follow"]["lap_time_s"][0];
+  const double most = parts.record["follow"]["lap_time_s"][1];
+  ASSERT_GT(least, 0.0);
+  parts.record["follow"]["lap_time_s"] = {1.02 * least, most};
+  expect_refused(parts, "lap_time_s");
+  parts.record["follow"]["lap_time_s"] = {least, 0.98 * most};
+  expect_refused(parts, "lap_time_s");
+  parts.record["follow"]["lap_time_s"] = {least};
+  expect_refused(parts, "lap_time_s");
+  parts = TakenApart(open_);
+  parts.record["follow"]["lap_time_s"] = {0.0, 0.98 * parts.at<float>("stage_time_s", 0)};
+  expect_refused(parts, "lap_time_s");
+  parts.put<float>("stage_time_s", 0, 1.0F);
+  expect_refused(parts, "takes longer than its stage");
+}
+
+TEST_F(FollowMutation, StagesLieWhereThePathIs) {
+  TakenApart parts(closed_);
+  const std::size_t k = stage_of(parts, core_leaf(parts)) - 1U;
+  const float far = parts.at<float>("stage_station_m", k) + 250.0F;
+  parts.put<float>("stage_station_m", k, far);
+  expect_refused(parts, "far along the path");
+}
+
+TEST_F(FollowMutation, OpenIsNotClosed) {
+  TakenApart parts(closed_);
+  parts.record["follow"]["closed"] = false;
+  expect_refused(parts, "stages");
+  parts = TakenApart(open_);
+  parts.record["follow"]["closed"] = true;
+  expect_refused(parts, "stages");
+  parts = TakenApart(open_);
+  parts.record.erase("follow");
+  expect_refused(parts, "arrays");
+}
+
+TEST_F(FollowMutation, TimesToJoinAndToTheEndBound) {
+  for (const std::string& file : {closed_, open_}) {
+    const TakenApart good(file);
+    std::size_t last = 0;
+    for (std::size_t g = 1; g < good.arrays.at("group_time_s").size() / 4; ++g) {
+      if (good.at<float>("group_time_s", g) > good.at<float>("group_time_s", last) || last == 0) {
+        last = g;
+      }
+    }
+    TakenApart parts = good;
+    parts.put<float>("group_time_s", last, 0.5F * good.at<float>("group_time_s", last));
+    expect_refused(parts, "");
+    EXPECT_NE(refusal(parts), "");
+  }
+}
+
+}  // namespace
+}  // namespace fairway_check

@@ -1,0 +1,136 @@
+#include "fairway/run/path_follower.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "fairway/field/flyable_path.hpp"
+#include "fairway/verify/region_of_interest.hpp"
+
+namespace fairway {
+namespace {
+
+/// How far from the path leaves are looked for from which nothing leaves: wide enough for those
+/// that overshoot when they join.
+constexpr double widest_radii = 3.0;
+
+const PathMission* path_of(const Plan& plan) {
+  return plan.record.mission ? std::get_if<PathMission>(&*plan.record.mission) : nullptr;
+}
+
+/// The cells about the end of an open path and beyond it, up to a turning radius away: who follows
+/// comes there. They begin a cell before the end, as commands beyond it point back.
+std::vector<std::uint8_t> end_cells(const Plan& plan, const PathLocator& path) {
+  std::vector<std::uint8_t> is_end(plan.grid.size(), 0);
+  if (path.path().closed) return is_end;
+  const Vec2 end = path.place(path.length_m());
+  const Vec2 before = path.place(path.length_m() - 1e-3 * plan.grid.cell_m);
+  const Vec2 on = (1.0 / norm(end - before)) * (end - before);
+  for (std::size_t i = 0; i < is_end.size(); ++i) {
+    const Vec2 off = plan.grid.center(plan.grid.cell_at(i)) - end;
+    const bool near = norm(off) <= plan.vehicle.turn_radius_m + plan.grid.cell_m;
+    is_end[i] = near && dot(off, on) > -plan.grid.cell_m ? 1 : 0;
+  }
+  return is_end;
+}
+
+RegionOfInterest region_of(const Plan& plan, const PathLocator& path) {
+  RegionOfInterest region;
+  region.kind = RegionOfInterest::Kind::cells;
+  region.cells = end_cells(plan, path);
+  for (std::size_t i = 0; i < region.cells.size(); ++i) {
+    if (plan.region[i] == Region::obstacle) region.cells[i] = 0;
+  }
+  return region;
+}
+
+/// Nothing is claimed where no way leads to the path: nobody who follows comes there.
+Parts parts_of(const Plan& plan, const std::vector<CellKind>& kind,
+               const ContractCertificate& question) {
+  const Flow flow{plan.grid, plan.vehicle, plan.heading_rad.data(), kind.data()};
+  Parts parts(flow, over_ground(question.contract), question.parts_per_cell);
+  const std::vector<bool> usable = usable_cells(plan);
+  for (std::size_t i = 0; i < usable.size(); ++i) {
+    if (!usable[i]) parts.claim_nothing(plan.grid.cell_at(i));
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<bool> usable_cells(const Plan& plan) {
+  std::vector<bool> usable(plan.grid.size());
+  for (std::size_t i = 0; i < usable.size(); ++i) {
+    usable[i] = !std::isnan(plan.heading_rad[i]) && std::isfinite(plan.cost_m[i]);
+  }
+  return usable;
+}
+
+bool PathFollower::is_asked(const Plan& plan, const RegionOfInterest& region) {
+  return path_of(plan) != nullptr && region.kind == RegionOfInterest::Kind::goal;
+}
+
+PathFollower::PathFollower(const Plan& plan, const ContractCertificate& question,
+                           const std::function<bool()>& go_on)
+    // The line that the field follows: corners sharper than the vehicle turns are cut.
+    : path_(flyable_path(*path_of(plan), plan.vehicle.turn_radius_m)),
+      kind_(cell_kinds(plan.grid, plan.region, region_of(plan, path_))),
+      parts_(parts_of(plan, kind_, question)),
+      tube_(parts_, plan.grid, path_, widest_radii * plan.vehicle.turn_radius_m),
+      speed_mps_(over_ground(question.contract).speed_mps),
+      prover_(parts_, tube_, [&] {
+        FollowOptions options;
+        options.limits.go_on = go_on;
+        return options;
+      }()) {}
+
+bool PathFollower::find_core() {
+  found_ = prover_.find_core(speed_mps_);
+  return found_.has_value();
+}
+
+bool PathFollower::join(const std::function<void(const InclusionLevel&)>& progress) {
+  return prover_.join(progress);
+}
+
+void PathFollower::fill(ContractCertificate& c) const {
+  c.kind = kind_;
+  c.region_of_interest.kind = RegionOfInterest::Kind::cells;
+  c.region_of_interest.cells.assign(kind_.size(), 0);
+  for (std::size_t i = 0; i < kind_.size(); ++i) {
+    if (kind_[i] == CellKind::target) c.region_of_interest.cells[i] = 1;
+  }
+  c.verdicts = prover_.verdicts(speed_mps_.least);
+  c.follow = prover_.proof();
+  c.follow->path = path_.path();
+}
+
+nlohmann::json following_json(const Following& f, const FollowProof& proof) {
+  nlohmann::json profile = nlohmann::json::array();
+  const double length_m = PathLocator(proof.path).length_m();
+  const double stretch_m = length_m / static_cast<double>(f.tube.size());
+  for (std::size_t k = 0; k < f.tube.size(); ++k) {
+    profile.push_back({{"station_m", static_cast<double>(k) * stretch_m},
+                       {"distance_m", f.tube[k].distance_m},
+                       {"heading_rad", f.tube[k].off_rad}});
+  }
+  return {{"tube_m", f.tube_m},
+          {"tube_heading_rad", f.off_rad},
+          {"length_m", length_m},
+          {"lap_time_s", {f.lap_least_s, f.lap_most_s}},
+          {"profile", std::move(profile)}};
+}
+
+std::vector<Finding> findings(const Following& f, bool closed) {
+  const std::string on =
+      closed ? fmt::format("goes round in {:.3g} to {:.3g} s", f.lap_least_s, f.lap_most_s)
+             : fmt::format("comes to its end within {:.3g} s", f.lap_most_s);
+  return {{"", "",
+           fmt::format("who follows is within {:.3g} m of the path, heads within {:.0f} degrees of "
+                       "it, and {}",
+                       f.tube_m, f.off_rad * 180.0 / pi, on)}};
+}
+
+}  // namespace fairway

@@ -1,0 +1,61 @@
+// Plan of a path mission and contract -> the proof that the vehicle joins the path and follows it:
+// what `fairway verify` under a contract proves of such missions.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "fairway/certificate/contract_certificate.hpp"
+#include "fairway/inclusion/contract_shares.hpp"
+#include "fairway/inclusion/follow_prover.hpp"
+#include "fairway/plan/plan.hpp"
+#include "fairway/run/findings.hpp"
+#include "fairway/vehicle/path_locator.hpp"
+
+namespace fairway {
+
+class PathFollower {
+ public:
+  /// Whether the plan's mission is a path, and that is what flights should do.
+  static bool is_asked(const Plan& plan, const RegionOfInterest& region);
+
+  /// `question`: of nothing yet (contract_certificate.hpp).
+  PathFollower(const Plan& plan, const ContractCertificate& question,
+               const std::function<bool()>& go_on);
+  PathFollower(const PathFollower&) = delete;
+  PathFollower& operator=(const PathFollower&) = delete;
+
+  /// False: no tube can be proved that is never left.
+  bool find_core();
+  /// False: a limit stopped it.
+  bool join(const std::function<void(const InclusionLevel&)>& progress);
+
+  const Following& found() const { return *found_; }
+  const Parts& parts() const { return prover_.joining_parts(); }
+  const InclusionProver& prover() const { return prover_.joining(); }
+  /// Makes it a certificate of following.
+  void fill(ContractCertificate& certificate) const;
+
+ private:
+  PathLocator path_;
+  std::vector<CellKind> kind_;
+  Parts parts_;
+  Tube tube_;
+  SizeRange speed_mps_;
+  FollowProver prover_;
+  std::optional<Following> found_;
+};
+
+/// Cells from which the plan leads to its mission, [iy][ix].
+[[nodiscard]] std::vector<bool> usable_cells(const Plan& plan);
+
+/// The object "follow" of summary.json (docs/formats.md). Of "reach" says it what follows.
+[[nodiscard]] nlohmann::json following_json(const Following& found, const FollowProof& proof);
+
+/// How near, and how fast round.
+[[nodiscard]] std::vector<Finding> findings(const Following& found, bool closed);
+
+}  // namespace fairway
