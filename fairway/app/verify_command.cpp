@@ -41,7 +41,7 @@ void open_pictures(const VerifyArguments& a, const Places& inputs, const Session
 }
 
 VerifyOutcome outcome_of(const VerifyTask& task) {
-  if (const auto asked = contract_asked(task.arguments, task.plan)) {
+  if (const auto asked = contract_asked(task)) {
     return verify_under_contract(task, *asked);
   }
   return task.arguments.method == "bitmap" ? verify_by_bitmap(task) : verify_exactly(task);

@@ -49,10 +49,10 @@ struct ContractAsked {
 };
 
 /// The contract to verify under: the one given, or the plan's own, or that of the certificate to
-/// resume from; none when the exact vehicle or a bitmap is asked for. Throws InputError when a
-/// contract is asked for and there is none, or --resume names a certificate of the other kind.
-[[nodiscard]] std::optional<ContractAsked> contract_asked(const VerifyArguments& arguments,
-                                                          const Plan& plan);
+/// resume from, or of the exact vehicle when it is to follow a path; none when the exact vehicle or
+/// a bitmap is asked for. Throws InputError when a contract is asked for and there is none, or
+/// --resume names a certificate of the other kind.
+[[nodiscard]] std::optional<ContractAsked> contract_asked(const VerifyTask& task);
 
 /// For every vehicle that keeps the contract: a contract certificate.
 [[nodiscard]] VerifyOutcome verify_under_contract(const VerifyTask& task,

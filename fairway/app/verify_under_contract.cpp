@@ -50,7 +50,9 @@ void write_failures(const VerifyTask& task, const ContractCertificate& certifica
 
 }  // namespace
 
-std::optional<ContractAsked> contract_asked(const VerifyArguments& a, const Plan& plan) {
+std::optional<ContractAsked> contract_asked(const VerifyTask& task) {
+  const VerifyArguments& a = task.arguments;
+  const Plan& plan = task.plan;
   if (!a.method.empty() && a.method != "contract") {
     if (a.method == "certified" && !a.resume.empty() &&
         is_kind(a.resume, FileKind::contract_certificate)) {
@@ -63,7 +65,10 @@ std::optional<ContractAsked> contract_asked(const VerifyArguments& a, const Plan
   if (!a.resume.empty() && is_kind(a.resume, FileKind::contract_certificate)) {
     earlier = EarlierContractProof{read_contract_certificate(a.resume), a.resume.string()};
   }
-  std::optional<VehicleContract> contract = plan.record.contract;
+  // Without a method asked for, a path is followed, by the exact vehicle if there is no contract.
+  std::optional<VehicleContract> contract = a.method.empty() && a.resume.empty()
+                                                ? contract_to_prove(plan, task.region)
+                                                : plan.record.contract;
   if (!a.contract.empty()) contract = read_contract(a.contract, plan.vehicle);
   if (!contract && earlier) contract = earlier->certificate.contract;
   if (!contract && a.method == "contract") {
@@ -89,9 +94,16 @@ VerifyOutcome verify_under_contract(const VerifyTask& task, const ContractAsked&
   if (warning && is_wild_everywhere(task.plan, asked.contract)) {
     throw InputError(a.plan.string(), "nothing was proved: " + *warning);
   }
+  ContractVerifyOptions options = options_of(a);
+  options.or_touch = asked.contract != nearly_exact(task.plan.vehicle);
   const ContractVerification made = verify_contract(
-      task.plan, a.plan.string(), task.region, asked.contract, options_of(a),
+      task.plan, a.plan.string(), task.region, asked.contract, options,
       begin_verifying_contract(task.clock, a.limits), asked.earlier ? &*asked.earlier : nullptr);
+  if (made.no_tube && !options.or_touch) {  // what the exact prover can say
+    VerifyOutcome outcome = verify_exactly(task);
+    outcome.findings.insert(outcome.findings.begin(), no_tube_finding());
+    return outcome;
+  }
   task.clock.begin("writing the certificate", unknown_time);
   write_contract_certificate(made.certificate, a.output, task.session.existing());
   write_failures(task, made.certificate);

@@ -89,8 +89,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
-/// Coarser ones mix the commands of both sides of the line.
-constexpr int fewest_parts_to_follow = 2;
+/// Coarser ones mix the commands of both sides of the line; finer ones prove hardly more.
+constexpr int parts_to_follow = 2;
 
 /// What is to be proved, of nothing yet.
 ContractCertificate question(const Plan& plan, const RegionOfInterest& region,
@@ -150,9 +150,7 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
                               ? earlier->certificate.parts_per_cell
                               : options.parts_per_cell;
   c = question(plan, region, contract, parts_asked);
-  if (PathFollower::is_asked(plan, region) && options.parts_per_cell == 0 && earlier == nullptr) {
-    c.parts_per_cell = std::max(c.parts_per_cell, fewest_parts_to_follow);
-  }
+  if (PathFollower::is_asked(plan, region) && parts_asked == 0) c.parts_per_cell = parts_to_follow;
   if (earlier != nullptr) require_same_proof(*earlier, c);
   // Where most states are undecided, a search in each takes too long.
   const bool search = options.find_witnesses && wild_share(plan, contract) <= most_wild_unwarned;
@@ -195,6 +193,7 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
       survey_with(follower.parts(), follower.prover());
     }
   }
+  if (made.no_tube && !options.or_touch) return made;
   if (!made.following) {
     const Parts parts = c.parts();
     InclusionProver prover(parts, limits);

@@ -26,6 +26,7 @@ struct ContractVerifyOptions {
   VerifyLimits limits;     ///< undecided_max is not used
   std::size_t samples = SurveyOptions{}.samples;
   std::uint64_t seed = 1;
+  bool or_touch = true;        ///< when nobody is proved to follow a path: who touches it
   bool find_witnesses = true;  ///< of sampled states, to tell how many are at risk
 };
 
@@ -68,6 +69,9 @@ struct ContractVerification {
 
 /// The first line says how many of all states reach, whatever the vehicle does within the contract.
 [[nodiscard]] std::vector<Finding> findings(const Plan& plan, const ContractVerification& made);
+
+/// That nobody is proved to follow the path.
+[[nodiscard]] Finding no_tube_finding();
 
 /// That a limit ended the proof, or the search for behaviours that fail.
 [[nodiscard]] std::optional<std::string> limit_warning(const ContractVerification& made);

@@ -54,25 +54,27 @@ std::vector<Finding> findings(const Plan& plan, const ContractVerification& made
   constexpr const char* all = "all states";
   const std::string proved = made.following ? "are proved to join the path and to follow it"
                                             : "are proved to reach the " + goal;
+  const bool exact = is_exact(made.certificate);
   const std::string ever =
-      made.following && made.certificate.follow->path.closed ? " for ever," : "";
+      made.following && made.certificate.follow->path.closed ? " for ever" : "";
+  const std::string whatever = exact ? "" : ", whatever it does";
   std::vector<Finding> found;
-  if (made.no_tube) {
-    found.push_back({"", "",
-                     "no tube about the path is proved that the vehicle never leaves: what "
-                     "follows says only that the path is touched"});
-  }
+  if (made.no_tube) found.push_back(no_tube_finding());
   found.push_back({percent_text(share_of(s.all, Verdict::reach), decimals), all,
-                   proved + ever + " whatever the vehicle does within its contract"});
-  if (is_goal) {
+                   proved + ever +
+                       (exact ? ""
+                              : std::string(ever.empty() ? "" : ",") +
+                                    " whatever the vehicle does within its contract")});
+  if (is_goal || made.following) {
     for (Finding& finding : plan_findings(plan)) found.push_back(std::move(finding));
   }
   const auto add = [&](double share, const std::string& what) {
     if (share > 0.0) found.push_back({percent_text(share, decimals), all, what});
   };
-  add(share_of(s.all, Verdict::collide), "are proved to collide, whatever it does");
-  add(s.at_risk, "are at risk: a behaviour within the contract fails");
-  add(share_of(s.all, Verdict::leave), "are proved to leave the map, whatever it does");
+  add(share_of(s.all, Verdict::collide), "are proved to collide" + whatever);
+  add(s.at_risk, exact ? "are at risk: a flight is known that fails"
+                       : "are at risk: a behaviour within the contract fails");
+  add(share_of(s.all, Verdict::leave), "are proved to leave the map" + whatever);
   add(share_of(s.all, Verdict::trapped), "are proved to be trapped: they circle for ever");
   add(share_of(s.all, Verdict::undecided) - s.at_risk, "are undecided");
   if (made.stopped_by_limit) found.push_back({"", "", "the proof stopped at its limit"});
@@ -89,6 +91,13 @@ std::vector<Finding> findings(const Plan& plan, const ContractVerification& made
     }
   }
   return found;
+}
+
+Finding no_tube_finding() {
+  return {
+      "", "",
+      "no tube about the path is proved that the vehicle never leaves: the shares say only that "
+      "the path is touched"};
 }
 
 std::optional<std::string> limit_warning(const ContractVerification& made) {
@@ -113,9 +122,11 @@ std::optional<std::string> limit_warning(const ContractVerification& made) {
 std::string contract_notes(const ContractVerification& made) {
   const ContractShares& s = made.survey.shares;
   std::string words = fmt::format(
-      "The vehicle {}.\nShares of {} sampled states, each proved or flown; a map that does not "
+      "{}.\nShares of {} sampled states, each proved or flown; a map that does not "
       "change.",
-      contract_words(made.certificate.contract), grouped(s.samples));
+      is_exact(made.certificate) ? "The vehicle flies as the model says, give or take 0.001 rad"
+                                 : "The vehicle " + contract_words(made.certificate.contract),
+      grouped(s.samples));
   if (s.worst_time_s > 0.0) {
     words +=
         fmt::format("\nNo sampled state that reaches takes longer than {:.1f} s.", s.worst_time_s);

@@ -115,11 +115,12 @@ std::vector<Vec2> circle(const LoiterRequest& loiter) {
 PathMission path_on_map(const Scenario& scenario, const ObstacleMap& map) {
   const MissionRequest& asked = scenario.mission;
   if (asked.loiter.center_m) {
-    return {circle(asked.loiter), true, asked.delta_position_m, asked.delta_heading_rad};
+    return {circle(asked.loiter), true, asked.delta_position_m, asked.delta_heading_rad,
+            asked.accept};
   }
   try {
     return {read_path(*asked.path_file, map, asked.closed), asked.closed, asked.delta_position_m,
-            asked.delta_heading_rad};
+            asked.delta_heading_rad, asked.accept};
   } catch (const InputError& error) {
     throw InputError(error.where(), fmt::format("{} (mission.path_file of {})", reason_of(error),
                                                 scenario.place_of("mission.path_file")));

@@ -60,6 +60,17 @@ Parts parts_of(const Plan& plan, const std::vector<CellKind>& kind,
 
 }  // namespace
 
+VehicleContract nearly_exact(const Vehicle& vehicle) {
+  VehicleContract contract = VehicleContract::of(vehicle);
+  contract.heading_error_rad = 1e-3;
+  return contract;
+}
+
+std::optional<VehicleContract> contract_to_prove(const Plan& plan, const RegionOfInterest& region) {
+  if (plan.record.contract || !PathFollower::is_asked(plan, region)) return plan.record.contract;
+  return nearly_exact(plan.vehicle);
+}
+
 std::vector<bool> usable_cells(const Plan& plan) {
   std::vector<bool> usable(plan.grid.size());
   for (std::size_t i = 0; i < usable.size(); ++i) {
@@ -69,7 +80,9 @@ std::vector<bool> usable_cells(const Plan& plan) {
 }
 
 bool PathFollower::is_asked(const Plan& plan, const RegionOfInterest& region) {
-  return path_of(plan) != nullptr && region.kind == RegionOfInterest::Kind::goal;
+  const PathMission* path = path_of(plan);
+  return path != nullptr && path->accept == PathAccept::follow &&
+         region.kind == RegionOfInterest::Kind::goal;
 }
 
 PathFollower::PathFollower(const Plan& plan, const ContractCertificate& question,

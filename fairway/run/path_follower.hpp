@@ -49,6 +49,17 @@ class PathFollower {
   std::optional<Following> found_;
 };
 
+/// What includes the exact vehicle, and hardly more: where commands are all the same, arcs of a
+/// single heading would be lost in rounding.
+[[nodiscard]] VehicleContract nearly_exact(const Vehicle& vehicle);
+/// Whether a proof is about hardly more than the exact vehicle.
+inline bool is_exact(const ContractCertificate& c) { return c.contract == nearly_exact(c.vehicle); }
+
+/// The contract to prove the plan under: the one it carries, or nearly_exact when it is to follow a
+/// path; none when only the exact vehicle's verdicts are asked for.
+[[nodiscard]] std::optional<VehicleContract> contract_to_prove(const Plan& plan,
+                                                               const RegionOfInterest& region);
+
 /// Cells from which the plan leads to its mission, [iy][ix].
 [[nodiscard]] std::vector<bool> usable_cells(const Plan& plan);
 

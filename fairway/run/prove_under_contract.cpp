@@ -47,7 +47,7 @@ std::optional<ProvedUnderContract> prove_under_contract(const Plan& plan, const 
                                                         const RegionOfInterest& region,
                                                         const fs::path& place, StageClock& clock,
                                                         std::vector<std::string>& warnings) {
-  const std::optional<VehicleContract>& contract = plan.record.contract;
+  const std::optional<VehicleContract> contract = contract_to_prove(plan, region);
   if (!contract || scenario.verify.method != VerifyMethod::certified) return std::nullopt;
   if (is_wild_everywhere(plan, *contract)) {
     // A warning about the plan has said how wide it is, and what would do.
@@ -59,9 +59,14 @@ std::optional<ProvedUnderContract> prove_under_contract(const Plan& plan, const 
   ContractVerifyOptions options;
   options.limits = scenario.verify.limits;
   options.seed = scenario.simulate.seed;
+  options.or_touch = plan.record.contract.has_value();
   ProvedUnderContract proved;
   proved.verification = verify_contract(plan, scenario.file.string(), region, *contract, options,
                                         begin_verifying_contract(clock, options.limits));
+  if (proved.verification.no_tube && !options.or_touch) {
+    warnings.push_back("Nobody is proved to follow the path: " + no_tube_finding().what + ".");
+    return std::nullopt;
+  }
   write_contract_certificate(proved.verification.certificate, file, Existing::keep);
   clock.begin("checking the contract's certificate", unknown_time);
   const CheckRun check = run_checker({file.string(), "--quiet"}, true);
@@ -85,17 +90,18 @@ std::vector<Finding> findings(const Plan& plan, const ProvedUnderContract& prove
   const auto add = [&](double share, const std::string& what) {
     found.push_back({percent_text(share, decimals), "all states", what});
   };
-  const bool follows = proved.verification.following.has_value();
+  const ContractVerification& made = proved.verification;
+  const std::string within =
+      is_exact(made.certificate) ? "" : " whatever the vehicle does within its contract";
   add(share_of(s.all, Verdict::reach),
-      (follows ? "are proved to join the path and to follow it"
-               : "are proved to reach the " + goal_of(plan, proved)) +
-          " whatever the vehicle does within its contract");
+      (made.following ? "are proved to join the path and to follow it"
+                      : "are proved to reach the " + goal_of(plan, proved)) +
+          within);
   double failing = 0.0;
   for (const Verdict verdict : verdicts_in_order) {
     if (fails(verdict)) failing += share_of(s.all, verdict);
   }
-  if (failing > 0.0)
-    add(failing, "are proved to fail, whatever the vehicle does within its contract");
+  if (failing > 0.0) add(failing, "are proved to fail," + within);
   if (s.at_risk > 0.0) add(s.at_risk, "are at risk: a behaviour within the contract fails");
   const double undecided = std::max(0.0, share_of(s.all, Verdict::undecided) - s.at_risk);
   if (undecided > 0.0) add(undecided, "are undecided under the contract");

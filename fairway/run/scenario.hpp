@@ -48,6 +48,7 @@ struct MissionRequest {
   bool closed = false;
   double delta_position_m = PathMission{}.delta_position_m;
   double delta_heading_rad = PathMission{}.delta_heading_rad;
+  PathAccept accept = PathAccept::follow;
 };
 
 /// The [simulate] table.

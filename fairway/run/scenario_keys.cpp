@@ -166,6 +166,11 @@ std::vector<ScenarioKey> mission_keys() {
       number("mission.delta_heading_rad", Range{0.0, pi, true},
              FAIRWAY_MEMBER(mission.delta_heading_rad),
              "path missions: heading within this of the path's counts as along it (Eq. 5)"),
+      choice<PathAccept>("mission.accept",
+                         {{"follow", PathAccept::follow}, {"touch", PathAccept::touch}},
+                         FAIRWAY_MEMBER(mission.accept),
+                         "path missions: what is to be proved, that the vehicle joins the path and "
+                         "follows it, or only that it touches it"),
   };
 }
 

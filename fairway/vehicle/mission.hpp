@@ -16,6 +16,10 @@ struct GoalMission {
   friend bool operator==(const GoalMission&, const GoalMission&) = default;
 };
 
+/// What a path mission asks for: to join the path, stay on it and go on along it; or only to touch
+/// it.
+enum class PathAccept { follow, touch };
+
 /// Follow a polyline of at least two distinct vertices, from the first to the last; `closed` also
 /// joins the last to the first. The tolerances say when a state counts as on the path (Eq. 5).
 struct PathMission {
@@ -23,6 +27,7 @@ struct PathMission {
   bool closed = false;
   double delta_position_m = 10.0;  ///< delta_x_max = delta_y_max
   double delta_heading_rad = 0.5;  ///< delta_theta_max
+  PathAccept accept = PathAccept::follow;
   friend bool operator==(const PathMission&, const PathMission&) = default;
 };
 

@@ -8,6 +8,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr const char* touch = "touch";
+
 Vec2 point(const json& value, const std::string& where) {
   if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number()) {
     throw InputError(where, "expected [x, y], found " + shown(value));
@@ -35,6 +37,12 @@ PathMission path_mission(const json& value, const std::string& where) {
   path.closed = closed.get<bool>();
   path.delta_position_m = finite_number(value, "delta_position_m", where);
   path.delta_heading_rad = finite_number(value, "delta_heading_rad", where);
+  if (value.contains("accept")) {
+    if (value["accept"] != touch) {
+      throw InputError(where + ".accept", "expected \"touch\", found " + shown(value["accept"]));
+    }
+    path.accept = PathAccept::touch;
+  }
   return path;
 }
 
@@ -49,11 +57,13 @@ json json_of(const Mission& mission) {
   const auto& path = std::get<PathMission>(mission);
   json vertices = json::array();
   for (const Vec2 v : path.vertices_m) vertices.push_back({v.x, v.y});
-  return {{"kind", "path"},
-          {"vertices_m", std::move(vertices)},
-          {"closed", path.closed},
-          {"delta_position_m", path.delta_position_m},
-          {"delta_heading_rad", path.delta_heading_rad}};
+  json record = {{"kind", "path"},
+                 {"vertices_m", std::move(vertices)},
+                 {"closed", path.closed},
+                 {"delta_position_m", path.delta_position_m},
+                 {"delta_heading_rad", path.delta_heading_rad}};
+  if (path.accept == PathAccept::touch) record["accept"] = touch;
+  return record;
 }
 
 Mission mission_of(const json& value, const std::string& where) {

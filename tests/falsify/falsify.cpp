@@ -35,6 +35,7 @@
 #include "check/testing/sample_certificate.hpp"
 #include "fairway/base/random.hpp"
 #include "fairway/behaviour/testing/contract_trial.hpp"
+#include "fairway/certificate/contract_certificate_file.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/run/contract_file.hpp"
 #include "fairway/simulate/exact_flight.hpp"
@@ -44,6 +45,7 @@
 #include "fairway/verify/testing/plans_to_verify.hpp"
 #include "fairway/verify/testing/wide_flight.hpp"
 #include "tests/falsify/contract_proof.hpp"
+#include "tests/falsify/follow_attack.hpp"
 
 namespace fairway {
 namespace {
@@ -56,6 +58,7 @@ struct Settings {
   std::uint64_t seed = 1;
   CertifyOptions certify;
   std::string contract;
+  std::vector<std::string> follow;  ///< certificates
   std::uint64_t contract_plans = 0;
   std::uint64_t flights = 100000;
   int parts = 2;
@@ -401,6 +404,10 @@ Settings settings_of(int argc, char** argv) {
       settings.contract = argv[++i];
       continue;
     }
+    if (word == "--follow" && i + 1 < argc) {
+      settings.follow.emplace_back(argv[++i]);
+      continue;
+    }
     if (word.rfind("--", 0) != 0) {
       settings.plans.push_back(word);
       continue;
@@ -507,8 +514,22 @@ std::uint64_t contradicted_contracts(const Settings& settings) {
   return totals.contradictions + totals.late;
 }
 
+/// How many flights contradict that a path is followed.
+std::uint64_t contradicted_following(const Settings& settings) {
+  std::uint64_t wrong = 0;
+  for (const std::string& path : settings.follow) {
+    const FollowAttackTotals totals =
+        attack_following(read_contract_certificate(path), settings.flights, settings.seed);
+    for (const std::string& story : totals.stories) fmt::print("  {}\n", story);
+    fmt::print("{}: {}\n", path, totals.line());
+    wrong += totals.wrong();
+  }
+  return wrong;
+}
+
 int falsify(int argc, char** argv) {
   const Settings settings = settings_of(argc, argv);
+  if (!settings.follow.empty()) return contradicted_following(settings) == 0 ? 0 : 1;
   if (!settings.contract.empty() || settings.contract_plans > 0) {
     return contradicted_contracts(settings) == 0 ? 0 : 1;
   }
