@@ -55,7 +55,11 @@ ConvexSet ConvexSet::hull(std::span<Vec2> points) {
   points = points.first(
       static_cast<std::size_t>(std::unique(points.begin(), points.end()) - points.begin()));
   // Andrew's monotone chain.
-  std::array<Vec2, 2 * most_points> chain;
+  union Chain {
+    Chain() {}  // NOLINT: the places stay uninitialised
+    std::array<Vec2, 2 * most_points> places;
+  } room;
+  auto& chain = room.places;
   std::size_t n = 0;
   const auto push = [&](Vec2 p, std::size_t kept) {
     while (n >= kept && turn(chain[n - 2], chain[n - 1], p) <= 0.0) --n;
@@ -71,19 +75,59 @@ ConvexSet ConvexSet::hull(std::span<Vec2> points) {
   return made;
 }
 
-ConvexSet ConvexSet::below(double a, double b, double c) const {
+/// Keeps what lies where `off`, a linear function of places, is at most 0.
+template <typename Off>
+void ConvexSet::keep_inside(const Off& off) {
+  double distance[capacity];
+  bool all = true;
+  bool none = true;
+  for (std::size_t i = 0; i < size_; ++i) {
+    distance[i] = off(corner_[i]);
+    all &= distance[i] <= 0.0;
+    none &= distance[i] > 0.0;
+  }
+  if (all) return;
+  if (none) {
+    size_ = 0;
+    return;
+  }
   ConvexSet made;
   for (std::size_t i = 0; i < size_; ++i) {
+    const std::size_t next = i + 1 < size_ ? i + 1 : 0;
+    const double at_p = distance[i];
+    const double at_q = distance[next];
     const Vec2 p = corner_[i];
-    const Vec2 q = corner_[(i + 1) % size_];
-    const double at_p = a * p.x + b * p.y - c;
-    const double at_q = a * q.x + b * q.y - c;
     if (at_p <= 0.0) made.add(p);
     if ((at_p < 0.0 && at_q > 0.0) || (at_p > 0.0 && at_q < 0.0)) {
+      const Vec2 q = corner_[next];
       const double t = at_p / (at_p - at_q);
       made.add({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)});
     }
   }
+  *this = made;
+}
+
+template <double Vec2::*along>
+void ConvexSet::keep_above(double least) {
+  keep_inside([least](Vec2 p) { return least - p.*along; });
+}
+
+template <double Vec2::*along>
+void ConvexSet::keep_below(double most) {
+  keep_inside([most](Vec2 p) { return p.*along - most; });
+}
+
+ConvexSet ConvexSet::within_x(double lo, double hi) const {
+  ConvexSet made = *this;
+  made.keep_above<&Vec2::x>(lo);
+  made.keep_below<&Vec2::x>(hi);
+  return made;
+}
+
+ConvexSet ConvexSet::within_y(double lo, double hi) const {
+  ConvexSet made = *this;
+  made.keep_above<&Vec2::y>(lo);
+  made.keep_below<&Vec2::y>(hi);
   return made;
 }
 
@@ -95,16 +139,6 @@ Box ConvexSet::box() const {
     box.highest = {std::max(box.highest.x, p.x), std::max(box.highest.y, p.y)};
   }
   return box;
-}
-
-ConvexSet ConvexSet::within(const Box& box) const {
-  const Box own = this->box();
-  ConvexSet made = *this;
-  if (own.lowest.x < box.lowest.x) made = made.below(-1.0, 0.0, -box.lowest.x);
-  if (own.highest.x > box.highest.x) made = made.below(1.0, 0.0, box.highest.x);
-  if (own.lowest.y < box.lowest.y) made = made.below(0.0, -1.0, -box.lowest.y);
-  if (own.highest.y > box.highest.y) made = made.below(0.0, 1.0, box.highest.y);
-  return made;
 }
 
 std::size_t ConvexSet::lowest_corner() const {
@@ -134,7 +168,7 @@ bool ConvexSet::turns_left() const {
 ConvexSet sum(const ConvexSet& set, const ConvexSet& step) {
   if (set.empty() || step.empty()) return {};
   if (!set.turns_left() || !step.turns_left()) {
-    const auto ordered = [](ConvexSet s) { return ConvexSet::hull({s.corner_.data(), s.size_}); };
+    const auto ordered = [](ConvexSet s) { return ConvexSet::hull({s.corner_, s.size_}); };
     return sum_of_ordered(ordered(set), ordered(step));
   }
   return sum_of_ordered(set, step);
@@ -145,10 +179,15 @@ ConvexSet sum_of_ordered(const ConvexSet& set, const ConvexSet& step) {
   const std::size_t m = step.size_;
   const std::size_t a = set.lowest_corner();
   const std::size_t b = step.lowest_corner();
-  const auto edge = [](const ConvexSet& s, std::size_t from) {
-    return s.corner_[(from + 1) % s.size_] - s.corner_[from % s.size_];
+  const auto edge = [](const ConvexSet& s, std::size_t from) {  // from < 2 size
+    const std::size_t at = from < s.size_ ? from : from - s.size_;
+    return s.corner_[at + 1 < s.size_ ? at + 1 : 0] - s.corner_[at];
   };
-  std::array<Vec2, 2 * ConvexSet::capacity> corner;
+  union Corners {
+    Corners() {}  // NOLINT: the places stay uninitialised
+    std::array<Vec2, 2 * ConvexSet::capacity> places;
+  } room;
+  auto& corner = room.places;
   std::size_t count = 0;
   Vec2 at = set.corner_[a] + step.corner_[b];
   const std::size_t edges_a = n > 1 ? n : 0;
