@@ -49,6 +49,14 @@ ConvexSet ConvexSet::of_directions(std::span<const Vec2> points) {
   return made;
 }
 
+ConvexSet ConvexSet::of_ordered(std::span<const Vec2> corners, bool counter_clockwise) {
+  ConvexSet made;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    made.add(corners[counter_clockwise ? i : corners.size() - 1 - i]);
+  }
+  return made;
+}
+
 ConvexSet ConvexSet::hull(std::span<Vec2> points) {
   std::sort(points.begin(), points.end(),
             [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });

@@ -53,6 +53,8 @@ class ConvexSet {
   /// The smallest box around it; it is not empty.
   Box box() const;
 
+  /// Of corners in their order, at most `simple`.
+  static ConvexSet of_ordered(std::span<const Vec2> corners, bool counter_clockwise);
   /// The hull of points; they are put in order.
   static ConvexSet hull(std::span<Vec2> points);
 

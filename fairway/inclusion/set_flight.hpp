@@ -106,6 +106,7 @@ class SetFlight {
   std::optional<Box> start_;
   std::vector<TurningSet> turning_;
   std::vector<PartPiece> pieces_;  ///< of the present step
+  std::vector<Vec2> on_;           ///< corners of those who turn on
   int steps_ = 0;
 };
 
