@@ -13,6 +13,11 @@ double turn(Vec2 o, Vec2 a, Vec2 b) {
   return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
+bool is_about(Vec2 a, Vec2 b) {
+  const double size = 1.0 + std::max(std::abs(a.x), std::abs(a.y));
+  return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= 0x1p-46 * size;
+}
+
 constexpr int directions = 16;
 const std::array<Vec2, directions>& compass() {
   static const std::array<Vec2, directions> made = [] {
@@ -43,9 +48,13 @@ ConvexSet ConvexSet::of_directions(std::span<const Vec2> points) {
   for (std::size_t k = 0; k < directions; ++k) {
     const std::size_t l = (k + 1) % directions;
     const double across = toward[k].x * toward[l].y - toward[k].y * toward[l].x;
-    made.add({(reach[k] * toward[l].y - reach[l] * toward[k].y) / across,
-              (toward[k].x * reach[l] - toward[l].x * reach[k]) / across});
+    const Vec2 corner{(reach[k] * toward[l].y - reach[l] * toward[k].y) / across,
+                      (toward[k].x * reach[l] - toward[l].x * reach[k]) / across};
+    // Edges of no length but for rounding would point anywhere.
+    if (made.size_ > 0 && is_about(corner, made.corner_[made.size_ - 1])) continue;
+    made.add(corner);
   }
+  if (made.size_ > 1 && is_about(made.corner_[0], made.corner_[made.size_ - 1])) --made.size_;
   return made;
 }
 
@@ -175,11 +184,10 @@ bool ConvexSet::turns_left() const {
 /// From its lowest corner, a sum goes along the edges of both, in the order of their directions.
 ConvexSet sum(const ConvexSet& set, const ConvexSet& step) {
   if (set.empty() || step.empty()) return {};
-  if (!set.turns_left() || !step.turns_left()) {
-    const auto ordered = [](ConvexSet s) { return ConvexSet::hull({s.corner_, s.size_}); };
-    return sum_of_ordered(ordered(set), ordered(step));
-  }
-  return sum_of_ordered(set, step);
+  const auto ordered = [](ConvexSet s) {
+    return s.turns_left() ? s : ConvexSet::hull({s.corner_, s.size_});
+  };
+  return sum_of_ordered(ordered(set), ordered(step));
 }
 
 ConvexSet sum_of_ordered(const ConvexSet& set, const ConvexSet& step) {
