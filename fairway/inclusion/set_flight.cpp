@@ -192,9 +192,17 @@ void SetFlight::touch(const ConvexSet& set) {
   for_parts(parts_, set, [&](PartPlace, PartKind kind, const ConvexSet&) { ends_there(kind); });
 }
 
+/// Whether nothing more needs to be flown.
+bool SetFlight::is_over() {
+  if (options_.is_enough != nullptr && !image_.is_partial && !image_.gave_up) {
+    image_.is_partial = (*options_.is_enough)(image_);
+  }
+  return image_.gave_up || image_.is_partial;
+}
+
 void SetFlight::finish() {
   const int most_sets = options_.most_steps;
-  for (int sets = 0; !turning_.empty() && !image_.gave_up; ++sets) {
+  for (int sets = 0; !turning_.empty() && !is_over(); ++sets) {
     const TurningSet set = turning_.back();
     turning_.pop_back();
     if (sets > most_sets) image_.gave_up = true;

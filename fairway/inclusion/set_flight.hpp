@@ -85,6 +85,7 @@ class SetFlight {
     ArrivingSet arriving;
   };
 
+  bool is_over();
   static double beyond(const HeadingArc& arc, double heading_rad, Turn turn);
   bool ends_there(PartKind kind);
   void keep_ahead_of_start(Crossing& crossing) const;

@@ -93,7 +93,7 @@ void SetFlight::turn(const TurningSet& set) {
       parts_.turn_radius().most * options_.step_rad;  // who checks may begin a step sooner
   bool forgot = false;                                // some may hold no side any more
   std::vector<Gathered> back;                         // what turns back
-  while (!image_.gave_up) {
+  while (!is_over()) {
     if (++steps_ > options_.most_steps || sign * (at - from.lo_rad) > 3.0 * whole_turn_rad) {
       image_.gave_up = true;
       return;
