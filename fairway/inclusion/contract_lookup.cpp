@@ -58,10 +58,9 @@ class Finding {
       next = at + 1 != last && at[1] < crossing.hi * units;
       const auto leaf = static_cast<std::size_t>(at - verdicts_.begin.begin());
       found_ |= bit(verdicts_.verdict[leaf]);
-      worst_time_s_ =
-          std::max(worst_time_s_,
-                   crossing.flown * part_s_ +
-                       static_cast<double>(verdicts_.group_time_s[verdicts_.group[leaf]]));
+      worst_time_s_ = std::max(
+          worst_time_s_, crossing.flown * part_s_ +
+                             static_cast<double>(verdicts_.group_time_s[verdicts_.group[leaf]]));
       if (verdicts_.verdict[leaf] == 0 && answer_.undecided_section == ContractAnswer::no_section) {
         answer_.undecided_section = section;
         answer_.undecided_place = std::max(crossing.lo, *at / units);

@@ -13,8 +13,8 @@ namespace fairway {
 struct ContractAnswer {
   Verdict verdict = Verdict::undecided;
   double worst_time_s = 0.0;  ///< no behaviour takes longer; +inf when trapped or undecided
-  /// Bit v: some behaviour may come to Verdict v. When undecided, looking ends as soon as it is: then
-  /// there may be others; and a section it may cross that is undecided, or none.
+  /// Bit v: some behaviour may come to Verdict v. When undecided, looking ends as soon as it is:
+  /// then there may be others; and a section it may cross that is undecided, or none.
   std::uint8_t possible = 0;
   std::size_t undecided_section = no_section;
   double undecided_place = 0.0;  ///< along it, 0 to 1

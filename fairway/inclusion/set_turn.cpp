@@ -27,8 +27,8 @@ SetFlight::Step SetFlight::step_from(const ConvexSet& set, double begin_rad, dou
   const auto [least, most] = parts_.turn_radius();
   // Of any radius: the triangle of the least, and what more of it adds.
   const double more = most - least;
-  const std::array<Vec2, 5> swept{Vec2{}, most * first, most * chord,
-                                  least * chord + more * second, more * second};
+  const std::array<Vec2, 5> swept{Vec2{}, most * first, most * chord, least * chord + more * second,
+                                  more * second};
   const std::array<Vec2, 4> ends{least * chord, least * chord + more * first, most * chord,
                                  least * chord + more * second};
   const bool to_left = side == Turn::left;
