@@ -13,6 +13,12 @@ double turn(Vec2 o, Vec2 a, Vec2 b) {
   return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
+/// But for rounding.
+bool are_parallel(Vec2 e, Vec2 f) {
+  const double a = e.x * f.y;
+  const double b = e.y * f.x;
+  return std::abs(a - b) <= 1e-14 * (std::abs(a) + std::abs(b));
+}
 bool is_about(Vec2 a, Vec2 b) {
   const double size = 1.0 + std::max(std::abs(a.x), std::abs(a.y));
   return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= 0x1p-46 * size;
@@ -118,7 +124,8 @@ void ConvexSet::keep_inside(const Off& off) {
     if ((at_p < 0.0 && at_q > 0.0) || (at_p > 0.0 && at_q < 0.0)) {
       const Vec2 q = corner_[next];
       const double t = at_p / (at_p - at_q);
-      made.add({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)});
+      const Vec2 between{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
+      if (!is_about(between, at_p < 0.0 ? p : q)) made.add(between);
     }
   }
   *this = made;
@@ -168,14 +175,15 @@ std::size_t ConvexSet::lowest_corner() const {
   return at;
 }
 
-/// Whether every edge turns left of the one before. Rounding can move a corner inwards by its last
-/// bits; where corners lie close, directions are then far off.
+/// Whether every edge turns left of the one before, or goes on along it. Rounding can move a corner
+/// inwards by its last bits; where corners lie close, directions are then far off.
 bool ConvexSet::turns_left() const {
   if (size_ < 3) return true;
   Vec2 before = corner_[0] - corner_[size_ - 1];
   for (std::size_t i = 0; i < size_; ++i) {
     const Vec2 edge = corner_[i + 1 < size_ ? i + 1 : 0] - corner_[i];
-    if (!(cross(before, edge) > 0.0)) return false;
+    const double across = cross(before, edge);
+    if (!(across > 0.0) && !(are_parallel(before, edge) && dot(before, edge) > 0.0)) return false;
     before = edge;
   }
   return true;
@@ -209,7 +217,7 @@ ConvexSet sum_of_ordered(const ConvexSet& set, const ConvexSet& step) {
   const std::size_t edges_a = n > 1 ? n : 0;
   const std::size_t edges_b = m > 1 ? m : 0;
   for (std::size_t i = 0, j = 0; i < edges_a || j < edges_b;) {
-    corner[count++] = at;
+    if (count == 0 || !is_about(at, corner[count - 1])) corner[count++] = at;
     if (i == edges_a) {
       at = at + edge(step, b + j++);
     } else if (j == edges_b) {
@@ -217,20 +225,20 @@ ConvexSet sum_of_ordered(const ConvexSet& set, const ConvexSet& step) {
     } else {
       const Vec2 e = edge(set, a + i);
       const Vec2 f = edge(step, b + j);
-      const double across = e.x * f.y - e.y * f.x;
       // Both point upwards or both downwards when their turn decides.
       const bool up_e = e.y > 0.0 || (e.y == 0.0 && e.x > 0.0);
       const bool up_f = f.y > 0.0 || (f.y == 0.0 && f.x > 0.0);
       if (up_e != up_f) {
         at = at + (up_e ? e : f);
         ++(up_e ? i : j);
-      } else if (std::abs(across) <= 1e-14 * (std::abs(e.x * f.y) + std::abs(e.y * f.x))) {
+      } else if (are_parallel(e, f)) {
         at = at + e + f;
         ++i;
         ++j;
       } else {
-        at = at + (across > 0.0 ? e : f);
-        ++(across > 0.0 ? i : j);
+        const bool first_e = cross(e, f) > 0.0;
+        at = at + (first_e ? e : f);
+        ++(first_e ? i : j);
       }
     }
   }
