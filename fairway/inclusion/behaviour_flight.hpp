@@ -81,4 +81,10 @@ struct BehaviourOptions {
 [[nodiscard]] BehaviourImage image_of_state(const Parts& parts, Vec2 place, double heading_rad,
                                             const BehaviourOptions& options = {});
 
+/// Of all states at a place of `set`, which lies in `part`, an ordinary one, and with a heading of
+/// `headings`.
+[[nodiscard]] BehaviourImage image_of_states(const Parts& parts, PartPlace part,
+                                             const ConvexSet& set, const HeadingArc& headings,
+                                             const BehaviourOptions& options = {});
+
 }  // namespace fairway

@@ -77,22 +77,41 @@ class Finding {
   ContractAnswer answer_;
 };
 
+/// `image(options)`: the image, flown with these options.
+template <typename Image>
+ContractAnswer answer_of_image(const Parts& parts, const ContractVerdictsView& verdicts,
+                               double speed_least_mps, const BehaviourOptions& options,
+                               const Image& image) {
+  Finding finding(parts, verdicts, parts.part_m() / speed_least_mps);
+  const std::function<bool(const BehaviourImage&)> is_undecided =
+      [&finding](const BehaviourImage& so_far) {
+        finding.look(so_far);
+        return finding.is_undecided();
+      };
+  BehaviourOptions until_undecided = options;
+  until_undecided.is_enough = &is_undecided;
+  finding.look(image(until_undecided));
+  return finding.answer();
+}
+
 }  // namespace
 
 ContractAnswer contract_answer(const Parts& parts, const ContractVerdictsView& verdicts,
                                double speed_least_mps, Vec2 place, double heading_rad,
                                const BehaviourOptions& options) {
-  Finding finding(parts, verdicts, parts.part_m() / speed_least_mps);
-  const std::function<bool(const BehaviourImage&)> is_undecided =
-      [&finding](const BehaviourImage& image) {
-        finding.look(image);
-        return finding.is_undecided();
-      };
-  BehaviourOptions until_undecided = options;
-  until_undecided.is_enough = &is_undecided;
-  const BehaviourImage image = image_of_state(parts, place, heading_rad, until_undecided);
-  finding.look(image);
-  return finding.answer();
+  return answer_of_image(parts, verdicts, speed_least_mps, options,
+                         [&](const BehaviourOptions& until_undecided) {
+                           return image_of_state(parts, place, heading_rad, until_undecided);
+                         });
+}
+
+ContractAnswer contract_answer(const Parts& parts, const ContractVerdictsView& verdicts,
+                               double speed_least_mps, PartPlace part, const ConvexSet& set,
+                               const HeadingArc& headings) {
+  return answer_of_image(parts, verdicts, speed_least_mps, {},
+                         [&](const BehaviourOptions& until_undecided) {
+                           return image_of_states(parts, part, set, headings, until_undecided);
+                         });
 }
 
 ContractAnswer contract_answer(const Grid& grid, const Parts& parts,

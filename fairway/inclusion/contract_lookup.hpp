@@ -5,6 +5,8 @@
 #include "fairway/base/vec2.hpp"
 #include "fairway/inclusion/behaviour_flight.hpp"
 #include "fairway/inclusion/contract_verdicts.hpp"
+#include "fairway/inclusion/convex_set.hpp"
+#include "fairway/inclusion/heading_arc.hpp"
 #include "fairway/inclusion/parts.hpp"
 #include "fairway/verify/verdict.hpp"
 
@@ -27,6 +29,13 @@ struct ContractAnswer {
                                              const ContractVerdictsView& verdicts,
                                              double speed_least_mps, Vec2 place, double heading_rad,
                                              const BehaviourOptions& options = {});
+
+/// The same for all states at a place of `set`, which lies in an ordinary part, and with a heading
+/// of `headings`.
+[[nodiscard]] ContractAnswer contract_answer(const Parts& parts,
+                                             const ContractVerdictsView& verdicts,
+                                             double speed_least_mps, PartPlace part,
+                                             const ConvexSet& set, const HeadingArc& headings);
 
 /// The same for a state in metres, wherever it is: what lies a million cells off has left.
 [[nodiscard]] ContractAnswer contract_answer(const Grid& grid, const Parts& parts,

@@ -248,4 +248,16 @@ BehaviourImage image_of_state(const Parts& parts, Vec2 place, double heading_rad
   return image;
 }
 
+BehaviourImage image_of_states(const Parts& parts, PartPlace part, const ConvexSet& set,
+                               const HeadingArc& headings, const BehaviourOptions& options) {
+  BehaviourImage image;
+  SetFlight flight(parts, options, image);
+  flight.touch(set);
+  const ArrivingSet arriving{
+      set, headings.lo_rad, headings.hi_rad(), {headings, 0.0}, 16.0 * place_slack};
+  flight.start(part, arriving, nullptr);
+  flight.finish();
+  return image;
+}
+
 }  // namespace fairway
