@@ -148,6 +148,7 @@ bool SetFlight::ends_there(PartKind kind) {
   if (kind == PartKind::obstacle) end(Verdict::collide);
   if (kind == PartKind::outside) end(Verdict::leave);
   if (kind == PartKind::goal) end(Verdict::reach);
+  if (kind == PartKind::closed) image_.gave_up = true;
   return !is_flown_over(kind);
 }
 
