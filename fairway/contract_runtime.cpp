@@ -14,6 +14,7 @@
 #include "fairway/inclusion/contract_lookup.hpp"
 #include "fairway/inclusion/contract_verdicts.hpp"
 #include "fairway/inclusion/parts.hpp"
+#include "fairway/inclusion/verdict_cache.hpp"
 #include "fairway/vehicle/contract_defect.hpp"
 #include "fairway/vehicle/contract_json.hpp"
 
@@ -96,6 +97,7 @@ struct ContractCertificate::Opened {
   double least_speed_mps = 0.0;
   ContractVerdictsView verdicts;
   std::optional<Parts> parts;
+  std::optional<VerdictCache> cache;
 
   Status take(const void* bytes, std::size_t size);
 };
@@ -128,6 +130,7 @@ Status ContractCertificate::Opened::take(const void* bytes, std::size_t size) {
   if (!is_in_order(verdicts, sections)) return Status::misfit;
   parts.emplace(flow, ground, record.parts_per_cell);
   if (record.follows) parts->close_goal();
+  cache.emplace(*parts, verdicts, least_speed_mps);
   return Status::ok;
 }
 
@@ -156,8 +159,7 @@ Answer ContractCertificate::query(double x_m, double y_m, double heading_rad) co
   if (!opened_ || !finite) return answer;
   try {
     const ContractAnswer found =
-        contract_answer(opened_->flow.grid, *opened_->parts, opened_->verdicts,
-                        opened_->least_speed_mps, {x_m, y_m}, heading_rad);
+        opened_->cache->answer(opened_->flow.grid, {x_m, y_m}, heading_rad);
     answer.verdict = found.verdict;
     if (found.verdict == Verdict::reach) answer.time_bound_s = found.worst_time_s;
   } catch (const std::exception&) {  // no memory

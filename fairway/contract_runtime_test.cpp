@@ -90,10 +90,14 @@ TEST(ContractRuntime, AnswersWhatAQueryAnswers) {
     for (std::size_t k = 0; k < states.size(); ++k) {
       const State& s = states[k];
       const runtime::Answer answer = moved.query(s.position_m.x, s.position_m.y, s.heading.rad());
-      ASSERT_EQ(answer.verdict, replies[k].verdict) << "seed " << seed << ", state " << k;
+      // As one of a box of states it may be decided, too, and its bound is that of the box.
+      if (replies[k].verdict != Verdict::undecided) {
+        ASSERT_EQ(answer.verdict, replies[k].verdict) << "seed " << seed << ", state " << k;
+      }
       ++seen[static_cast<std::size_t>(answer.verdict)];
       if (answer.verdict == Verdict::reach) {
-        EXPECT_EQ(answer.time_bound_s, replies[k].time_bound_s);
+        EXPECT_GE(answer.time_bound_s, replies[k].time_bound_s);
+        EXPECT_LT(answer.time_bound_s, HUGE_VAL);
       } else {
         EXPECT_TRUE(std::isinf(answer.time_bound_s));
       }

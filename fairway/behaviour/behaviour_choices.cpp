@@ -36,9 +36,15 @@ BehaviourChoices::BehaviourChoices(const Flow& flow, const VehicleContract& cont
   const double size_m = std::abs(g.x0_m) + std::abs(g.y0_m) + g.width_m() + g.height_m();
   // Flights have at most some ten thousand steps; each adds roundings of the coordinates' size.
   margin_m_ = 1e-6 * g.cell_m + 1e-10 * size_m;
-  radii_m_ = {contract.turn_radius_m.least};
-  if (contract.turn_radius_m.most > contract.turn_radius_m.least) {
-    radii_m_.push_back(contract.turn_radius_m.most);
+  double length_m = step_m_;
+  for (std::vector<StepTurn>& turns : turns_) {
+    const auto [least, most] = contract.turn_radius_m;
+    for (const double radius_m : {least, most}) {
+      if (!turns.empty() && most <= least) break;
+      const double angle = length_m / radius_m;
+      turns.push_back({radius_m, angle, std::cos(angle), std::sin(angle)});
+    }
+    length_m *= 0.5;
   }
 }
 

@@ -8,6 +8,7 @@
 // evidence, not proof.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -62,13 +63,22 @@ class BehaviourChoices {
  private:
   friend class ChoicesAt;
 
+  static constexpr int lengths = 14;  ///< of steps: halves of halves
+  /// A turn of a whole step.
+  struct StepTurn {
+    double radius_m;
+    double angle_rad;
+    double cosine;
+    double sine;
+  };
+
   Flow flow_;
   VehicleContract contract_;
   std::vector<float> commands_;
   std::vector<bool> near_goal_;  ///< a target is among the nine cells around
   double step_m_;
   double margin_m_;
-  std::vector<double> radii_m_;  ///< the range's ends
+  std::array<std::vector<StepTurn>, lengths> turns_;  ///< with radii of the range's ends
 };
 
 }  // namespace fairway

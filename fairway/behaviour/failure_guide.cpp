@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 
 #include "fairway/base/error.hpp"
 
@@ -190,8 +191,9 @@ FailureGuide::FailureGuide(const BehaviourChoices& choices, const FailureGuideOp
   y0_m_ = g.y0_m;
   bins_per_m_ = per_cell / g.cell_m;
   level_.assign(g.size() * static_cast<std::size_t>(per_cell * per_cell) * headings, never);
-  std::vector<Reached> reached;
-  std::vector<Reached> next;
+  // Queues give back their memory as they are emptied; the first hold most of what there is.
+  std::deque<Reached> reached;
+  std::deque<Reached> next;
   const auto add = [&](const Reached& state, int steps) {
     const std::size_t bin = bin_of(state.place, state.heading_rad);
     if (bin >= level_.size() || level_[bin] != never) return false;
@@ -203,8 +205,8 @@ FailureGuide::FailureGuide(const BehaviourChoices& choices, const FailureGuideOp
   StepsBack back(choices);
   for (int steps = 1; !next.empty(); ++steps) {
     reached.swap(next);
-    next.clear();
-    for (const Reached& to : reached) {
+    for (; !reached.empty(); reached.pop_front()) {
+      const Reached to = reached.front();
       bool moved = true;
       for (std::size_t kind = 0; kind < StepsBack::kinds; ++kind) {
         Reached at = to;

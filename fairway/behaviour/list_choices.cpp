@@ -15,10 +15,8 @@ double into_range(double angle_rad) {
   return angle_rad <= -pi ? angle_rad + two_pi : angle_rad;
 }
 
-Vec2 turned(Vec2 unit, double by_rad) {
-  const double c = std::cos(by_rad);
-  const double s = std::sin(by_rad);
-  return {unit.x * c - unit.y * s, unit.x * s + unit.y * c};
+Vec2 turned(Vec2 unit, double cosine, double sine) {
+  return {unit.x * cosine - unit.y * sine, unit.x * sine + unit.y * cosine};
 }
 
 }  // namespace
@@ -59,13 +57,14 @@ class ChoicesAt {
     const double error_m = contract_.command_error_m;
     const Vec2 at = ahead_of(from_);
     length_m_ = all_.step_m_;
-    for (int halved = 0; halved < 14; ++halved, length_m_ *= 0.5) {
+    for (int halved = 0; halved < BehaviourChoices::lengths; ++halved, length_m_ *= 0.5) {
+      halved_ = static_cast<std::size_t>(halved);
       const double moved =
           length_m_ * (1.0 + contract_.look_ahead_m / contract_.turn_radius_m.least);
       const double around = moved + error_m + all_.margin_m_;
       const CellRange cells = cells_around(grid_, at, at, around);
       reach_m_ = error_m - bulge_m(length_m_) - all_.margin_m_;
-      own_ = cells.is_one() || halved == 13;
+      own_ = cells.is_one() || halved == BehaviourChoices::lengths - 1;
       if (own_ || reach_m_ > 0.5 * length_m_) {
         gather(own_ ? cells : cells_around(grid_, at, at, reach_m_), at);
         return;
@@ -119,38 +118,69 @@ class ChoicesAt {
     return std::min(two_pi - hold, pi + contract_.side_uncertain_rad);
   }
 
+  /// A turn by a whole step; where it ends is computed when it is asked for.
+  class WholeTurn {
+   public:
+    WholeTurn(const ChoicesAt& at, int side, const BehaviourChoices::StepTurn& turn)
+        : at_(at), side_(side), turn_(turn) {}
+    int side() const { return side_; }
+    double radius_m() const { return turn_.radius_m; }
+    double angle_rad() const { return turn_.angle_rad; }
+    const BehaviourState& end() {
+      if (!is_known_) {
+        end_ = at_.turn(side_, turn_.radius_m,
+                        turned(at_.from_.unit, turn_.cosine, side_ * turn_.sine),
+                        at_.from_.heading_rad + side_ * turn_.angle_rad);
+        is_known_ = true;
+      }
+      return end_;
+    }
+
+   private:
+    const ChoicesAt& at_;
+    int side_;
+    const BehaviourChoices::StepTurn& turn_;
+    bool is_known_ = false;
+    BehaviourState end_;
+  };
+
   void add_turns(int side) {
-    for (const double radius_m : all_.radii_m_) {
-      const double angle = length_m_ / radius_m;
-      const BehaviourState end = turn(side, radius_m, angle, from_.heading_rad + side * angle);
-      const double hold = contract_.hold_side_rad;
-      const double most = most_behind(side) - margin_rad;
-      const bool ahead = add_turn(side, radius_m, end, angle + margin_rad,
-                                  std::min(most, hold + angle - margin_rad), 0);
-      const bool behind = from_.held != -side &&
-                          add_turn(side, radius_m, end, hold + angle + margin_rad, most, side);
-      if (!ahead && !behind) add_aligning_turn(side, radius_m, angle);
+    const double hold = contract_.hold_side_rad;
+    const double most = most_behind(side) - margin_rad;
+    for (const BehaviourChoices::StepTurn& step : all_.turns_[halved_]) {
+      const double angle = step.angle_rad;
+      WholeTurn turn(*this, side, step);
+      const bool ahead =
+          add_turn(turn, angle + margin_rad, std::min(most, hold + angle - margin_rad), 0);
+      const bool behind =
+          from_.held != -side && add_turn(turn, hold + angle + margin_rad, most, side);
+      if (!ahead && !behind) add_aligning_turn(side, step.radius_m, angle);
     }
   }
 
-  BehaviourState turn(int side, double radius_m, double angle, double heading_rad) const {
+  BehaviourState turn(int side, double radius_m, Vec2 end_unit, double heading_rad) const {
     BehaviourState end;
-    end.unit = turned(from_.unit, side * angle);
+    end.unit = end_unit;
     end.heading_rad = into_range(heading_rad);
     end.place =
         from_.place + side * radius_m * Vec2{end.unit.y - from_.unit.y, from_.unit.x - end.unit.x};
     return end;
   }
+  BehaviourState turn_by(int side, double radius_m, double angle, double heading_rad) const {
+    const Vec2 unit = turned(from_.unit, std::cos(angle), side * std::sin(angle));
+    return turn(side, radius_m, unit, heading_rad);
+  }
 
   /// A whole step towards a command that lies `least` to `most` away, to this side.
-  bool add_turn(int side, double radius_m, const BehaviourState& end, double least, double most,
-                int held) {
+  bool add_turn(WholeTurn& turn, double least, double most, int held) {
     if (least > most) return false;
+    const int side = turn.side();
     const auto add = [&](std::size_t cell, double shift) {
       const double error =
           std::clamp(side * shift, -contract_.heading_error_rad, contract_.heading_error_rad);
       BehaviourChoice& choice = choices_.grow();
-      choice = {{side, radius_m, 0.0, end.heading_rad, cell, error}, end, true};
+      choice.step = {side, turn.radius_m(), 0.0, turn.end().heading_rad, cell, error};
+      choice.end = turn.end();
       choice.end.held = held;
       return true;
     };
@@ -160,7 +190,7 @@ class ChoicesAt {
       for (const double u : {away, away - two_pi}) {
         const double shift = std::clamp(u, least, most) - u;
         if (std::abs(shift) > contract_.heading_error_rad) continue;
-        if (is_in_force_at(option, end)) return add(option.cell, shift);
+        if (is_in_force_at(option, turn.end())) return add(option.cell, shift);
       }
     }
     return false;
@@ -190,7 +220,7 @@ class ChoicesAt {
       for (const double u : {away, away - two_pi}) {
         const double angle = exact ? u : u + error - 2.0 * margin_rad;
         if (!(angle > 1e-9 && angle < whole_angle) || u > contract_.hold_side_rad - error) continue;
-        const BehaviourState end = turn(
+        const BehaviourState end = turn_by(
             side, radius_m, angle, exact ? option.command_rad : from_.heading_rad + side * angle);
         if (!is_in_force_at(option, end)) continue;
         choices_.add({{side, radius_m, 0.0, end.heading_rad, own_ ? own_cell : option.cell,
@@ -238,7 +268,7 @@ class ChoicesAt {
       end.place = from_.place + length_m * from_.unit;
       choice = {{0, 0.0, length_m, from_.heading_rad, own_cell, 0.0}, end, false};
     } else {
-      const BehaviourState end = turn(side, radius_m, angle, from_.heading_rad + side * angle);
+      const BehaviourState end = turn_by(side, radius_m, angle, from_.heading_rad + side * angle);
       choice = {{side, radius_m, 0.0, end.heading_rad, own_cell, 0.0}, end, false};
     }
     choice.end.held = std::abs(left) - angle > contract_.hold_side_rad ? side : 0;
@@ -251,6 +281,7 @@ class ChoicesAt {
   BehaviourChoiceList& choices_;
   ShortList<Option, 128> options_;
   double length_m_ = 0.0;
+  std::size_t halved_ = 0;  ///< how often the step is
   double reach_m_ = 0.0;
   bool own_ = false;  ///< the vehicle's own cell is asked, else any within reach_m_
 };

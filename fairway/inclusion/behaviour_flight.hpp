@@ -10,12 +10,14 @@
 //
 // Properties that always hold:
 //   1. Every behaviour within the contract that starts in the set crosses one of the ranges of the
-//      image, aligned with the part it leaves, or ends with one of its ends, or the image gave up.
+//      image, aligned with the part it leaves, or ends with one of its ends, or the image gave up,
+//      or is partial.
 //      Whatever it touches before that crossing is among the ends.
 //   2. Obstacles and the outside are grown by `place_slack`: to come so near is to touch.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "fairway/inclusion/convex_set.hpp"
@@ -51,6 +53,7 @@ struct BehaviourImage {
   std::uint8_t ends = 0;  ///< bit v: some behaviour may end with Verdict v
   double flown = 0.0;     ///< at most, in parts, by those that end
   bool gave_up = false;
+  bool is_partial = false;  ///< enough was known before all was flown
   // With a tube, over all parts on the way (tube.hpp):
   float distance_m = 0.0F;        ///< of the farthest
   double off_rad = 0.0;           ///< between a heading and the path, at most
@@ -64,6 +67,9 @@ struct BehaviourOptions {
   int most_steps = 600;                  ///< of all sets of one image, before it is given up
   const Tube* tube = nullptr;            ///< to tell how far from the path an image leads
   bool tells_visits = false;
+  /// Asked after every step: whether what the image has by now is enough, so that the rest need not
+  /// be flown.
+  const std::function<bool(const BehaviourImage&)>* is_enough = nullptr;
 };
 
 /// Of all that leave `part`, an ordinary one, over places [lo, hi] of `side`, aligned with it.
@@ -74,5 +80,11 @@ struct BehaviourOptions {
 /// Of a single state: `place` in parts.
 [[nodiscard]] BehaviourImage image_of_state(const Parts& parts, Vec2 place, double heading_rad,
                                             const BehaviourOptions& options = {});
+
+/// Of all states at a place of `set`, which lies in `part`, an ordinary one, and with a heading of
+/// `headings`.
+[[nodiscard]] BehaviourImage image_of_states(const Parts& parts, PartPlace part,
+                                             const ConvexSet& set, const HeadingArc& headings,
+                                             const BehaviourOptions& options = {});
 
 }  // namespace fairway

@@ -33,6 +33,7 @@ Found follow(const Parts& parts, const BehaviourImage& image, Behaviour& behavio
         return image.may_end(Verdict::leave) ? Found::as_told : Found::not_told;
       case PartKind::goal:
         return image.may_end(Verdict::reach) ? Found::as_told : Found::not_told;
+      case PartKind::closed:
       case PartKind::wild:
         return Found::not_told;  // the image would have given up
       case PartKind::ordinary:

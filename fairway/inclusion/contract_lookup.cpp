@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace fairway {
@@ -12,46 +13,105 @@ constexpr double units = 0x1p32;
 
 unsigned bit(std::uint8_t verdict) { return 1U << verdict; }
 
+/// What the image of a state has come to so far.
+class Finding {
+ public:
+  Finding(const Parts& parts, const ContractVerdictsView& verdicts, double part_s)
+      : parts_(parts), verdicts_(verdicts), part_s_(part_s) {}
+
+  /// Looks at what is new in the image.
+  void look(const BehaviourImage& image) {
+    found_ |= image.ends | (image.gave_up ? bit(0) : 0U);
+    for (; seen_ < image.crossings.size(); ++seen_) look(image.crossings[seen_]);
+    worst_time_s_ = std::max(worst_time_s_, image.flown * part_s_);
+  }
+
+  /// For good: whatever is found besides does not make one verdict of it.
+  bool is_undecided() const {
+    return (found_ & bit(0)) != 0 || (found_ != 0 && !std::has_single_bit(found_));
+  }
+
+  ContractAnswer answer() const {
+    ContractAnswer answer = answer_;
+    answer.possible = static_cast<std::uint8_t>(found_);
+    if (std::has_single_bit(found_)) {
+      answer.verdict = static_cast<Verdict>(std::countr_zero(found_));
+    }
+    answer.worst_time_s = answer.verdict == Verdict::undecided
+                              ? std::numeric_limits<double>::infinity()
+                              : worst_time_s_;
+    return answer;
+  }
+
+ private:
+  void look(const Crossing& crossing) {
+    const std::size_t section =
+        4 * parts_.index(crossing.part) + static_cast<std::size_t>(crossing.side);
+    const auto first = verdicts_.begin.begin() + verdicts_.first[section];
+    const auto last = verdicts_.begin.begin() + verdicts_.first[section + 1];
+    auto at = std::upper_bound(first, last, crossing.lo * units,
+                               [](double lo, std::uint32_t begin) { return lo < begin; });
+    if (first == last) found_ |= bit(0);
+    if (at != first) --at;
+    // The last that begins at `lo` or before, and those that begin before `hi`.
+    for (bool next = true; at != last && next; ++at) {
+      next = at + 1 != last && at[1] < crossing.hi * units;
+      const auto leaf = static_cast<std::size_t>(at - verdicts_.begin.begin());
+      found_ |= bit(verdicts_.verdict[leaf]);
+      worst_time_s_ = std::max(
+          worst_time_s_, crossing.flown * part_s_ +
+                             static_cast<double>(verdicts_.group_time_s[verdicts_.group[leaf]]));
+      if (verdicts_.verdict[leaf] == 0 && answer_.undecided_section == ContractAnswer::no_section) {
+        answer_.undecided_section = section;
+        answer_.undecided_place = std::max(crossing.lo, *at / units);
+      }
+    }
+  }
+
+  const Parts& parts_;
+  const ContractVerdictsView& verdicts_;
+  double part_s_;
+  std::size_t seen_ = 0;  ///< of the crossings
+  unsigned found_ = 0;
+  double worst_time_s_ = 0.0;
+  ContractAnswer answer_;
+};
+
+/// `image(options)`: the image, flown with these options.
+template <typename Image>
+ContractAnswer answer_of_image(const Parts& parts, const ContractVerdictsView& verdicts,
+                               double speed_least_mps, const BehaviourOptions& options,
+                               const Image& image) {
+  Finding finding(parts, verdicts, parts.part_m() / speed_least_mps);
+  const std::function<bool(const BehaviourImage&)> is_undecided =
+      [&finding](const BehaviourImage& so_far) {
+        finding.look(so_far);
+        return finding.is_undecided();
+      };
+  BehaviourOptions until_undecided = options;
+  until_undecided.is_enough = &is_undecided;
+  finding.look(image(until_undecided));
+  return finding.answer();
+}
+
 }  // namespace
 
 ContractAnswer contract_answer(const Parts& parts, const ContractVerdictsView& verdicts,
                                double speed_least_mps, Vec2 place, double heading_rad,
                                const BehaviourOptions& options) {
-  const BehaviourImage image = image_of_state(parts, place, heading_rad, options);
-  ContractAnswer answer;
-  const double seconds = parts.part_m() / speed_least_mps;
-  unsigned found = image.ends | (image.gave_up ? bit(0) : 0U);
-  answer.worst_time_s = image.flown * seconds;
-  for (const Crossing& crossing : image.crossings) {
-    const std::size_t section =
-        4 * parts.index(crossing.part) + static_cast<std::size_t>(crossing.side);
-    const auto first = verdicts.begin.begin() + verdicts.first[section];
-    const auto last = verdicts.begin.begin() + verdicts.first[section + 1];
-    auto at = std::upper_bound(first, last, crossing.lo * units,
-                               [](double lo, std::uint32_t begin) { return lo < begin; });
-    if (first == last) found |= bit(0);
-    if (at != first) --at;
-    // The last that begins at `lo` or before, and those that begin before `hi`.
-    for (bool next = true; at != last && next; ++at) {
-      next = at + 1 != last && at[1] < crossing.hi * units;
-      const auto leaf = static_cast<std::size_t>(at - verdicts.begin.begin());
-      found |= bit(verdicts.verdict[leaf]);
-      answer.worst_time_s =
-          std::max(answer.worst_time_s,
-                   crossing.flown * seconds +
-                       static_cast<double>(verdicts.group_time_s[verdicts.group[leaf]]));
-      if (verdicts.verdict[leaf] == 0 && answer.undecided_section == ContractAnswer::no_section) {
-        answer.undecided_section = section;
-        answer.undecided_place = std::max(crossing.lo, *at / units);
-      }
-    }
-  }
-  answer.possible = static_cast<std::uint8_t>(found);
-  if (std::has_single_bit(found)) answer.verdict = static_cast<Verdict>(std::countr_zero(found));
-  if (answer.verdict == Verdict::undecided) {
-    answer.worst_time_s = std::numeric_limits<double>::infinity();
-  }
-  return answer;
+  return answer_of_image(parts, verdicts, speed_least_mps, options,
+                         [&](const BehaviourOptions& until_undecided) {
+                           return image_of_state(parts, place, heading_rad, until_undecided);
+                         });
+}
+
+ContractAnswer contract_answer(const Parts& parts, const ContractVerdictsView& verdicts,
+                               double speed_least_mps, PartPlace part, const ConvexSet& set,
+                               const HeadingArc& headings) {
+  return answer_of_image(parts, verdicts, speed_least_mps, {},
+                         [&](const BehaviourOptions& until_undecided) {
+                           return image_of_states(parts, part, set, headings, until_undecided);
+                         });
 }
 
 ContractAnswer contract_answer(const Grid& grid, const Parts& parts,

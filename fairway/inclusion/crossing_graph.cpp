@@ -27,16 +27,78 @@ bool is_crossed(const Parts& parts, PartPlace part, std::size_t side) {
 }  // namespace
 
 CrossingLink CrossingLink::of(const Crossing& crossing, std::size_t part_index) {
-  constexpr double coarse_rad = 1e-6;  // above the rounding of floats
+  constexpr double units_per_rad = 0x1p16 / whole_turn_rad;
+  constexpr double rounding = 1e-3;  // of a unit
   CrossingLink link;
   link.section = static_cast<std::uint32_t>(section_number(part_index, crossing.side));
   link.lo = unit_below(crossing.lo);
   link.hi = std::max(link.lo, last_unit(crossing.hi));
-  link.heading_lo_rad =
-      static_cast<float>(std::remainder(crossing.headings.lo_rad, whole_turn_rad) - coarse_rad);
-  link.heading_width_rad = static_cast<float>(crossing.headings.width_rad + 2.0 * coarse_rad);
+  const double from = units_per_rad * counted_from_zero(crossing.headings.lo_rad) - rounding;
+  const double first = std::floor(from);
+  const double to = from + units_per_rad * crossing.headings.width_rad + 2.0 * rounding;
+  link.heading_lo = static_cast<std::uint16_t>(static_cast<std::int64_t>(first) & 0xffff);
+  link.heading_width =
+      static_cast<std::uint16_t>(std::clamp(std::ceil(to) - first - 1.0, 0.0, 65535.0));
   link.flown = static_cast<float>(crossing.flown * generous);
   return link;
+}
+
+bool CrossingLink::covers(const CrossingLink& other) const {
+  const std::uint16_t off = static_cast<std::uint16_t>(other.heading_lo - heading_lo);
+  return section == other.section && lo <= other.lo && hi >= other.hi && flown >= other.flown &&
+         off + std::uint32_t{other.heading_width} <= heading_width;
+}
+
+LinkStore::Place LinkStore::add(std::span<const CrossingLink> links) {
+  if (links.empty()) return {};
+  require(links.size() <= block_size, "LinkStore: links fit into a block");
+  if (block_.empty() || block_.back().size() + links.size() > block_size) {
+    block_.emplace_back().reserve(block_size);
+  }
+  std::vector<CrossingLink>& last = block_.back();
+  const Place place{static_cast<std::uint32_t>(block_.size() - 1),
+                    static_cast<std::uint16_t>(last.size()),
+                    static_cast<std::uint16_t>(links.size())};
+  last.insert(last.end(), links.begin(), links.end());
+  return place;
+}
+
+void LinkStore::keep(std::span<Place> places) {
+  std::vector<std::size_t> waiting(block_.size(), 0);  // links not yet moved
+  for (const Place& p : places) {
+    if (p.count > 0) waiting[p.block] += p.count;
+  }
+  std::vector<bool> is_sparse(block_.size());
+  for (std::size_t b = 0; b < block_.size(); ++b) {
+    is_sparse[b] = 4 * waiting[b] < 3 * block_size;
+    if (waiting[b] == 0) block_[b] = {};
+  }
+  block_.emplace_back();  // full: what is moved goes to new ones
+  for (Place& p : places) {
+    if (p.count == 0 || !is_sparse[p.block]) continue;
+    const std::uint32_t from = p.block;
+    p = add(of(p));
+    waiting[from] -= p.count;
+    if (waiting[from] == 0) block_[from] = {};
+  }
+  std::vector<std::uint32_t> number(block_.size());
+  std::uint32_t count = 0;
+  for (std::size_t b = 0; b < block_.size(); ++b) {
+    number[b] = count;
+    if (block_[b].empty()) continue;
+    if (count < b) block_[count] = std::move(block_[b]);
+    ++count;
+  }
+  block_.resize(count);
+  for (Place& p : places) {
+    if (p.count > 0) p.block = number[p.block];
+  }
+}
+
+std::size_t LinkStore::bytes() const {
+  std::size_t sum = block_.capacity() * sizeof(block_[0]);
+  for (const auto& block : block_) sum += block.capacity() * sizeof(CrossingLink);
+  return sum;
 }
 
 CrossingGraph::CrossingGraph(const Parts& parts, std::uint32_t pieces)
@@ -56,7 +118,7 @@ CrossingGraph::CrossingGraph(const Parts& parts, std::uint32_t pieces)
     }
   }
   first_.back() = static_cast<Id>(leaf_.size());
-  first_link_.assign(leaf_.size() + 1, 0);
+  place_.resize(leaf_.size());
 }
 
 std::size_t CrossingGraph::section_of(Id id) const {
@@ -84,110 +146,114 @@ CrossingGraph::Range CrossingGraph::leaves_of(std::size_t section, std::uint32_t
   return {low, end};
 }
 
+void CrossingGraph::fly_leaf(Id id, std::size_t section, const Parts& parts,
+                             const BehaviourOptions& options, std::vector<CrossingLink>& links) {
+  Leaf& leaf = leaf_[id];
+  const BehaviourImage image =
+      image_of_crossing(parts, parts.place(section / sections_per_part),
+                        static_cast<PartSide>(section % sections_per_part),
+                        leaf.begin / static_cast<double>(side_units),
+                        end_of(id, section) / static_cast<double>(side_units), options);
+  leaf.state = LeafState::open;
+  leaf.ends = image.ends;
+  leaf.gave_up = image.gave_up || image.crossings.size() > LinkStore::block_size;
+  leaf.distance_m = image.distance_m;
+  leaf.off_rad = std::nextafter(static_cast<float>(image.off_rad), HUGE_VALF);
+  leaf.end_flown = static_cast<float>(image.flown * generous);
+  links.clear();
+  if (leaf.gave_up) return;
+  for (const Crossing& crossing : image.crossings) {
+    const CrossingLink link = CrossingLink::of(crossing, parts.index(crossing.part));
+    // Successive steps of a turn often tell the same, of more headings.
+    constexpr std::size_t most_asked = 16;
+    const auto latest =
+        links.end() - static_cast<std::ptrdiff_t>(std::min(links.size(), most_asked));
+    if (std::any_of(latest, links.end(), [&](const CrossingLink& l) { return l.covers(link); })) {
+      continue;
+    }
+    const auto covered =
+        std::remove_if(latest, links.end(), [&](const CrossingLink& l) { return link.covers(l); });
+    links.erase(covered, links.end());
+    links.push_back(link);
+  }
+}
+
 void CrossingGraph::fly(const Parts& parts, const BehaviourOptions& options,
                         const std::function<bool()>& go_on) {
+  // Some thousand leaves at a time, so that few links are there twice.
+  constexpr std::size_t batch = 8192;
+  constexpr std::size_t chunk = 64;
   std::vector<Id> fresh;
   std::vector<std::uint32_t> section;
+  std::array<std::vector<CrossingLink>, batch / chunk> flown;
+  const auto fly_batch = [&] {
+    for_ranges((fresh.size() + chunk - 1) / chunk, 1, [&](std::size_t a, std::size_t b) {
+      std::vector<CrossingLink> links;
+      for (std::size_t c = a; c < b; ++c) {
+        flown[c].clear();
+        if (!go_on()) continue;
+        for (std::size_t k = c * chunk; k < std::min(fresh.size(), (c + 1) * chunk); ++k) {
+          fly_leaf(fresh[k], section[k], parts, options, links);
+          place_[fresh[k]].count = static_cast<std::uint16_t>(links.size());
+          flown[c].insert(flown[c].end(), links.begin(), links.end());
+        }
+      }
+    });
+    std::size_t taken = 0;
+    for (std::size_t k = 0; k < fresh.size(); ++k) {
+      const std::vector<CrossingLink>& from = flown[k / chunk];
+      if (k % chunk == 0) taken = 0;
+      LinkStore::Place& place = place_[fresh[k]];
+      const std::size_t count = place.count;
+      place = links_.add({from.data() + taken, count});
+      taken += count;
+    }
+    fresh.clear();
+    section.clear();
+  };
   for (std::size_t s = 0; s < sections(); ++s) {
     for (Id id = first_[s]; id < first_[s + 1]; ++id) {
       if (leaf_[id].state != LeafState::fresh) continue;
       fresh.push_back(id);
       section.push_back(static_cast<std::uint32_t>(s));
+      if (fresh.size() == batch) fly_batch();
     }
   }
-  constexpr std::size_t chunk = 64;
-  struct Flown {
-    std::vector<CrossingLink> links;
-    std::array<std::uint32_t, chunk> count{};
-  };
-  std::vector<Flown> flown((fresh.size() + chunk - 1) / chunk);
-  for_ranges(flown.size(), 1, [&](std::size_t a, std::size_t b) {
-    for (std::size_t c = a; c < b && go_on(); ++c) {
-      for (std::size_t k = c * chunk; k < std::min(fresh.size(), (c + 1) * chunk); ++k) {
-        const Id id = fresh[k];
-        Leaf& leaf = leaf_[id];
-        const std::size_t s = section[k];
-        const BehaviourImage image =
-            image_of_crossing(parts, parts.place(s / 4), static_cast<PartSide>(s % 4),
-                              leaf.begin / static_cast<double>(side_units),
-                              end_of(id, s) / static_cast<double>(side_units), options);
-        leaf.state = LeafState::open;
-        leaf.ends = image.ends;
-        leaf.gave_up = image.gave_up;
-        leaf.distance_m = image.distance_m;
-        leaf.off_rad = std::nextafter(static_cast<float>(image.off_rad), HUGE_VALF);
-        leaf.end_flown = static_cast<float>(image.flown * generous);
-        if (image.gave_up) continue;
-        for (const Crossing& crossing : image.crossings) {
-          flown[c].links.push_back(CrossingLink::of(crossing, parts.index(crossing.part)));
-        }
-        flown[c].count[k % chunk] = static_cast<std::uint32_t>(image.crossings.size());
-      }
-    }
-  });
-  // The links in the order of the leaves.
-  std::vector<std::uint32_t> first_link(leaf_.size() + 1);
-  std::size_t total = link_.size();
-  for (const Flown& f : flown) total += f.links.size();
-  require(total < ~std::uint32_t{0}, "a plan has fewer than 2^32 links");
-  std::vector<CrossingLink> link;
-  link.reserve(total);
-  std::size_t next = 0;  // of fresh
-  std::size_t taken = 0;
-  for (Id id = 0; id < leaf_.size(); ++id) {
-    first_link[id] = static_cast<std::uint32_t>(link.size());
-    if (next < fresh.size() && fresh[next] == id) {
-      Flown& f = flown[next / chunk];
-      if (next % chunk == 0) taken = 0;
-      const std::uint32_t count = f.count[next % chunk];
-      link.insert(link.end(), f.links.begin() + static_cast<std::ptrdiff_t>(taken),
-                  f.links.begin() + static_cast<std::ptrdiff_t>(taken + count));
-      taken += count;
-      if (++next % chunk == 0) f.links = {};
-    } else {
-      const auto old = links(id);
-      link.insert(link.end(), old.begin(), old.end());
-    }
-  }
-  first_link.back() = static_cast<std::uint32_t>(link.size());
-  link_ = std::move(link);
-  first_link_ = std::move(first_link);
+  fly_batch();
 }
 
 void CrossingGraph::cut(const std::vector<bool>& which) {
   std::vector<Leaf> leaf;
-  std::vector<std::uint32_t> first_link;
-  std::vector<CrossingLink> link;
+  std::vector<LinkStore::Place> place;
+  const auto more = std::count(which.begin(), which.end(), true);
+  leaf.reserve(leaf_.size() + static_cast<std::size_t>(more));
   for (std::size_t s = 0; s < sections(); ++s) {
     const Id begin = first_[s];
     const Id end = first_[s + 1];
     const Id new_first = static_cast<Id>(leaf.size());
     for (Id id = begin; id < end; ++id) {
       const Leaf& old = leaf_[id];
-      first_link.push_back(static_cast<std::uint32_t>(link.size()));
-      if (which[id]) {
-        const std::uint32_t middle =
-            old.begin + ((id + 1 < end ? leaf_[id + 1].begin : side_units) - old.begin) / 2;
-        for (const std::uint32_t at : {old.begin, middle}) {
-          Leaf& half = leaf.emplace_back();
-          half.begin = at;
-          if (at == old.begin) first_link.push_back(static_cast<std::uint32_t>(link.size()));
-        }
+      if (!which[id]) {
+        leaf.push_back(old);
         continue;
       }
-      leaf.push_back(old);
-      if (old.state != LeafState::open) continue;
-      const auto kept = links(id);
-      link.insert(link.end(), kept.begin(), kept.end());
+      const std::uint32_t middle =
+          old.begin + ((id + 1 < end ? leaf_[id + 1].begin : side_units) - old.begin) / 2;
+      for (const std::uint32_t at : {old.begin, middle}) leaf.emplace_back().begin = at;
     }
     first_[s] = new_first;  // read no more: ends are taken before
   }
   first_.back() = static_cast<Id>(leaf.size());
-  first_link.push_back(static_cast<std::uint32_t>(link.size()));
   require(leaf.size() < ~Id{0}, "a plan has fewer than 2^32 leaves");
+  place.reserve(leaf.size());
+  for (Id id = 0; id < leaf_.size(); ++id) {
+    const bool kept = leaf_[id].state == LeafState::open && !which[id];
+    place.push_back(kept ? place_[id] : LinkStore::Place{});
+    if (which[id]) place.emplace_back();
+  }
   leaf_ = std::move(leaf);
-  link_ = std::move(link);
-  first_link_ = std::move(first_link);
+  place_ = std::move(place);
+  links_.keep(place_);
 }
 
 }  // namespace fairway

@@ -35,14 +35,42 @@ struct CrossingLink {
   std::uint32_t section = 0;
   std::uint16_t lo = 0;  ///< in units; the range is [lo, hi + 1]
   std::uint16_t hi = 0;
-  float heading_lo_rad = 0.0F;  ///< had since the leaf, widened
-  float heading_width_rad = 0.0F;
-  float flown = 0.0F;  ///< at most, in parts
+  std::uint16_t heading_lo = 0;     ///< had since the leaf, widened, in turns / 2^16
+  std::uint16_t heading_width = 0;  ///< less one
+  float flown = 0.0F;               ///< at most, in parts
 
   HeadingArc headings() const {
-    return {static_cast<double>(heading_lo_rad), static_cast<double>(heading_width_rad)};
+    constexpr double unit_rad = whole_turn_rad / 0x1p16;
+    return {unit_rad * heading_lo, unit_rad * (heading_width + 1.0)};
   }
+  /// Whether whatever follows from `other` follows from this one.
+  bool covers(const CrossingLink& other) const;
   static CrossingLink of(const Crossing& crossing, std::size_t part_index);
+};
+static_assert(sizeof(CrossingLink) == 16);
+
+/// The links of leaves, in blocks, so that they neither move when there are more nor are ever there
+/// twice.
+class LinkStore {
+ public:
+  struct Place {
+    std::uint32_t block = 0;
+    std::uint16_t first = 0;
+    std::uint16_t count = 0;
+  };
+  static constexpr std::size_t block_size = 1U << 15U;  ///< more links of one leaf are too many
+
+  std::span<const CrossingLink> of(Place p) const {
+    if (p.count == 0) return {};
+    return {block_[p.block].data() + p.first, p.count};
+  }
+  Place add(std::span<const CrossingLink> links);
+  /// Keeps the links at these places, and frees blocks that hold little else; places may change.
+  void keep(std::span<Place> places);
+  std::size_t bytes() const;
+
+ private:
+  std::vector<std::vector<CrossingLink>> block_;
 };
 
 enum class LeafState : std::uint8_t {
@@ -81,9 +109,7 @@ class CrossingGraph {
   std::uint32_t end_of(Id id, std::size_t section) const {
     return id + 1 < first_[section + 1] ? leaf_[id + 1].begin : side_units;
   }
-  std::span<const CrossingLink> links(Id id) const {
-    return {link_.data() + first_link_[id], link_.data() + first_link_[id + 1]};
-  }
+  std::span<const CrossingLink> links(Id id) const { return links_.of(place_[id]); }
 
   /// The leaves that a range of a section touches, [first, last).
   struct Range {
@@ -106,14 +132,17 @@ class CrossingGraph {
 
   std::size_t bytes() const {
     return first_.capacity() * sizeof(Id) + leaf_.capacity() * sizeof(Leaf) +
-           first_link_.capacity() * sizeof(std::uint32_t) + link_.capacity() * sizeof(CrossingLink);
+           place_.capacity() * sizeof(LinkStore::Place) + links_.bytes();
   }
 
  private:
+  void fly_leaf(Id id, std::size_t section, const Parts& parts, const BehaviourOptions& options,
+                std::vector<CrossingLink>& links);
+
   std::vector<Id> first_;
   std::vector<Leaf> leaf_;
-  std::vector<std::uint32_t> first_link_;  // [leaves + 1]
-  std::vector<CrossingLink> link_;
+  std::vector<LinkStore::Place> place_;  // [leaves]
+  LinkStore links_;
 };
 
 }  // namespace fairway

@@ -32,7 +32,7 @@ class Decider {
  public:
   Decider(const Parts& parts, CrossingGraph& graph, GroupRecord& groups)
       : parts_(parts), graph_(graph), groups_(groups), member_of_(graph.leaves(), 0) {
-    result_.worth_cutting.assign(graph.leaves(), false);
+    result_.hope.assign(graph.leaves(), CutHope::none);
     result_.cause.assign(graph.leaves(), ~Id{0});
     result_.trouble.assign(graph.leaves(), Trouble::none);
     if (groups.heading_rad.empty()) {
@@ -147,7 +147,10 @@ class Decider {
       const Trouble trouble = own.gave_up ? Trouble::gave_up
                               : several   ? Trouble::mixed
                                           : Trouble::none;
-      result_.worth_cutting[id] = own.gave_up || own.meets_decided || own.comes_back;
+      result_.hope[id] = own.gave_up         ? CutHope::faint
+                         : own.meets_decided ? CutHope::fair
+                         : own.comes_back    ? CutHope::faint
+                                             : CutHope::none;
       if (trouble != Trouble::none && reason == Trouble::none) {
         cause = id;
         reason = trouble;

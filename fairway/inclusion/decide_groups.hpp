@@ -31,9 +31,16 @@ struct GroupRecord {
   std::vector<float> flown;        ///< [groups], in parts, at most, to the end
 };
 
+/// Whether the halves of a leaf that is not decided may be.
+enum class CutHope : std::uint8_t {
+  none,
+  faint,  ///< it meets nothing decided but only itself, or gave up
+  fair    ///< it meets something decided, besides what is not
+};
+
 struct Deciding {
-  std::size_t decided = 0;  ///< leaves, this time
-  std::vector<bool> worth_cutting;
+  std::size_t decided = 0;    ///< leaves, this time
+  std::vector<CutHope> hope;  ///< [leaves], of open ones
   /// [leaves], of open ones: the leaf that it waits for, itself if it is the trouble, and why.
   std::vector<CrossingGraph::Id> cause;
   std::vector<Trouble> trouble;

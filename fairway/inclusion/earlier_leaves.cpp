@@ -8,7 +8,7 @@ namespace fairway {
 
 void CrossingGraph::begin_as(const ContractVerdicts& earlier) {
   require(earlier.first.size() == first_.size(), "earlier leaves are of the same parts");
-  require(link_.empty(), "leaves are cut as earlier before they fly");
+  require(links_.bytes() == 0, "leaves are cut as earlier before they fly");
   constexpr std::uint64_t whole_side = 0x100000000U;
   constexpr auto unit = static_cast<std::uint32_t>(whole_side / side_units);
   std::vector<Leaf> leaf;
@@ -35,7 +35,7 @@ void CrossingGraph::begin_as(const ContractVerdicts& earlier) {
   first_.back() = static_cast<Id>(leaf.size());
   require(leaf.size() < ~Id{0}, "a plan has fewer than 2^32 leaves");
   leaf_ = std::move(leaf);
-  first_link_.assign(leaf_.size() + 1, 0);
+  place_.assign(leaf_.size(), {});
 }
 
 }  // namespace fairway

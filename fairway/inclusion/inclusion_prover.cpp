@@ -32,9 +32,10 @@ InclusionLevel InclusionProver::level_now(int level) const {
 std::vector<bool> InclusionProver::to_cut(int level) const {
   std::vector<bool> which(graph_.leaves(), false);
   const std::uint32_t least = side_units >> static_cast<unsigned>(level);
+  const CutHope enough = level <= limits_.faint_level ? CutHope::faint : CutHope::fair;
   for (std::size_t s = 0; s < graph_.sections(); ++s) {
     for (auto id = graph_.first(s); id < graph_.first(s + 1); ++id) {
-      which[id] = graph_.leaf(id).state == LeafState::open && last_.worth_cutting[id] &&
+      which[id] = graph_.leaf(id).state == LeafState::open && last_.hope[id] >= enough &&
                   graph_.end_of(id, s) - graph_.leaf(id).begin >= 2 * least;
     }
   }

@@ -25,6 +25,7 @@ namespace fairway {
 struct InclusionLimits {
   int first_level = 1;           ///< a side starts as 2^first_level leaves
   int last_level = 6;            ///< no leaf is shorter than a side / 2^last_level
+  int faint_level = 4;           ///< nor than a side / 2^faint_level where hope is faint
   std::size_t memory_bytes = 0;  ///< 0: none
   /// A level that decides less than this share of all sides is the last.
   double least_gain = 0.0005;

@@ -20,6 +20,17 @@ inline Box grown_box(PartPlace p, double by = place_slack) {
   return {{p.ix - by, p.iy - by}, {p.ix + 1 + by, p.iy + 1 + by}};
 }
 
+/// Whether some of a set lies in the part by more than the slack.
+inline bool is_inside(const ConvexSet& set, PartPlace p) {
+  const Box inner = grown_box(p, -place_slack);
+  Vec2 sum;
+  for (const Vec2 corner : set.corners()) sum = sum + corner;
+  const Vec2 middle = (1.0 / static_cast<double>(set.corners().size())) * sum;
+  return (middle.x > inner.lowest.x && middle.x < inner.highest.x && middle.y > inner.lowest.y &&
+          middle.y < inner.highest.y) ||
+         !set.within(inner).empty();
+}
+
 /// Calls body(part, kind, piece) for parts that together hold the set. A part over which behaviours
 /// fly is left out when the set only touches it, and lies within the slack of others there: a set
 /// that came out of a part must not count as being in it. Not so beside an obstacle: who passes so
@@ -37,7 +48,6 @@ void for_parts(const Parts& parts, const ConvexSet& set, const Body& body) {
     body(PartPlace{x0, y0}, parts.kind({x0, y0}), set);
     return;
   }
-  const auto piece = [&](PartPlace p, double by) { return set.within(grown_box(p, by)); };
   constexpr std::size_t most = 64;
   const bool many = static_cast<std::size_t>(x1 - x0 + 1) * static_cast<std::size_t>(y1 - y0 + 1) >
                     most;  // then none is left out
@@ -56,13 +66,15 @@ void for_parts(const Parts& parts, const ConvexSet& set, const Body& body) {
       ends[ends_count++] = p;
     }
   };
-  for (int iy = y0; iy <= y1; ++iy) {
-    for (int ix = x0; ix <= x1; ++ix) {
+  for (int ix = x0; ix <= x1; ++ix) {
+    const ConvexSet column = set.within_x(ix - place_slack, ix + 1 + place_slack);
+    if (column.empty()) continue;
+    for (int iy = y0; iy <= y1; ++iy) {
       const PartPlace p{ix, iy};
-      const PartKind kind = parts.kind(p);
-      const ConvexSet grown = piece(p, place_slack);
+      const ConvexSet grown = column.within_y(iy - place_slack, iy + 1 + place_slack);
       if (grown.empty()) continue;
-      if (many || !is_flown_over(kind) || !piece(p, -place_slack).empty()) {
+      const PartKind kind = parts.kind(p);
+      if (many || !is_flown_over(kind) || is_inside(grown, p)) {
         choose(p, kind, grown);
       } else {
         touched[touched_count++] = p;
@@ -71,7 +83,7 @@ void for_parts(const Parts& parts, const ConvexSet& set, const Body& body) {
   }
   for (std::size_t k = 0; k < touched_count; ++k) {
     const PartPlace p = touched[k];
-    const ConvexSet sliver = piece(p, 0.0);
+    const ConvexSet sliver = set.within(grown_box(p, 0.0));
     const auto holds_it = [&](PartPlace q) {
       return std::all_of(sliver.corners().begin(), sliver.corners().end(), [&](Vec2 c) {
         return c.x >= q.ix - place_slack && c.x <= q.ix + 1 + place_slack &&
@@ -83,7 +95,7 @@ void for_parts(const Parts& parts, const ConvexSet& set, const Body& body) {
                          parts_there.begin() + static_cast<std::ptrdiff_t>(count), holds_it);
     };
     if (!sliver.empty() && (is_held(ends, ends_count) || !is_held(chosen, chosen_count))) {
-      choose(p, parts.kind(p), piece(p, place_slack));
+      choose(p, parts.kind(p), set.within(grown_box(p)));
     }
   }
 }

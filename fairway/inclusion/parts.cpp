@@ -119,7 +119,7 @@ void Parts::claim_nothing(Cell cell) {
 }
 
 void Parts::close_goal() {
-  std::replace(kind_.begin(), kind_.end(), PartKind::goal, PartKind::wild);
+  std::replace(kind_.begin(), kind_.end(), PartKind::goal, PartKind::closed);
 }
 
 }  // namespace fairway

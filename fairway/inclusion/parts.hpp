@@ -29,7 +29,14 @@ namespace fairway {
 inline constexpr double place_slack = 0x1p-20;
 inline constexpr double heading_slack_rad = 0x1p-22;
 
-enum class PartKind : std::uint8_t { ordinary, obstacle, goal, outside, wild };
+enum class PartKind : std::uint8_t {
+  ordinary,
+  obstacle,
+  goal,
+  outside,
+  wild,
+  closed  ///< a goal: nothing is claimed of who touches it
+};
 
 struct PartPlace {
   int ix = 0;

@@ -148,6 +148,7 @@ bool SetFlight::ends_there(PartKind kind) {
   if (kind == PartKind::obstacle) end(Verdict::collide);
   if (kind == PartKind::outside) end(Verdict::leave);
   if (kind == PartKind::goal) end(Verdict::reach);
+  if (kind == PartKind::closed) image_.gave_up = true;
   return !is_flown_over(kind);
 }
 
@@ -192,9 +193,17 @@ void SetFlight::touch(const ConvexSet& set) {
   for_parts(parts_, set, [&](PartPlace, PartKind kind, const ConvexSet&) { ends_there(kind); });
 }
 
+/// Whether nothing more needs to be flown.
+bool SetFlight::is_over() {
+  if (options_.is_enough != nullptr && !image_.is_partial && !image_.gave_up) {
+    image_.is_partial = (*options_.is_enough)(image_);
+  }
+  return image_.gave_up || image_.is_partial;
+}
+
 void SetFlight::finish() {
   const int most_sets = options_.most_steps;
-  for (int sets = 0; !turning_.empty() && !image_.gave_up; ++sets) {
+  for (int sets = 0; !turning_.empty() && !is_over(); ++sets) {
     const TurningSet set = turning_.back();
     turning_.pop_back();
     if (sets > most_sets) image_.gave_up = true;
@@ -236,6 +245,18 @@ BehaviourImage image_of_state(const Parts& parts, Vec2 place, double heading_rad
       flight.start({ix, iy}, arriving, nullptr);
     }
   }
+  flight.finish();
+  return image;
+}
+
+BehaviourImage image_of_states(const Parts& parts, PartPlace part, const ConvexSet& set,
+                               const HeadingArc& headings, const BehaviourOptions& options) {
+  BehaviourImage image;
+  SetFlight flight(parts, options, image);
+  flight.touch(set);
+  const ArrivingSet arriving{
+      set, headings.lo_rad, headings.hi_rad(), {headings, 0.0}, 16.0 * place_slack};
+  flight.start(part, arriving, nullptr);
   flight.finish();
   return image;
 }

@@ -85,6 +85,7 @@ class SetFlight {
     ArrivingSet arriving;
   };
 
+  bool is_over();
   static double beyond(const HeadingArc& arc, double heading_rad, Turn turn);
   bool ends_there(PartKind kind);
   void keep_ahead_of_start(Crossing& crossing) const;
@@ -106,6 +107,7 @@ class SetFlight {
   std::optional<Box> start_;
   std::vector<TurningSet> turning_;
   std::vector<PartPiece> pieces_;  ///< of the present step
+  std::vector<Vec2> on_;           ///< corners of those who turn on
   int steps_ = 0;
 };
 

@@ -24,14 +24,17 @@ SetFlight::Step SetFlight::step_from(const ConvexSet& set, double begin_rad, dou
   const Vec2 first{tangent * std::cos(begin_rad), tangent * std::sin(begin_rad)};
   const Vec2 second{tangent * std::cos(end_rad), tangent * std::sin(end_rad)};
   const Vec2 chord = first + second;
-  const double least = parts_.turn_radius().least;
-  const double more = parts_.turn_radius().most - least;
+  const auto [least, most] = parts_.turn_radius();
+  // Of any radius: the triangle of the least, and what more of it adds.
+  const double more = most - least;
+  const std::array<Vec2, 5> swept{Vec2{}, most * first, most * chord, least * chord + more * second,
+                                  more * second};
+  const std::array<Vec2, 4> ends{least * chord, least * chord + more * first, most * chord,
+                                 least * chord + more * second};
+  const bool to_left = side == Turn::left;
   Step step{begin_rad, size_rad, {}, {}};
-  std::array<Vec2, 4> spread{Vec2{}, more * first, more * chord, more * second};
-  std::array<Vec2, 3> triangle{Vec2{}, least * first, least * chord};
-  const ConvexSet spreading = ConvexSet::hull({spread.data(), more > 0.0 ? 4U : 1U});
-  step.swept = sum(set, sum(ConvexSet::hull(triangle), spreading));
-  step.ends = sum(ConvexSet(least * chord), spreading);
+  step.swept = sum(set, ConvexSet::of_ordered({swept.data(), more > 0.0 ? 5U : 3U}, to_left));
+  step.ends = ConvexSet::of_ordered({ends.data(), more > 0.0 ? 4U : 1U}, to_left);
   return step;
 }
 
@@ -90,7 +93,7 @@ void SetFlight::turn(const TurningSet& set) {
       parts_.turn_radius().most * options_.step_rad;  // who checks may begin a step sooner
   bool forgot = false;                                // some may hold no side any more
   std::vector<Gathered> back;                         // what turns back
-  while (!image_.gave_up) {
+  while (!is_over()) {
     if (++steps_ > options_.most_steps || sign * (at - from.lo_rad) > 3.0 * whole_turn_rad) {
       image_.gave_up = true;
       return;
@@ -141,24 +144,31 @@ void SetFlight::turn(const TurningSet& set) {
     // Who turns on at the end of the step.
     const ConvexSet there = more_start ? step.swept : sum(here, step.ends);
     // In the same parts: whoever is left out as aligned with one was told of as that above.
-    std::vector<Vec2> on;
-    for (const auto& [p, kind, swept] : pieces_) {
-      if (kind != PartKind::ordinary) continue;
-      const HeadingArc& arc = parts_.arc(p);
+    const auto turns_on = [&](const PartPiece& there_in) {
+      if (there_in.kind != PartKind::ordinary) return false;
+      const HeadingArc& arc = parts_.arc(there_in.part);
       const double x = beyond(arc, end, set.turn);
       const bool aligned =
           x <= arc.width_rad + heading_slack_rad || x >= whole_turn_rad - heading_slack_rad;
       const bool ahead = !aligned && whole_turn_rad - x <= opposite + heading_slack_rad;
       const bool held = x >= hold - heading_slack_rad && x < whole_turn_rad - drop_slack_rad;
-      if (!ahead && !held) continue;
-      const ConvexSet piece = there.within(grown_box(p));
-      on.insert(on.end(), piece.corners().begin(), piece.corners().end());
+      return ahead || held;
+    };
+    if (std::all_of(pieces_.begin(), pieces_.end(), turns_on)) {
+      here = there;  // which holds the start as long as it is needed
+    } else {
+      on_.clear();
+      for (const PartPiece& piece : pieces_) {
+        if (!turns_on(piece)) continue;
+        const ConvexSet part = more_start ? piece.piece : there.within(grown_box(piece.part));
+        on_.insert(on_.end(), part.corners().begin(), part.corners().end());
+      }
+      if (still_to(end) > drop_slack_rad) {
+        on_.insert(on_.end(), from.set.corners().begin(), from.set.corners().end());
+      }
+      if (on_.empty()) break;
+      here = ConvexSet::hull(on_);
     }
-    if (still_to(end) > drop_slack_rad) {
-      on.insert(on.end(), from.set.corners().begin(), from.set.corners().end());
-    }
-    if (on.empty()) break;
-    here = ConvexSet::hull(on);
     at = end;
   }
   for (const Gathered& g : back) turning_.push_back({g.arriving, other(set.turn)});

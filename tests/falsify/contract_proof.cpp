@@ -20,6 +20,7 @@ ContractProof::ContractProof(const Flow& flow, const VehicleContract& contract, 
   InclusionProver prover(parts_, limits);
   prover.run([this](const InclusionLevel& level) { undecided_share_ = level.undecided_share; });
   verdicts_ = prover.verdicts(over_ground_.speed_mps.least);
+  cache_.emplace(parts_, verdicts_, over_ground_.speed_mps.least);
 }
 
 ContractClaim ContractProof::claim(const State& state) const {
@@ -27,6 +28,11 @@ ContractClaim ContractProof::claim(const State& state) const {
   const Vec2 place = (1.0 / parts_.part_m()) * (state.position_m - from);
   const auto answer =
       contract_answer(parts_, verdicts_, over_ground_.speed_mps.least, place, state.heading.rad());
+  return {answer.verdict, answer.worst_time_s};
+}
+
+ContractClaim ContractProof::claim_of_box(const State& state) const {
+  const auto answer = cache_->answer(grid_, state.position_m, state.heading.rad());
   return {answer.verdict, answer.worst_time_s};
 }
 

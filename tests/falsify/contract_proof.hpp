@@ -1,10 +1,12 @@
-// The prover of verdicts under a contract, as the attack asks it.
+// The prover of verdicts under a contract, as the attack asks it: for single states, or for the
+// boxes of states that a vehicle's queries remember.
 #pragma once
 
-#include <memory>
+#include <optional>
 
 #include "fairway/inclusion/contract_verdicts.hpp"
 #include "fairway/inclusion/parts.hpp"
+#include "fairway/inclusion/verdict_cache.hpp"
 #include "tests/falsify/contract_attack.hpp"
 
 namespace fairway {
@@ -16,6 +18,7 @@ class ContractProof {
                 double time_limit_s);
 
   ContractClaim claim(const State& state) const;
+  ContractClaim claim_of_box(const State& state) const;
   std::size_t leaves() const { return verdicts_.leaves(); }
   double undecided_share() const { return undecided_share_; }
 
@@ -24,6 +27,7 @@ class ContractProof {
   VehicleContract over_ground_;
   Parts parts_;
   ContractVerdicts verdicts_;
+  std::optional<VerdictCache> cache_;
   double undecided_share_ = 1.0;
 };
 
