@@ -98,7 +98,8 @@ class SetFlight {
                      const HeadingArc& headings, const Past& past);
   void add_turning(const ArrivingSet& arriving, HeadingArc wanted, Turn turn);
   void turn(const TurningSet& set);
-  Step step_from(const ConvexSet& set, double begin_rad, double size_rad, Turn turn) const;
+  Step step_from(const ConvexSet& set, double begin_rad, double size_rad, Turn turn,
+                 bool starting) const;
   double first_edge(const Step& step, Turn turn);
 
   const Parts& parts_;

@@ -16,8 +16,10 @@ double SetFlight::beyond(const HeadingArc& arc, double heading_rad, Turn turn) {
                             : counted_from_zero(arc.hi_rad() - heading_rad);
 }
 
+/// `starting`: some begin to turn during the step. Such a part of an arc is a sum of headings
+/// within it, so it lies in the parallelogram of the tangents, but not in the triangle.
 SetFlight::Step SetFlight::step_from(const ConvexSet& set, double begin_rad, double size_rad,
-                                     Turn side) const {
+                                     Turn side, bool starting) const {
   const double end_rad = begin_rad + static_cast<int>(side) * size_rad;
   // Tangents of the unit arc meet at this distance from its ends; the arc lies in their triangle.
   const double tangent = std::tan(0.5 * size_rad);
@@ -33,7 +35,10 @@ SetFlight::Step SetFlight::step_from(const ConvexSet& set, double begin_rad, dou
                                  least * chord + more * second};
   const bool to_left = side == Turn::left;
   Step step{begin_rad, size_rad, {}, {}};
-  step.swept = sum(set, ConvexSet::of_ordered({swept.data(), more > 0.0 ? 5U : 3U}, to_left));
+  const std::array<Vec2, 4> parts_of_arcs{Vec2{}, most * first, most * chord, most * second};
+  step.swept = starting
+                   ? sum(set, ConvexSet::of_ordered(parts_of_arcs, to_left))
+                   : sum(set, ConvexSet::of_ordered({swept.data(), more > 0.0 ? 5U : 3U}, to_left));
   step.ends = ConvexSet::of_ordered({ends.data(), more > 0.0 ? 4U : 1U}, to_left);
   return step;
 }
@@ -101,9 +106,9 @@ void SetFlight::turn(const TurningSet& set) {
     const bool more_start = still_to(at) > drop_slack_rad;
     double size = options_.step_rad;
     if (more_start) size = std::min(size, still_to(at));
-    Step step = step_from(here, at, size, set.turn);
+    Step step = step_from(here, at, size, set.turn, more_start);
     for (double edge; (edge = first_edge(step, set.turn)) < size;) {
-      step = step_from(here, at, size = edge, set.turn);
+      step = step_from(here, at, size = edge, set.turn, more_start);
     }
     const double end = at + sign * size;
     const HeadingArc these{std::min(at, end), size};
