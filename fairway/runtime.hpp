@@ -160,7 +160,7 @@ class Certificate {
     }
     if (sections_.first[0] != 0 || sections_.first[4 * cells] != leaves) return Status::misfit;
     for (std::size_t k = 0; k < leaves; ++k) {
-      if (sections_.verdict[k] >= verdict_count) return Status::misfit;
+      if (sections_.verdict[k] >= stored_verdict_count) return Status::misfit;
     }
     opened_ = true;
     return Status::ok;

@@ -37,7 +37,7 @@ void take_sections(const Safetensors& file, const std::string& where, Certificat
   s.verdict = array_of<std::uint8_t>(file, "leaf_verdict", "U8", leaves, where);
   bool fits = leaves_are_in_order(s.first, s.begin);
   for (std::size_t k = 0; fits && k < s.leaves(); ++k) {
-    fits = s.verdict[k] < verdict_count && s.time_s[k] >= 0.0F;
+    fits = s.verdict[k] < stored_verdict_count && s.time_s[k] >= 0.0F;
   }
   if (!fits) throw InputError(where, "has leaves that are out of order or out of range");
 }

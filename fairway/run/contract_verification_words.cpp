@@ -70,6 +70,7 @@ std::vector<Finding> findings(const Plan& plan, const ContractVerification& made
   const auto add = [&](double share, const std::string& what) {
     if (share > 0.0) found.push_back({percent_text(share, decimals), all, what});
   };
+  add(share_of(s.all, Verdict::hold), "are proved to hold, whatever the vehicle does");
   add(share_of(s.all, Verdict::collide), "are proved to collide, whatever it does");
   add(s.at_risk, "are at risk: a behaviour within the contract fails");
   add(share_of(s.all, Verdict::leave), "are proved to leave the map, whatever it does");

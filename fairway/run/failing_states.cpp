@@ -63,7 +63,7 @@ std::vector<FailingState> failing_states(const Certificate& certificate, std::si
       found;
   for (std::size_t k = 0; k < states.size(); ++k) {
     const Verdict verdict = verdicts_of(images[k], certificate.sections.view()).only();
-    if (verdict == Verdict::reach) continue;
+    if (is_safe(verdict)) continue;
     const State start{{states[k].x_m, states[k].y_m}, Heading::from_rad(states[k].heading_rad)};
     const Cell at = certificate.grid.cell_of(start.position_m);
     if (!certificate.grid.contains(at)) continue;

@@ -29,6 +29,10 @@ std::string done_by_states(Verdict verdict, const std::string& goal) {
   switch (verdict) {
     case Verdict::reach:
       return "are proved to reach the " + goal;
+    case Verdict::follow:
+      return "are proved to follow the " + goal;
+    case Verdict::hold:
+      return "are proved to hold: they circle for ever in a holding place, clear of obstacles";
     case Verdict::leave:
       return "are proved to leave the map";
     case Verdict::trapped:

@@ -48,6 +48,8 @@ class Verdict(IntEnum):
     COLLIDE = 2
     LEAVE = 3
     TRAPPED = 4
+    FOLLOW = 5
+    HOLD = 6
 
 class Sampled(IntEnum):
     UNDECIDED = 0

@@ -56,12 +56,14 @@ export function updateVerdictLegend(record: PageRecord, shown: ShownVerdict[]): 
   });
 }
 
-export function showShareLegend(info: VerdictInfo, tiles: Tiles, kind: number): void {
+export function showShareLegend(record: PageRecord, info: VerdictInfo, tiles: Tiles, kind: number): void {
+  const hold = record.styles.verdict.findIndex(({ name }) => name === "hold");
   const { list, paint } = entries([
     ...share_classes.map((name, code) => ({ code, name })).reverse(),
     { code: 6, name: "obstacle" }, { code: 7, name: "goal" }], tiles);
+  const holds = kind === 0 && info.count.some((of) => hold >= 0 && of[hold] > 0);
   byId("legend").replaceChildren(list, el("p", {},
-    `Share of the ${info.heading_rad.length} headings at each cell's sample point that is ${share_kinds[kind]}.`));
+    `Share of the ${info.heading_rad.length} headings at each cell's sample point that is ${share_kinds[kind]}${holds ? " or to hold" : ""}.`));
   paint();
 }
 
