@@ -87,6 +87,7 @@ Verification verify_plan(const Plan& plan, const std::string& where, const Regio
   c.region_of_interest = region;
   c.heading_rad = plan.heading_rad;
   c.region = plan.region;
+  c.holding = holding_cells(plan);
   c.kind = cell_kinds(plan.grid, plan.region, region);
   c.plan = plan_digests(plan);
   c.frame = plan.record.frame;

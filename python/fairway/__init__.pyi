@@ -429,6 +429,7 @@ def plan_arrays(
     blend: Literal["continuous", "paper"] = ...,
     axis_capture_rad: float = ...,
     path_field: Literal["follow", "paper"] = ...,
+    fallback: Literal["hold", "none"] = ...,
 ) -> Plan: ...
 def load_plan(path: _Path) -> Plan: ...
 def verify(

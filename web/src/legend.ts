@@ -85,7 +85,7 @@ export function showCostLegend(record: PageRecord, tiles: Tiles): void {
 export function showRegionLegend(tiles: Tiles): void {
   const { list, paint } = entries([
     { code: 1, name: "safe start: farther than the buffer from obstacles" }, { code: 0, name: "buffer around obstacles" },
-    { code: 2, name: "obstacle" }, { code: 3, name: "goal" }, { code: 4, name: "cut off: no way to the goal, no command" }], tiles);
+    { code: 2, name: "obstacle" }, { code: 3, name: "goal" }, { code: 4, name: "cut off: no way to the goal" }], tiles);
   byId("legend").replaceChildren(list);
   paint();
 }
