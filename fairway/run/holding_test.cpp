@@ -1,12 +1,16 @@
 // What vehicles do that hold: flights and proofs of plans with holding places and of missions that
 // stay at their goal.
 #include <cmath>
+#include <filesystem>
+#include <limits>
 #include <variant>
 
 #include <gtest/gtest.h>
 
 #include "fairway/base/heading.hpp"
+#include "fairway/base/mapped_file.hpp"
 #include "fairway/base/random.hpp"
+#include "fairway/certificate/certificate_file.hpp"
 #include "fairway/field/compute_field.hpp"
 #include "fairway/field/holding_circle.hpp"
 #include "fairway/plan/plan_of_field.hpp"
@@ -47,6 +51,23 @@ State random_state(Random& random, const Grid& grid, Cell low, Cell high) {
           Heading::from_rad(random.uniform(-pi, pi))};
 }
 
+/// The file tells what the certificate tells.
+void expect_same_on_board(const Certificate& certificate, const std::vector<State>& states,
+                          const std::vector<runtime::Answer>& told) {
+  const std::filesystem::path file =
+      std::filesystem::path(::testing::TempDir()) / "holding.cert.safetensors";
+  write_certificate(certificate, file, Existing::replace);
+  EXPECT_EQ(read_certificate(file).holding, certificate.holding);
+  const MappedFile mapped(file);
+  runtime::Certificate on_board;
+  ASSERT_EQ(on_board.open(mapped.bytes().data(), mapped.bytes().size()), runtime::Status::ok);
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const State& s = states[k];
+    ASSERT_EQ(on_board.query(s.position_m.x, s.position_m.y, s.heading.rad()).verdict,
+              told[k].verdict);
+  }
+}
+
 TEST(Holding, ProvedStatesCircleForEverInTheHoldingPlaceAndOthersAreNotToldTo) {
   for (const double cell_m : {6.0, 8.0, 12.0}) {
     const int side = static_cast<int>(120.0 / cell_m);
@@ -85,6 +106,7 @@ TEST(Holding, ProvedStatesCircleForEverInTheHoldingPlaceAndOthersAreNotToldTo) {
       }
     }
     EXPECT_GT(holding, 1200U) << cell_m;
+    expect_same_on_board(made.certificate, states, told);
     const Plan none = plan_of(map, mission, FallbackRule::none);
     const Verification without = verify_plan(none, "plan", {}, options);
     EXPECT_EQ(without.outcome.volume.all[static_cast<std::size_t>(Verdict::hold)], 0.0);
