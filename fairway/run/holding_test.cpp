@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fairway/base/error.hpp"
 #include "fairway/base/heading.hpp"
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/base/random.hpp"
@@ -66,6 +67,10 @@ void expect_same_on_board(const Certificate& certificate, const std::vector<Stat
     ASSERT_EQ(on_board.query(s.position_m.x, s.position_m.y, s.heading.rad()).verdict,
               told[k].verdict);
   }
+  Certificate altered = certificate;
+  altered.holding[0] = 1;  // an obstacle cell
+  write_certificate(altered, file, Existing::replace);
+  EXPECT_THROW(static_cast<void>(read_certificate(file)), InputError);
 }
 
 TEST(Holding, ProvedStatesCircleForEverInTheHoldingPlaceAndOthersAreNotToldTo) {
