@@ -13,8 +13,11 @@ namespace fairway_check {
 namespace {
 
 void take_arrays(const TensorFile& file, Certificate& c) {
-  require(file.tensors.size() == 9, "does not have the arrays of a certificate", unreadable);
+  const bool holds = file.tensors.contains("holding");
+  require(file.tensors.size() == (holds ? 10U : 9U), "does not have the arrays of a certificate",
+          unreadable);
   take_plan_arrays(file, c.geometry, c.loop, c.region);
+  if (holds) require_holding(file, c.region);
   require(c.geometry.cell_m < c.geometry.turn_radius_m,
           "geometry: the cells are not smaller than the turning radius");
   c.first = values<std::uint32_t>(file, "section_first", "U32", {4 * c.loop.kind.size() + 1});

@@ -39,7 +39,11 @@ Claims claims_of(const nlohmann::json& record) {
   for (std::size_t p = 0; p < claims.shares.size(); ++p) {
     double sum = 0.0;
     for (std::size_t v = 0; v < verdict_count; ++v) {
-      sum += claims.shares[p][v] = record.at(portion_name[p]).at(name_in(record, v));
+      const nlohmann::json& named = record.at(portion_name[p]);
+      // `hold` is trapped by another name, in cells from which the mission is out of reach.
+      const double held = v == trapped ? named.value("hold", 0.0) : 0.0;
+      require(held >= 0.0, "volume_fraction: negative share");
+      sum += claims.shares[p][v] = named.at(name_in(record, v)).get<double>() + held;
       require(claims.shares[p][v] >= 0.0, "volume_fraction: negative share");
     }
     require(sum == 0.0 || std::abs(sum - 1.0) < 1e-9,

@@ -63,6 +63,14 @@ void take_plan_arrays(const TensorFile& file, Geometry& geometry, Loop& loop,
   require_geometry(geometry);
 }
 
+void require_holding(const TensorFile& file, const std::vector<std::int8_t>& region) {
+  const auto holding = values<std::uint8_t>(file, "holding", "U8", file.tensors.at("region").shape);
+  for (std::size_t i = 0; i < holding.size(); ++i) {
+    const bool may = region[i] == 0 || region[i] == -1;
+    require(holding[i] <= (may ? 1 : 0), "holding: expected 0, or 1 in a free or a buffer cell");
+  }
+}
+
 void require_digests(const TensorFile& file) {
   const json& claimed = file.record.at("sha256");
   const json& of_plan = file.record.at("plan_sha256");

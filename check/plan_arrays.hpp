@@ -48,6 +48,9 @@ void require_digests(const TensorFile& file);
 /// Requires that it belongs to this plan: arrays, vehicle, grid and frame.
 void require_plan(const TensorFile& file, const Geometry& g, const std::string& plan_path);
 
+/// The array "holding", which only names what trapped states do.
+void require_holding(const TensorFile& file, const std::vector<std::int8_t>& region);
+
 /// Commands, regions and kinds that can be, targets where the record says. `interest`: "goal",
 /// "obstacle", a rectangle, or "cells": those that cell_kind calls targets.
 void require_cells(const Geometry& geometry, const Loop& loop,

@@ -81,7 +81,7 @@ bool is_in_order(const ContractVerdictsView& v, std::uint64_t sections) {
     }
   }
   for (std::size_t k = 0; k < leaves; ++k) {
-    if (v.verdict[k] >= verdict_count || v.group[k] >= v.group_time_s.size()) return false;
+    if (v.verdict[k] >= stored_verdict_count || v.group[k] >= v.group_time_s.size()) return false;
   }
   for (const float time_s : v.group_time_s) {
     if (!(time_s >= 0.0F)) return false;

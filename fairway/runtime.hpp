@@ -131,10 +131,12 @@ class Certificate {
   /// `bytes`: the whole file, aligned to 8 bytes, which must outlive this object.
   Status open(const void* bytes, std::size_t size) noexcept {
     opened_ = false;
+    flow_ = {};
     FileArrays arrays;
     if (const Status status = arrays.open(bytes, size); status != Status::ok) return status;
     const HeaderEntry* verdict = arrays.find("leaf_verdict");
-    if (arrays.count() != 9 || verdict == nullptr || verdict->sizes != 1) {
+    const bool holds = arrays.find("holding") != nullptr;
+    if (arrays.count() != (holds ? 10 : 9) || verdict == nullptr || verdict->sizes != 1) {
       return Status::not_certificate;
     }
     if (const Status status = arrays.take_flow(flow_); status != Status::ok) return status;
@@ -151,6 +153,11 @@ class Certificate {
           arrays.place("region", "I8", 1, ny, nx)}) {
       if (array == nullptr) return Status::misfit;
     }
+    if (holds) {
+      const char* holding = arrays.place("holding", "U8", 1, ny, nx);
+      if (holding == nullptr) return Status::misfit;
+      flow_.holding = reinterpret_cast<const std::uint8_t*>(holding);
+    }
     sections_.first = reinterpret_cast<const std::uint32_t*>(first);
     sections_.begin = reinterpret_cast<const std::uint32_t*>(begin);
     sections_.time_s = reinterpret_cast<const float*>(time);
@@ -160,7 +167,7 @@ class Certificate {
     }
     if (sections_.first[0] != 0 || sections_.first[4 * cells] != leaves) return Status::misfit;
     for (std::size_t k = 0; k < leaves; ++k) {
-      if (sections_.verdict[k] >= verdict_count) return Status::misfit;
+      if (sections_.verdict[k] >= stored_verdict_count) return Status::misfit;
     }
     opened_ = true;
     return Status::ok;
@@ -179,7 +186,7 @@ class Certificate {
     if (!is_near(x_m, y_m) || !std::isfinite(heading_rad)) return answer;
     Reader reader{flow_, sections_, {}};
     follow_state(flow_, x_m, y_m, heading_rad, usual_most_crossings, reader);
-    answer.verdict = reader.found.only();
+    answer.verdict = flow_.told(reader.found.only(), flow_.grid.cell_of({x_m, y_m}));
     if (answer.verdict == Verdict::reach) answer.time_bound_s = reader.found.time_s;
     return answer;
   }

@@ -47,7 +47,7 @@ std::shared_ptr<HeldPlan> plan_arrays(
     double delta_position_m, double delta_heading_rad, double alpha, double beta,
     const std::string& metric, double sigma_cells, double mu_path, double sigma_path,
     double mu_border, double sigma_border, const std::string& filter, const std::string& blend,
-    double axis_capture_rad, const std::string& path_field) {
+    double axis_capture_rad, const std::string& path_field, const std::string& fallback) {
   const Mission mission =
       mission_from(goal_m, goal_heading_rad, path_m, closed, delta_position_m, delta_heading_rad);
   FieldOptions o;
@@ -68,6 +68,8 @@ std::shared_ptr<HeldPlan> plan_arrays(
   o.axis_capture_rad = axis_capture_rad;
   o.path_field = choice_of<PathField>("path_field", path_field,
                                       {{"follow", PathField::follow}, {"paper", PathField::paper}});
+  o.fallback = choice_of<FallbackRule>(
+      "fallback", fallback, {{"hold", FallbackRule::hold}, {"none", FallbackRule::none}});
   const ObstacleMap map = map_of(obstacles, cell_m, origin_m);
 
   const py::gil_scoped_release unlocked;
@@ -92,7 +94,7 @@ void bind_field(py::module_& m) {
         "metric"_a = "euclidean", "sigma_cells"_a = d.sigma_cells, "mu_path"_a = d.mu_path,
         "sigma_path"_a = d.sigma_path, "mu_border"_a = d.mu_border,
         "sigma_border"_a = d.sigma_border, "filter"_a = "free_space", "blend"_a = "continuous",
-        "axis_capture_rad"_a = d.axis_capture_rad, "path_field"_a = "follow",
+        "axis_capture_rad"_a = d.axis_capture_rad, "path_field"_a = "follow", "fallback"_a = "hold",
         R"(Computes the feedback plan for a map in memory.
 
 obstacles         bool or uint8 (0 free, 1 obstacle), [ny, nx], the lowest row first (images have

@@ -163,7 +163,7 @@ class ContractResume(unittest.TestCase):
         self.assertTrue((self.folder / "v.tif").is_file())
         if shutil.which("gdalinfo"):
             told = subprocess.run(["gdalinfo", "-hist", self.folder / "v.tif"], capture_output=True, text=True).stdout
-            self.assertIn("5 at_risk", told)
+            self.assertIn("7 at_risk", told)
             self.assertIn("every vehicle there that keeps the contract", told)
 
     def test_draw_and_info_know_both_kinds(self):

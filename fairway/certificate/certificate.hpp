@@ -26,13 +26,19 @@ struct Certificate {
   std::vector<float> heading_rad;  ///< [iy][ix]
   std::vector<Region> region;      ///< [iy][ix]
   std::vector<CellKind> kind;      ///< [iy][ix]
+  /// [iy][ix], 1 out of the mission's reach, where the plan holds (holding_cells); empty: nowhere.
+  /// A state that is proved `trapped` is told to `hold` there.
+  std::vector<std::uint8_t> holding;
   SectionVerdicts sections;
   PlanDigests plan;            ///< which plan it belongs to
   std::optional<Frame> frame;  ///< where the plan's grid lies; none when the plan did not say
   /// How it was found and its overall results, one JSON object: program, options, volumes, levels.
   std::string evidence_json = "{}";
 
-  Flow flow() const { return {grid, vehicle, heading_rad.data(), kind.data()}; }
+  Flow flow() const {
+    return {grid, vehicle, heading_rad.data(), kind.data(),
+            holding.empty() ? nullptr : holding.data()};
+  }
 };
 
 /// Everything in a certificate's file except its arrays, one JSON object with sorted keys.

@@ -1,5 +1,7 @@
 #include "fairway/certificate/certificate_file.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -16,15 +18,33 @@ constexpr CertificateFormat this_format{"fairway-certificate", "certified", "cer
 /// Wide types first, so that every array is aligned.
 std::vector<Tensor> tensors_of(const Certificate& c, const Geometry& geometry) {
   const std::vector<std::uint64_t> leaves{c.sections.leaves()};
-  return {{"geometry", "F64", {geometry_numbers}, std::as_bytes(std::span(&geometry, 1))},
-          cell_tensor(c, "heading_rad", "F32", c.heading_rad),
-          {"section_first", "U32", {c.sections.first.size()}, bytes_of(c.sections.first)},
-          {"leaf_begin", "U32", leaves, bytes_of(c.sections.begin)},
-          {"leaf_rank", "U32", leaves, bytes_of(c.sections.rank)},
-          {"leaf_time_s", "F32", leaves, bytes_of(c.sections.time_s)},
-          cell_tensor(c, "region", "I8", c.region),
-          cell_tensor(c, "cell_kind", "U8", c.kind),
-          {"leaf_verdict", "U8", leaves, bytes_of(c.sections.verdict)}};
+  std::vector<Tensor> tensors{
+      {"geometry", "F64", {geometry_numbers}, std::as_bytes(std::span(&geometry, 1))},
+      cell_tensor(c, "heading_rad", "F32", c.heading_rad),
+      {"section_first", "U32", {c.sections.first.size()}, bytes_of(c.sections.first)},
+      {"leaf_begin", "U32", leaves, bytes_of(c.sections.begin)},
+      {"leaf_rank", "U32", leaves, bytes_of(c.sections.rank)},
+      {"leaf_time_s", "F32", leaves, bytes_of(c.sections.time_s)},
+      cell_tensor(c, "region", "I8", c.region),
+      cell_tensor(c, "cell_kind", "U8", c.kind),
+      {"leaf_verdict", "U8", leaves, bytes_of(c.sections.verdict)}};
+  if (!c.holding.empty()) tensors.push_back(cell_tensor(c, "holding", "U8", c.holding));
+  return tensors;
+}
+
+/// Where the plan holds; a plan that holds nowhere leaves it out.
+void take_holding(const Safetensors& file, const std::string& where, Certificate& c) {
+  const auto is_it = [](const Tensor& tensor) { return tensor.name == "holding"; };
+  if (std::none_of(file.tensors.begin(), file.tensors.end(), is_it)) return;
+  const std::vector<std::uint64_t> cells{static_cast<std::uint64_t>(c.grid.ny),
+                                         static_cast<std::uint64_t>(c.grid.nx)};
+  c.holding = array_of<std::uint8_t>(file, "holding", "U8", cells, where);
+  for (std::size_t i = 0; i < c.holding.size(); ++i) {
+    const bool may = c.region[i] != Region::obstacle && c.region[i] != Region::goal;
+    if (c.holding[i] > (may ? 1 : 0)) {
+      throw InputError(where + ": \"holding\"", "expected 0, or 1 in a free or a buffer cell");
+    }
+  }
 }
 
 void take_sections(const Safetensors& file, const std::string& where, Certificate& c) {
@@ -37,7 +57,7 @@ void take_sections(const Safetensors& file, const std::string& where, Certificat
   s.verdict = array_of<std::uint8_t>(file, "leaf_verdict", "U8", leaves, where);
   bool fits = leaves_are_in_order(s.first, s.begin);
   for (std::size_t k = 0; fits && k < s.leaves(); ++k) {
-    fits = s.verdict[k] < verdict_count && s.time_s[k] >= 0.0F;
+    fits = s.verdict[k] < stored_verdict_count && s.time_s[k] >= 0.0F;
   }
   if (!fits) throw InputError(where, "has leaves that are out of order or out of range");
 }
@@ -47,8 +67,11 @@ Certificate certificate_of_bytes(std::span<const std::byte> bytes, const std::st
   nlohmann::json record = record_of_file(file, this_format, where);
   Certificate c;
   take_plan_arrays(file, where, c);
+  take_holding(file, where, c);
   take_sections(file, where, c);
-  take_record(file, this_format, where, std::move(record), {}, c);
+  const CertificateFormat format{this_format.name, this_format.method, this_format.noun,
+                                 this_format.arrays + (c.holding.empty() ? 0 : 1)};
+  take_record(file, format, where, std::move(record), {}, c);
   return c;
 }
 

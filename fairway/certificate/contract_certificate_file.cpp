@@ -66,7 +66,7 @@ void take_verdicts(const Safetensors& file, const std::string& where, ContractCe
   v.group_heading_rad = array_of<float>(file, "group_heading_rad", "F32", groups, where);
   bool fits = leaves_are_in_order(v.first, v.begin) && !v.group_time_s.empty();
   for (std::size_t k = 0; fits && k < v.leaves(); ++k) {
-    fits = v.verdict[k] < verdict_count && v.group[k] < v.group_time_s.size();
+    fits = v.verdict[k] < stored_verdict_count && v.group[k] < v.group_time_s.size();
   }
   for (std::size_t g = 0; fits && g < v.group_time_s.size(); ++g) {
     fits = v.group_time_s[g] >= 0.0F && !std::isinf(v.group_heading_rad[g]);

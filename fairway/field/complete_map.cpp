@@ -13,6 +13,7 @@
 #include "fairway/field/buffer_rule.hpp"
 #include "fairway/field/distance_transform.hpp"
 #include "fairway/field/goal_advice.hpp"
+#include "fairway/field/holding_circle.hpp"
 #include "fairway/field/octile.hpp"
 
 namespace fairway {
@@ -122,6 +123,48 @@ MissionRefusal with_advice(Reason reason, const GoalMission& goal, const std::st
   return out;
 }
 
+/// The circle must lie in the goal's cells, so that vehicles come to the goal, and in the disc
+/// asked for; and nothing may lie where they overshoot it.
+std::optional<MissionRefusal> refusal_of_hold(const CompleteMap& complete, const ObstacleMap& map,
+                                              const GoalMission& goal, const Vehicle& vehicle,
+                                              const FieldOptions& options) {
+  const Grid& grid = map.grid;
+  const HoldingPlace place = holding_place_at(grid, goal.goal_m, vehicle);
+  const double room_m = holding_room_m(grid, vehicle);
+  const double least_m = norm(place.center_m - goal.goal_m) + room_m;
+  if (goal.hold_radius_m && *goal.hold_radius_m < least_m) {
+    return refusal(
+        Reason::goal_too_small,
+        fmt::format("the vehicle cannot stay within hold_radius_m = {} m of the goal {}: "
+                    "on cells of {} m it needs at least {} m",
+                    length_text(*goal.hold_radius_m), pair_text(goal.goal_m),
+                    length_text(grid.cell_m), length_text(least_m)));
+  }
+  const std::vector<PathCell> circle = cells_on_path(grid, path_of(place));
+  const auto in_goal = std::count_if(circle.begin(), circle.end(), [&](const PathCell& cell) {
+    return std::binary_search(complete.goal_cells.begin(), complete.goal_cells.end(), cell.index);
+  });
+  if (2 * static_cast<std::size_t>(in_goal) < circle.size()) {
+    const double beta = (least_m + grid.cell_m) / vehicle.turn_radius_m;
+    return refusal(
+        Reason::goal_too_small,
+        fmt::format("the goal disc of radius beta * turn_radius_m = {} m around {} has no "
+                    "room for the circle of radius {} m on which the vehicle is to hold; "
+                    "beta = {:.3g} would do, or smaller cells",
+                    length_text(options.beta * vehicle.turn_radius_m), pair_text(goal.goal_m),
+                    length_text(place.radius_m), beta));
+  }
+  const Shortage shortage = shortage_of(complete, map, vehicle, options);
+  const double clear_m = shortage.clearance_m - grid.cell_m;
+  const double beyond_m = least_m - options.beta * vehicle.turn_radius_m;
+  if (clear_m >= beyond_m) return std::nullopt;
+  return refusal(Reason::in_buffer,
+                 fmt::format("the vehicle is to hold at the goal {}, and comes up to {} m from it, "
+                             "too near an obstacle",
+                             pair_text(goal.goal_m), length_text(least_m)),
+                 beyond_m - clear_m);
+}
+
 std::optional<MissionRefusal> place_goal(CompleteMap& complete, const ObstacleMap& map,
                                          const GoalMission& goal, const Vehicle& vehicle,
                                          const FieldOptions& options) {
@@ -145,7 +188,9 @@ std::optional<MissionRefusal> place_goal(CompleteMap& complete, const ObstacleMa
                     "or reduce cell_m",
                     length_text(radius), pair_text(goal.goal_m), length_text(grid.cell_m)));
   }
-  if (all_free(complete)) return std::nullopt;
+  if (all_free(complete)) {
+    return goal.hold ? refusal_of_hold(complete, map, goal, vehicle, options) : std::nullopt;
+  }
   const Shortage shortage = shortage_of(complete, map, vehicle, options);
   return with_advice(
       Reason::in_buffer, goal,

@@ -10,9 +10,12 @@
 #include "fairway/field/buffer_border.hpp"
 #include "fairway/field/complete_map.hpp"
 #include "fairway/field/cost_to_go.hpp"
+#include "fairway/field/fallback_field.hpp"
 #include "fairway/field/follow_field.hpp"
 #include "fairway/field/gaussian_filter.hpp"
+#include "fairway/field/holding_circle.hpp"
 #include "fairway/field/raw_field.hpp"
+#include "fairway/field/stored_command.hpp"
 #include "fairway/field/transition.hpp"
 
 namespace fairway {
@@ -65,16 +68,10 @@ void smooth(VectorField& field, const ObstacleMap& map, const FieldOptions& opti
   }
 }
 
-double captured_by_axis(double angle_rad, double capture_rad) {
-  const double axis_rad = std::round(angle_rad / (pi / 2)) * (pi / 2);
-  return std::fabs(angle_rad - axis_rad) <= capture_rad ? axis_rad : angle_rad;
-}
-
 // Directions become headings. Where the filter's mean nearly vanishes it has no direction: such a
 // cell keeps the direction it had before the filter, and is counted.
 void set_headings(Field& out, const VectorField& smoothed, const VectorField& before,
                   double capture_rad) {
-  constexpr float vanishing = 1e-4F;
   const auto rows = static_cast<std::size_t>(out.grid.ny);
   const auto columns = static_cast<std::size_t>(out.grid.nx);
   std::vector<std::size_t> vanished(rows, 0);
@@ -87,12 +84,12 @@ void set_headings(Field& out, const VectorField& smoothed, const VectorField& be
         if (out.region[i] == Region::obstacle || !std::isfinite(out.cost_m[i])) continue;
         float x = smoothed.x[i];
         float y = smoothed.y[i];
-        if (x * x + y * y < vanishing * vanishing) {
+        if (has_vanished(x, y)) {
           ++vanished[iy];
           x = before.x[i];
           y = before.y[i];
         }
-        out.heading_rad[i] = Heading::stored(captured_by_axis(std::atan2(y, x), capture_rad));
+        out.heading_rad[i] = stored_command(x, y, capture_rad);
       }
     }
   });
@@ -130,6 +127,14 @@ FieldOrRefusal compute_field(const ObstacleMap& map, const Vehicle& vehicle, con
   if (path != nullptr && options.path_field == PathField::follow) {
     follow_field(grid, complete, *path, cost, vehicle, smoothed);
   }
+  const auto* goal = std::get_if<GoalMission>(&mission);
+  if (goal != nullptr && goal->hold) {
+    // The way to the circle: that to the goal, but for the circle's radius.
+    const HoldingPlace place = holding_place_at(grid, goal->goal_m, vehicle);
+    std::vector<float> way = cost;
+    for (float& w : way) w = std::fabs(w - static_cast<float>(place.radius_m / grid.cell_m));
+    follow_circle(grid, complete.region, place, way, vehicle, smoothed);
+  }
 
   Field out;
   out.grid = grid;
@@ -142,6 +147,9 @@ FieldOrRefusal compute_field(const ObstacleMap& map, const Vehicle& vehicle, con
   if (!goal_is_reached_from_elsewhere(out)) {
     return MissionRefusal{MissionRefusal::Reason::unreachable,
                           "no safe-start cell outside the goal can reach it", 0.0, map.warnings};
+  }
+  if (options.fallback == FallbackRule::hold) {
+    out.holding_places = add_fallback(vehicle, options, out);
   }
   return out;
 }

@@ -10,6 +10,7 @@
 #include "fairway/base/grid.hpp"
 #include "fairway/base/vec2.hpp"
 #include "fairway/map/region.hpp"
+#include "fairway/vehicle/holding_place.hpp"
 
 namespace fairway {
 
@@ -39,6 +40,12 @@ enum class PathField {
   paper    ///< commands point at the line, but for the transition next to it (paper 1)
 };
 
+/// What cells get from which the mission is out of reach.
+enum class FallbackRule {
+  hold,  ///< holding places, and commands to them (fallback_field.hpp)
+  none   ///< no command, as in the paper
+};
+
 /// The paper's parameters, by the paper's names, with their ranges; readers refuse values outside.
 struct FieldOptions {
   double alpha = 2.0;  ///< buffer width / turn radius, > 0 (the paper: >= 2)
@@ -56,6 +63,7 @@ struct FieldOptions {
   /// along the border in hops of 2 r sin d: without this, in millions of them.
   double axis_capture_rad = 0.02;
   PathField path_field = PathField::follow;  ///< path missions only
+  FallbackRule fallback = FallbackRule::hold;
 };
 
 /// The product. Arrays are [iy][ix] over `grid`.
@@ -64,7 +72,8 @@ struct Field {
   std::vector<Region> region;
   std::vector<float> cost_m;       ///< cost to go, metres; +inf where the goal cannot be reached
   std::vector<float> heading_rad;  ///< commanded heading, (-pi, pi]; NaN: none
-  std::size_t unreachable_free_cells = 0;  ///< free cells of infinite cost (walled-off pockets)
+  std::vector<HoldingPlace> holding_places;  ///< in cells of infinite cost
+  std::size_t unreachable_free_cells = 0;    ///< free cells of infinite cost (walled-off pockets)
   std::size_t vanished_cells =
       0;  ///< cells whose filtered vector was too short to have a direction
 };

@@ -6,6 +6,9 @@
 // heading lies on the grid.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -24,6 +27,18 @@ struct Plan {
   std::vector<float> cost_m;       ///< [iy][ix]
   PlanRecord record;
 };
+
+/// 1 for the cells out of the mission's reach, [iy][ix], if the plan has holding places there; else
+/// empty.
+[[nodiscard]] inline std::vector<std::uint8_t> holding_cells(const Plan& plan) {
+  if (plan.record.holding_places.empty()) return {};
+  std::vector<std::uint8_t> holding(plan.grid.size());
+  for (std::size_t i = 0; i < holding.size(); ++i) {
+    const bool holds = plan.region[i] != Region::obstacle && !std::isfinite(plan.cost_m[i]);
+    holding[i] = holds ? 1 : 0;
+  }
+  return holding;
+}
 
 /// Where the plan's mission sends the vehicle, and with which heading; none when its goal has no
 /// heading, it follows a path, or the plan was not made by Fairway.

@@ -10,6 +10,7 @@ Plan plan_of_field(Field&& field, const Vehicle& vehicle, PlanRecord record) {
   for (float& heading_rad : field.heading_rad) {
     if (heading_rad != 0.0F && std::abs(heading_rad) < 0x1p-52F) heading_rad = 0.0F;
   }
+  record.holding_places = std::move(field.holding_places);
   return {field.grid,
           vehicle,
           std::move(field.heading_rad),

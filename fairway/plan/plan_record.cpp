@@ -19,6 +19,27 @@ json object_of(const std::string& text, const char* promise) {
   return value;
 }
 
+json json_of(const HoldingPlace& place) {
+  return {{"center_m", {place.center_m.x, place.center_m.y}},
+          {"radius_m", place.radius_m},
+          {"side", place.side == Rotation::left ? "left" : "right"}};
+}
+
+HoldingPlace holding_place_of(const json& value, const std::string& where) {
+  const json& center = member(value, "center_m", where);
+  if (!center.is_array() || center.size() != 2 || !center[0].is_number() ||
+      !center[1].is_number()) {
+    throw InputError(where + ".center_m", "expected [x, y], found " + shown(center));
+  }
+  const std::string side = text_member(value, "side", where);
+  if (side != "left" && side != "right") {
+    throw InputError(where + ".side", "is \"" + side + "\", expected \"left\" or \"right\"");
+  }
+  return {{center[0].get<double>(), center[1].get<double>()},
+          finite_number(value, "radius_m", where),
+          side == "left" ? Rotation::left : Rotation::right};
+}
+
 std::vector<InputFile> inputs_of(const json& value, const std::string& where) {
   if (!value.is_array()) throw InputError(where, "expected a list of files, found " + shown(value));
   std::vector<InputFile> inputs;
@@ -32,7 +53,8 @@ std::vector<InputFile> inputs_of(const json& value, const std::string& where) {
 
 json json_of(const PlanRecord& record) {
   json value = object_of(record.more_json, "more_json is a JSON object");
-  for (const char* key : {"program", "mission", "options", "inputs", "frame", "contract"}) {
+  for (const char* key :
+       {"program", "mission", "options", "inputs", "frame", "contract", "holding_places"}) {
     require(!value.contains(key), "more_json leaves out what the record holds");
   }
   if (record.program) value["program"] = *record.program;
@@ -48,6 +70,9 @@ json json_of(const PlanRecord& record) {
   }
   if (record.frame) value["frame"] = json_of(*record.frame);
   if (record.contract) value["contract"] = json_of(*record.contract);
+  for (const HoldingPlace& place : record.holding_places) {
+    value["holding_places"].push_back(json_of(place));
+  }
   return value;
 }
 
@@ -77,6 +102,10 @@ PlanRecord plan_record_of(json value, const std::string& where) {
        [&](const json& found, const std::string& place) { record.frame = frame_of(found, place); });
   take("contract", [&](const json& found, const std::string& place) {
     record.contract = contract_of(found, place);
+  });
+  take("holding_places", [&](const json& found, const std::string& place) {
+    if (!found.is_array()) throw InputError(place, "expected a list, found " + shown(found));
+    for (const json& one : found) record.holding_places.push_back(holding_place_of(one, place));
   });
   if (!value.empty()) record.more_json = value.dump();
   return record;

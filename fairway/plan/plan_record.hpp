@@ -12,6 +12,7 @@
 #include "fairway/base/frame.hpp"
 #include "fairway/map/obstacle_map.hpp"
 #include "fairway/vehicle/contract.hpp"
+#include "fairway/vehicle/holding_place.hpp"
 #include "fairway/vehicle/mission.hpp"
 
 namespace fairway {
@@ -24,6 +25,7 @@ struct PlanRecord {
   std::string options_json;  ///< every effective option, one JSON object; empty: none
   std::string more_json;     ///< members of other programs, one JSON object; empty: none
   std::optional<VehicleContract> contract = std::nullopt;  ///< none: the vehicle is exact
+  std::vector<HoldingPlace> holding_places = {};           ///< in cells out of the mission's reach
 };
 
 /// The record as one JSON object with sorted keys, as in the plan's file.

@@ -18,12 +18,20 @@ std::size_t ordinary_samples(const VerdictMap& map) {
   return static_cast<std::size_t>(std::count(map.kind.begin(), map.kind.end(), CellKind::ordinary));
 }
 
-enum Share : std::size_t { reached, failing, open };
+/// Whether a state of the picture has this verdict: one of those shown, or of those counted.
+bool has(const VerdictMap& map, Verdict verdict) {
+  const auto code = static_cast<std::size_t>(verdict);
+  return std::count(map.verdict.begin(), map.verdict.end(), verdict) > 0 ||
+         std::any_of(map.count.begin(), map.count.end(),
+                     [code](const auto& count) { return count[code] > 0; });
+}
+
+enum Share : std::size_t { safe, failing, open };
 
 std::size_t states_of(const VerdictMap& map, std::size_t sample, Share share) {
   std::size_t states = 0;
   for (const Verdict verdict : verdicts_in_order) {
-    const Share its = fails(verdict) ? failing : verdict == Verdict::reach ? reached : open;
+    const Share its = fails(verdict) ? failing : verdict == Verdict::undecided ? open : safe;
     if (its == share) states += map.count[sample][static_cast<std::size_t>(verdict)];
   }
   return states;
@@ -50,6 +58,7 @@ class Shown {
     std::vector<LegendEntry> entries;
     for (const Verdict verdict : verdicts_in_order) {
       if (at_risk_ != nullptr && verdict == Verdict::undecided) entries.push_back(at_risk_entry());
+      if (!is_listed(verdict, has(map_, verdict))) continue;
       entries.push_back(verdict_entry(verdict));
     }
     return entries;
@@ -87,7 +96,8 @@ Picture draw_verdicts(const VerdictMap& map, const VerdictPictureOptions& option
   for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
     std::size_t reaching = 0;
     for (std::size_t i = 0; i < map.samples(); ++i) {
-      reaching += map.verdict_at(h, i) == Verdict::reach ? 1 : 0;
+      const Verdict verdict = map.verdict_at(h, i);
+      reaching += verdict == Verdict::reach || verdict == Verdict::follow ? 1 : 0;
     }
     captions.push_back({heading_text(map.heading_rad[h]), map.heading_rad[h],
                         of > 0 ? percent_text(reaching, of) + " reach" : ""});
@@ -104,7 +114,8 @@ Picture draw_verdicts(const VerdictMap& map, const VerdictPictureOptions& option
 
 Picture draw_proved_shares(const VerdictMap& map, const VerdictPictureOptions& options) {
   SharePanels shares;
-  shares.names = {"proved to reach", "proved to fail", "undecided"};
+  shares.names = {has(map, Verdict::hold) ? "proved to reach or hold" : "proved to reach",
+                  "proved to fail", "undecided"};
   shares.each = static_cast<std::size_t>(map.states_per_sample);
   shares.of = fmt::format("of {} states per cell", map.states_per_sample);
   shares.part = [&map](std::size_t i, std::size_t panel) {

@@ -24,8 +24,9 @@ struct VerdictPictureOptions {
 /// range, the map's arrays do not fit, or it has no heading.
 [[nodiscard]] Picture draw_verdicts(const VerdictMap& map, const VerdictPictureOptions& options);
 
-/// Three panels: of the states of each cell, over all headings, the share proved to reach, the
-/// share proved to fail, and the share undecided; in classes, so that one state among all shows.
+/// Three panels: of the states of each cell, over all headings, the share proved to reach (or to
+/// hold), the share proved to fail, and the share undecided; in classes, so that one state among
+/// all shows.
 [[nodiscard]] Picture draw_proved_shares(const VerdictMap& map,
                                          const VerdictPictureOptions& options);
 

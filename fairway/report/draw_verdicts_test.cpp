@@ -22,8 +22,8 @@ using testing::has_text;
 using testing::read_png;
 
 constexpr int states = 32;
-constexpr std::array<Verdict, verdict_count> all_verdicts{
-    Verdict::undecided, Verdict::reach, Verdict::collide, Verdict::leave, Verdict::trapped};
+constexpr std::array<Verdict, 5> all_verdicts{Verdict::undecided, Verdict::reach, Verdict::collide,
+                                              Verdict::leave, Verdict::trapped};
 
 /// `kind(ix, iy)` and `verdict(heading, ix, iy)` give the contents; all states of a cell have the
 /// verdict of its first heading.
@@ -84,13 +84,20 @@ double grey_lightness(const Color& c) {
   return y > 0.008856 ? 116.0 * std::cbrt(y) - 16.0 : 903.3 * y;
 }
 
+/// Each is what its kind of mission asks; no picture has both.
+bool mean_the_same(Verdict one, Verdict other) {
+  const auto is_asked = [](Verdict v) { return v == Verdict::reach || v == Verdict::follow; };
+  return is_asked(one) && is_asked(other);
+}
+
 TEST(VerdictStyle, GroundsDifferInGreyPrintAndFromObstacles) {
-  for (std::size_t i = 0; i < all_verdicts.size(); ++i) {
-    const double one = grey_lightness(style_of(all_verdicts[i]).ground);
-    EXPECT_GT(one, grey_lightness(palette::obstacle) + 8.0) << name_of(all_verdicts[i]);
+  for (std::size_t i = 0; i < verdicts_in_order.size(); ++i) {
+    const double one = grey_lightness(style_of(verdicts_in_order[i]).ground);
+    EXPECT_GT(one, grey_lightness(palette::obstacle) + 8.0) << name_of(verdicts_in_order[i]);
     for (std::size_t k = 0; k < i; ++k) {
-      EXPECT_GT(std::abs(one - grey_lightness(style_of(all_verdicts[k]).ground)), 8.0)
-          << name_of(all_verdicts[i]) << " and " << name_of(all_verdicts[k]);
+      if (mean_the_same(verdicts_in_order[i], verdicts_in_order[k])) continue;
+      EXPECT_GT(std::abs(one - grey_lightness(style_of(verdicts_in_order[k]).ground)), 8.0)
+          << name_of(verdicts_in_order[i]) << " and " << name_of(verdicts_in_order[k]);
     }
   }
 }
@@ -100,16 +107,17 @@ TEST(VerdictStyle, EveryVerdictHasItsOwnPattern) {
     const VerdictStyle s = style_of(v);
     return std::tuple(s.rising, s.falling, s.rising || s.falling ? s.pen.dash_pt.size() : 0);
   };
-  for (std::size_t i = 0; i < all_verdicts.size(); ++i) {
+  for (std::size_t i = 0; i < verdicts_in_order.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      EXPECT_NE(pattern(all_verdicts[i]), pattern(all_verdicts[k]));
+      if (mean_the_same(verdicts_in_order[i], verdicts_in_order[k])) continue;
+      EXPECT_NE(pattern(verdicts_in_order[i]), pattern(verdicts_in_order[k]));
     }
   }
 }
 
 TEST(VerdictStyle, StatesAtRiskHaveAPatternOfTheirOwnAndDifferInGreyFromThoseAround) {
   const VerdictStyle s = at_risk_style();
-  for (const Verdict verdict : all_verdicts) {
+  for (const Verdict verdict : verdicts_in_order) {
     const VerdictStyle other = style_of(verdict);
     EXPECT_NE(std::tuple(s.rising, s.falling, s.pen.dash_pt.empty()),
               std::tuple(other.rising, other.falling, other.pen.dash_pt.empty()));

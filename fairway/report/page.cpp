@@ -83,10 +83,15 @@ json styles_json() {
 /// What the page needs to know about the codes of verdicts.
 json codes_json() {
   json failing = json::array();
+  json safe = json::array();
+  json seldom = json::array();
   for (const Verdict verdict : verdicts_in_order) {
     if (fails(verdict)) failing.push_back(verdict);
+    if (is_safe(verdict)) safe.push_back(verdict);
+    if (!is_listed(verdict, false)) seldom.push_back(verdict);
   }
   return {{"reach", Verdict::reach},         {"failing", std::move(failing)},
+          {"safe", std::move(safe)},         {"seldom", std::move(seldom)},
           {"undecided", Verdict::undecided}, {"order", verdicts_in_order},
           {"obstacle", page_obstacle},       {"target", page_target}};
 }

@@ -10,7 +10,10 @@ namespace fairway {
 VerdictStyle style_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::reach:
+    case Verdict::follow:  // never beside reach: what a path mission proves in its place
       return {color_of_oklch(0.86, 0.06, 255.0), {}, false, false};
+    case Verdict::hold:
+      return {color_of_oklch(0.515, 0.09, 185.0), {palette::white, 0.5, {0.7, 1.8}}, true, true};
     case Verdict::collide:
       return {color_of_oklch(0.62, 0.19, 40.0), {palette::white, 0.5, {}}, true, false};
     case Verdict::leave:

@@ -66,6 +66,8 @@ std::size_t rank_of(const ContractFailure& failure) {
       return 2;
     case Verdict::undecided:
     case Verdict::reach:
+    case Verdict::follow:
+    case Verdict::hold:
       break;
   }
   return failure.reply.witness ? 3 : 4;
@@ -136,7 +138,7 @@ std::vector<ContractFailure> contract_failures(const ContractCertificate& certif
   std::vector<ContractFailure> failures;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const Cell cell = certificate.grid.cell_of(states[i].position_m);
-    if (replies[i].verdict == Verdict::reach || !certificate.grid.contains(cell)) continue;
+    if (is_safe(replies[i].verdict) || !certificate.grid.contains(cell)) continue;
     const std::size_t at = certificate.grid.index(cell);
     if (certificate.kind[at] != CellKind::ordinary) continue;
     failures.push_back({states[i], std::move(replies[i]), ground_of(certificate, at)});

@@ -71,6 +71,7 @@ std::vector<Finding> findings(const Plan& plan, const ContractVerification& made
   const auto add = [&](double share, const std::string& what) {
     if (share > 0.0) found.push_back({percent_text(share, decimals), all, what});
   };
+  add(share_of(s.all, Verdict::hold), "are proved to hold" + whatever);
   add(share_of(s.all, Verdict::collide), "are proved to collide" + whatever);
   add(s.at_risk, exact ? "are at risk: a flight is known that fails"
                        : "are at risk: a behaviour within the contract fails");

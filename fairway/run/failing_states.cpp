@@ -13,7 +13,8 @@ namespace fairway {
 namespace {
 
 StartGround ground_of(const Certificate& certificate, std::size_t cell) {
-  if (std::isnan(certificate.heading_rad[cell])) return StartGround::cut_off;
+  if (std::isnan(certificate.heading_rad[cell]) || certificate.flow().holds(cell))
+    return StartGround::cut_off;
   return certificate.region[cell] == Region::buffer ? StartGround::buffer : StartGround::safe_start;
 }
 
@@ -62,11 +63,11 @@ std::vector<FailingState> failing_states(const Certificate& certificate, std::si
   std::array<std::array<std::vector<FailingState>, verdict_count>, start_grounds_in_order.size()>
       found;
   for (std::size_t k = 0; k < states.size(); ++k) {
-    const Verdict verdict = verdicts_of(images[k], certificate.sections.view()).only();
-    if (verdict == Verdict::reach) continue;
+    const Verdict proved = verdicts_of(images[k], certificate.sections.view()).only();
     const State start{{states[k].x_m, states[k].y_m}, Heading::from_rad(states[k].heading_rad)};
     const Cell at = certificate.grid.cell_of(start.position_m);
-    if (!certificate.grid.contains(at)) continue;
+    const Verdict verdict = certificate.flow().told(proved, at);
+    if (is_safe(verdict) || !certificate.grid.contains(at)) continue;
     const std::size_t cell = certificate.grid.index(at);
     if (certificate.kind[cell] != CellKind::ordinary) continue;
     const StartGround ground = ground_of(certificate, cell);

@@ -29,6 +29,10 @@ std::string done_by_states(Verdict verdict, const std::string& goal) {
   switch (verdict) {
     case Verdict::reach:
       return "are proved to reach the " + goal;
+    case Verdict::follow:
+      return "are proved to follow the " + goal;
+    case Verdict::hold:
+      return "are proved to hold: they circle for ever in a holding place, clear of obstacles";
     case Verdict::leave:
       return "are proved to leave the map";
     case Verdict::trapped:
@@ -75,8 +79,11 @@ bool is_mostly_cut_off(const RegionCells& cells) {
 std::vector<Finding> plan_findings(const Plan& plan) {
   const RegionCells cells = count_regions(plan);
   if (cells.unreachable == 0) return {};
+  const std::size_t circles = plan.record.holding_places.size();
   return {{percent_text(cells.unreachable, cells.free), "free cells",
-           fmt::format("are cut off from the {}, without a command ({} of {})", goal_word(plan),
+           fmt::format("are cut off from the {}, {} ({} of {})", goal_word(plan),
+                       circles == 0 ? "without a command"
+                                    : "with commands to " + plural(circles, "holding place"),
                        grouped(cells.unreachable), grouped(cells.free))}};
 }
 

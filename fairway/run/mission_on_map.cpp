@@ -140,7 +140,7 @@ Mission mission_on_map(const Scenario& scenario, const ObstacleMap& map) {
           fmt::format("{}: the goal {}{}", place_key(scenario), outside_text(goal_m, map.grid),
                       asked.goal_deg ? outside_in_degrees(scenario, map) : hint(scenario, map)));
     }
-    return GoalMission{goal_m, asked.goal_heading_rad};
+    return GoalMission{goal_m, asked.goal_heading_rad, asked.hold, asked.hold_radius_m};
   } catch (const InputError& error) {
     throw WarnedInputError(error.where(), reason_of(error), map.warnings);
   }

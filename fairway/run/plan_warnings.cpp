@@ -34,9 +34,12 @@ std::optional<std::string> cut_off_warning(const Plan& plan, const std::string& 
   }
   const std::string warning = fmt::format(
       "{} of the free cells ({} of {}) are cut off from the {}: no way through free cells leads "
-      "to it, so they have no command and a vehicle in them flies straight on.",
+      "to it, so {}.",
       percent_text(cells.unreachable, cells.free), grouped(cells.unreachable), grouped(cells.free),
-      goal_word(plan));
+      goal_word(plan),
+      plan.record.holding_places.empty()
+          ? "they have no command and a vehicle in them flies straight on"
+          : "a vehicle in them can only wait there, on a circle, where one fits");
   return remedy.empty() ? warning : warning + " " + remedy;
 }
 

@@ -60,7 +60,8 @@ void check_mission(const Scenario& s) {
           s, "mission.path_file",
           "a mission of kind \"path\" needs the path to follow, or a circle, mission.loiter");
     }
-    for (const char* key : {"mission.goal_m", "mission.goal_deg", "mission.goal_heading_rad"}) {
+    for (const char* key : {"mission.goal_m", "mission.goal_deg", "mission.goal_heading_rad",
+                            "mission.hold", "mission.hold_radius_m"}) {
       forbid(s, key, "belongs to missions of kind \"goal\", this one is of kind \"path\"");
     }
     return;
@@ -74,6 +75,12 @@ void check_mission(const Scenario& s) {
   if (s.mission.goal_deg && s.mission.goal_m) {
     refuse(s, "mission.goal_deg",
            "is given in addition to mission.goal_m, expected only one of them");
+  }
+  if (!s.mission.hold) {
+    forbid(s, "mission.hold_radius_m", "belongs to missions with hold = true");
+  } else if (s.mission.goal_heading_rad) {
+    refuse(s, "mission.goal_heading_rad",
+           "a vehicle that holds at its goal circles there; expected no heading to arrive with");
   }
   if (!s.mission.goal_deg) {
     require_given(s, "mission.goal_m",

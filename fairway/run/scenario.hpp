@@ -43,6 +43,8 @@ struct MissionRequest {
   std::optional<Vec2> goal_m;             ///< in the grid's frame
   std::optional<GeodeticPoint> goal_deg;  ///< instead, on maps in degrees
   std::optional<double> goal_heading_rad;
+  bool hold = false;
+  std::optional<double> hold_radius_m;
   std::optional<std::filesystem::path> path_file;
   LoiterRequest loiter;  ///< instead of a path file, when it has a centre
   bool closed = false;

@@ -9,63 +9,13 @@
 
 #include "fairway/run/contract_keys.hpp"
 #include "fairway/run/region_key.hpp"
+#include "fairway/run/scenario_key_kinds.hpp"
 #include "fairway/run/scenario_values.hpp"
 
 namespace fairway {
 namespace {
 
 using nlohmann::json;
-
-/// A key for a member of Scenario, reached by `member`.
-template <typename Member>
-ScenarioKey key(std::string name, std::string kind, Range range, Member member,
-                std::string meaning) {
-  return {std::move(name),
-          std::move(kind),
-          range,
-          false,
-          std::move(meaning),
-          [member](const TomlValue& v, Scenario& s) { take(v, member(s)); },
-          [member](const Scenario& s) { return shown(member(s)); }};
-}
-
-template <typename Member>
-ScenarioKey number(std::string name, Range range, Member member, std::string meaning) {
-  return key(std::move(name), "number " + range.text(), range, member, std::move(meaning));
-}
-
-template <typename Member>
-ScenarioKey whole(std::string name, Range range, Member member, std::string meaning) {
-  return key(std::move(name), "whole number " + range.text(), range, member, std::move(meaning));
-}
-
-/// A key with one of a few names as its value.
-template <typename T, typename Member>
-ScenarioKey choice(std::string name, std::vector<std::pair<std::string, T>> choices, Member member,
-                   std::string meaning) {
-  std::string kind;
-  for (std::size_t i = 0; i < choices.size(); ++i) {
-    if (i > 0) kind += i + 1 == choices.size() ? " or " : ", ";
-    kind += '"' + choices[i].first + '"';
-  }
-  const auto take_choice = [choices, member, kind](const TomlValue& v, Scenario& s) {
-    const std::string text = v.text();
-    for (const auto& [choice_name, value] : choices) {
-      if (choice_name == text) {
-        member(s) = value;
-        return;
-      }
-    }
-    v.refuse(kind);
-  };
-  const auto shown_choice = [choices, member](const Scenario& s) {
-    for (const auto& [choice_name, value] : choices) {
-      if (member(s) == value) return json(choice_name);
-    }
-    return json();
-  };
-  return {std::move(name), kind, Range{}, false, std::move(meaning), take_choice, shown_choice};
-}
 
 ScenarioKey required(ScenarioKey made) {
   made.required = true;
@@ -145,6 +95,11 @@ std::vector<ScenarioKey> mission_keys() {
           "goal missions: the goal's position, metres in the map's frame"),
       key("mission.goal_deg", "[latitude, longitude]", degrees, FAIRWAY_MEMBER(mission.goal_deg),
           "goal missions on georeferenced maps: the goal's position, instead of `mission.goal_m`"),
+      key("mission.hold", "true or false", any_finite, FAIRWAY_MEMBER(mission.hold),
+          "goal missions: stay at the goal, circling about it for ever"),
+      number("mission.hold_radius_m", positive, FAIRWAY_MEMBER(mission.hold_radius_m),
+             "with `mission.hold`: stay within this of the goal, metres; by default within the "
+             "least that can be proved"),
       number("mission.goal_heading_rad", Range{-7.0, 7.0}, FAIRWAY_MEMBER(mission.goal_heading_rad),
              "goal missions: heading on arrival, radians counter-clockwise from east; steering "
              "takes over where a flight enters the goal"),
@@ -212,6 +167,11 @@ std::vector<ScenarioKey> plan_keys() {
                         FAIRWAY_MEMBER(plan.path_field),
                         "path missions: commands that approach the line on circles and run along "
                         "it, or the paper's, which point at the line until next to it"),
+      choice<FallbackRule>(
+          "plan.fallback", {{"hold", FallbackRule::hold}, {"none", FallbackRule::none}},
+          FAIRWAY_MEMBER(plan.fallback),
+          "what places get from which the mission is out of reach: commands to a circle on which "
+          "the vehicle waits, wherever one fits, or none, as in the paper"),
       number(
           "plan.axis_capture_rad", Range{0.0, 0.1}, FAIRWAY_MEMBER(plan.axis_capture_rad),
           "commands this close to a grid axis are snapped to it, so that vehicles do not weave "
@@ -293,6 +253,12 @@ json effective_values(const Scenario& scenario, std::string_view table) {
   }
   // Goals have no path, and their records never named its field.
   if (table == "plan" && scenario.mission.kind == MissionKind::goal) values.erase("path_field");
+  // Records name only what they named before there was a choice, and what was chosen.
+  if (table == "plan" && scenario.plan.fallback == FallbackRule::hold) values.erase("fallback");
+  if (table == "mission" && !scenario.mission.hold) {
+    values.erase("hold");
+    values.erase("hold_radius_m");
+  }
   if (table == "mission" && scenario.mission.loiter.center_m)
     values["loiter"] = effective_values(scenario, "mission.loiter");
   if (table == "vehicle" && scenario.contract) {

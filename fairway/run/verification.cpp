@@ -28,7 +28,7 @@ constexpr bool outcomes_have_the_numbers_of_their_verdicts() {
     const auto verdict = static_cast<Verdict>(outcome);
     if (std::string_view(name_of(outcome)) != name_of(verdict)) return false;
   }
-  return static_cast<int>(outcome_codes) <= verdict_count;
+  return static_cast<int>(outcome_codes) <= stored_verdict_count;
 }
 static_assert(outcomes_have_the_numbers_of_their_verdicts());
 
@@ -87,6 +87,7 @@ Verification verify_plan(const Plan& plan, const std::string& where, const Regio
   c.region_of_interest = region;
   c.heading_rad = plan.heading_rad;
   c.region = plan.region;
+  c.holding = holding_cells(plan);
   c.kind = cell_kinds(plan.grid, plan.region, region);
   c.plan = plan_digests(plan);
   c.frame = plan.record.frame;

@@ -42,6 +42,7 @@ std::string end_of_work(const Verification& v) {
 std::string shares_words(const std::array<double, verdict_count>& volume, int decimals) {
   std::string words;
   for (const Verdict verdict : verdicts_in_order) {
+    if (!is_listed(verdict, share_of(volume, verdict) > 0.0)) continue;
     const bool is_state = verdict == Verdict::trapped || verdict == Verdict::undecided;
     words += fmt::format("{}{} {}{}", words.empty() ? "" : ", ",
                          percent_text(share_of(volume, verdict), decimals), is_state ? "are " : "",
@@ -55,7 +56,8 @@ std::string shares_words(const std::array<double, verdict_count>& volume, int de
 json shares_json(const std::array<double, verdict_count>& share) {
   json by_name = json::object();
   for (const Verdict verdict : verdicts_in_order) {
-    by_name[name_of(verdict)] = share_of(share, verdict);
+    const double its = share_of(share, verdict);
+    if (is_listed(verdict, its > 0.0)) by_name[name_of(verdict)] = its;
   }
   return by_name;
 }

@@ -13,6 +13,8 @@ namespace fairway {
 struct GoalMission {
   Vec2 goal_m;
   std::optional<double> goal_heading_rad;
+  bool hold = false;  ///< and stay there: circle about the goal for ever
+  std::optional<double> hold_radius_m = std::nullopt;  ///< and within this, if asked for
   friend bool operator==(const GoalMission&, const GoalMission&) = default;
 };
 

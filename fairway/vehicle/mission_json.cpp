@@ -22,6 +22,13 @@ GoalMission goal_mission(const json& value, const std::string& where) {
   if (value.contains("goal_heading_rad") && !value["goal_heading_rad"].is_null()) {
     goal.goal_heading_rad = finite_number(value, "goal_heading_rad", where);
   }
+  if (value.contains("hold")) {
+    if (!value["hold"].is_boolean()) throw InputError(where + ".hold", "expected true or false");
+    goal.hold = value["hold"].get<bool>();
+  }
+  if (value.contains("hold_radius_m")) {
+    goal.hold_radius_m = finite_number(value, "hold_radius_m", where);
+  }
   return goal;
 }
 
@@ -50,9 +57,13 @@ PathMission path_mission(const json& value, const std::string& where) {
 
 json json_of(const Mission& mission) {
   if (const auto* goal = std::get_if<GoalMission>(&mission)) {
-    return {{"kind", "goal"},
-            {"goal_m", {goal->goal_m.x, goal->goal_m.y}},
-            {"goal_heading_rad", goal->goal_heading_rad ? json(*goal->goal_heading_rad) : json()}};
+    json value = {
+        {"kind", "goal"},
+        {"goal_m", {goal->goal_m.x, goal->goal_m.y}},
+        {"goal_heading_rad", goal->goal_heading_rad ? json(*goal->goal_heading_rad) : json()}};
+    if (goal->hold) value["hold"] = true;
+    if (goal->hold_radius_m) value["hold_radius_m"] = *goal->hold_radius_m;
+    return value;
   }
   const auto& path = std::get<PathMission>(mission);
   json vertices = json::array();

@@ -84,12 +84,12 @@ class VolumeMeter {
     for (std::size_t c = 0; c < flow_.grid.size(); ++c) {
       if (flow_.kind[c] != CellKind::ordinary) continue;
       for (std::size_t k = 0; k < each; ++k, ++i) {
-        const Verdict verdict = found_[i].only();
+        const Verdict verdict = flow_.told(found_[i].only(), flow_.grid.cell_at(c));
         const auto v = static_cast<std::size_t>(verdict);
         volume.all[v] += 1.0;
         (is_free_[c] ? volume.free : volume.buffer)[v] += 1.0;
         free_count += is_free_[c] ? 1 : 0;
-        if (!std::isnan(flow_.heading_rad[c])) {
+        if (!std::isnan(flow_.heading_rad[c]) && !flow_.holds(c)) {
           volume.usable[v] += 1.0;
           ++usable_count;
           volume.commanded[v] += is_free_[c] ? 1.0 : 0.0;

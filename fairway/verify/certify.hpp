@@ -46,9 +46,9 @@ const char* name_of(StoppedBy reason);
 struct VolumeFractions {
   std::array<double, verdict_count> all{};        ///< cells that are neither obstacle nor target
   std::array<double, verdict_count> free{};       ///< of these, the safe-start cells
-  std::array<double, verdict_count> commanded{};  ///< of those, the ones with a command
+  std::array<double, verdict_count> commanded{};  ///< of those, with a command of the mission
   std::array<double, verdict_count> buffer{};     ///< and the buffer cells
-  std::array<double, verdict_count> usable{};     ///< of all, the cells with a command
+  std::array<double, verdict_count> usable{};     ///< of all, with a command of the mission
   std::size_t samples = 0;
   double worst_time_s = 0.0;  ///< largest bound of a sampled state proved to reach
 };

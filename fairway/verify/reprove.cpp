@@ -22,7 +22,8 @@ constexpr float infinite = std::numeric_limits<float>::infinity();
 /// Clears what no leaf may claim, and what a trapped one need not claim.
 void drop_nonsense(SectionVerdicts& s) {
   for (std::size_t i = 0; i < s.leaves(); ++i) {
-    if (s.verdict[i] >= verdict_count) s.verdict[i] = static_cast<std::uint8_t>(Verdict::undecided);
+    if (s.verdict[i] >= stored_verdict_count)
+      s.verdict[i] = static_cast<std::uint8_t>(Verdict::undecided);
     const auto verdict = static_cast<Verdict>(s.verdict[i]);
     const bool ends = verdict != Verdict::trapped && verdict != Verdict::undecided;
     if (ends && std::isfinite(s.time_s[i])) continue;

@@ -42,7 +42,7 @@ class Sampler {
   Verdict verdict(Vec2 p, double heading_rad) const {
     Reader reader{flow_, sections_, {}};
     follow_state(flow_, p.x, p.y, heading_rad, options_.most_crossings, reader);
-    return reader.found.only();
+    return flow_.told(reader.found.only(), flow_.grid.cell_of(p));
   }
 
   /// One heading in each of equal slices; positions from a Halton sequence, shifted at random so

@@ -48,6 +48,8 @@ class Verdict(IntEnum):
     COLLIDE = 2
     LEAVE = 3
     TRAPPED = 4
+    FOLLOW = 5
+    HOLD = 6
 
 class Sampled(IntEnum):
     UNDECIDED = 0
@@ -427,6 +429,7 @@ def plan_arrays(
     blend: Literal["continuous", "paper"] = ...,
     axis_capture_rad: float = ...,
     path_field: Literal["follow", "paper"] = ...,
+    fallback: Literal["hold", "none"] = ...,
 ) -> Plan: ...
 def load_plan(path: _Path) -> Plan: ...
 def verify(

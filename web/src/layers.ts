@@ -142,7 +142,7 @@ export function shareLooks(record: PageRecord, kind: number): Look[] {
 
 /** The codes of each of share_kinds. */
 export function verdictsOfKind({ codes }: PageRecord, kind: number): number[] {
-  return [[codes.reach], codes.failing, [codes.undecided], []][kind];
+  return [codes.safe, codes.failing, [codes.undecided], []][kind];
 }
 
 /** For how many headings each sample has each verdict, and is at risk. */

@@ -56,12 +56,14 @@ export function updateVerdictLegend(record: PageRecord, shown: ShownVerdict[]): 
   });
 }
 
-export function showShareLegend(info: VerdictInfo, tiles: Tiles, kind: number): void {
+export function showShareLegend(record: PageRecord, info: VerdictInfo, tiles: Tiles, kind: number): void {
+  const hold = record.styles.verdict.findIndex(({ name }) => name === "hold");
   const { list, paint } = entries([
     ...share_classes.map((name, code) => ({ code, name })).reverse(),
     { code: 6, name: "obstacle" }, { code: 7, name: "goal" }], tiles);
+  const holds = kind === 0 && info.count.some((of) => hold >= 0 && of[hold] > 0);
   byId("legend").replaceChildren(list, el("p", {},
-    `Share of the ${info.heading_rad.length} headings at each cell's sample point that is ${share_kinds[kind]}.`));
+    `Share of the ${info.heading_rad.length} headings at each cell's sample point that is ${share_kinds[kind]}${holds ? " or to hold" : ""}.`));
   paint();
 }
 
@@ -83,7 +85,7 @@ export function showCostLegend(record: PageRecord, tiles: Tiles): void {
 export function showRegionLegend(tiles: Tiles): void {
   const { list, paint } = entries([
     { code: 1, name: "safe start: farther than the buffer from obstacles" }, { code: 0, name: "buffer around obstacles" },
-    { code: 2, name: "obstacle" }, { code: 3, name: "goal" }, { code: 4, name: "cut off: no way to the goal, no command" }], tiles);
+    { code: 2, name: "obstacle" }, { code: 3, name: "goal" }, { code: 4, name: "cut off: no way to the goal" }], tiles);
   byId("legend").replaceChildren(list);
   paint();
 }

@@ -433,7 +433,7 @@ export class MapPage implements MapHands, PlanView {
     const { record, shown, share_kind } = this;
     this.nameShown();
     if (shown === "verdict" && record.verdicts) showVerdictLegend(record, this.verdict_tiles, this.shownVerdicts());
-    if (shown === "share" && record.verdicts) showShareLegend(record.verdicts, this.share_tiles[share_kind], share_kind);
+    if (shown === "share" && record.verdicts) showShareLegend(record, record.verdicts, this.share_tiles[share_kind], share_kind);
     if (shown === "cost") showCostLegend(record, this.pictures.cost.tiles);
     if (shown === "region") showRegionLegend(this.pictures.region.tiles);
   }

@@ -102,7 +102,7 @@ export class MovedGoal {
       if (asked !== this.asked) return;
       await this.view.showProof(proof.verdicts, new Arrays(proof.arrays));
       const { reach, failing, undecided } = this.record.codes;
-      const share = (...codes: number[]) => percent(codes.reduce((sum, code) => sum + proof.volume_fraction[this.record.styles.verdict[code].name], 0), 1);
+      const share = (...codes: number[]) => percent(codes.reduce((sum, code) => sum + (proof.volume_fraction[this.record.styles.verdict[code].name] ?? 0), 0), 1);
       this.tell(`Verified ${reasons[proof.stopped_by] ?? proof.stopped_by}: of all states ${share(...failing)} are proved to fail, ` +
         `${share(undecided)} are undecided, ${share(reach)} are proved to reach. No other program has checked this proof, and it is not kept.`);
     } catch (error) {

@@ -2,7 +2,7 @@
 import { byId, el, fitted, grouped, percent, short, term } from "./dom";
 import { wordRows } from "./key_words";
 import type { Tiles } from "./layers";
-import { codesInOrder, type Choke, type Finding, type PageRecord } from "./record";
+import { withRisk, type Choke, type Finding, type PageRecord } from "./record";
 
 function missionWords(record: PageRecord): string {
   const { mission } = record;
@@ -84,7 +84,7 @@ export function showVolumes(record: PageRecord, tiles: Tiles): void {
   if (verify.volume_fraction) add("Safe starts with a command", "volume_fraction_free_commanded");
   if (verify.volume_fraction) rows.push(["Buffer around obstacles", verify.volume_fraction_buffer]);
   const { undecided } = codes;
-  const order = record.contract_verdicts ? codesInOrder(record, record.contract_verdicts) : codes.order;
+  const order = withRisk(codes, record.contract_verdicts, codes.order);
   const nameOf = (code: number): string => (code === codes.at_risk ? record.styles.at_risk! : record.styles.verdict[code]).name;
   const paints: (() => void)[] = [];
   byId("volumes").replaceChildren(...rows.map(([name, share]) => {

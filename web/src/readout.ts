@@ -48,7 +48,7 @@ export function showReadout(record: PageRecord, field: FieldArrays, place: [numb
   byId("readout").replaceChildren(
     term("x, y", `${short(place[0])}, ${short(place[1])} m`),
     ...(earth ? [wide(term("latitude, longitude", earth))] : []), term("cell", cell.join(", ")),
-    term("region", cut_off ? `${region[i] === RegionCode.free ? "free" : "buffer"}, but cut off from the goal: no command` : region_names[region[i]]),
+    term("region", cut_off ? `${region[i] === RegionCode.free ? "free" : "buffer"}, but cut off from the goal: ${commanded ? "the command leads to a circle on which to wait" : "no command"}` : region_names[region[i]]),
     term("cost to go", cost[i] === no_value ? "none" : `${short(cost[i] * record.cost_step_m)} m`),
     term("commanded heading", commanded ? bearingWords(record, headingOfCode(heading[i])) : open ? "none: straight on" : "none"),
     ...verdicts.flatMap((its) => verdictTerms(record, cell, its)),

@@ -12,6 +12,8 @@ export interface Line { color: string; dash: number[] }
 export interface Codes {
   reach: number;
   failing: number[];
+  safe: number[];  // what is proved to reach, or at least to be safe for ever
+  seldom: number[];  // listed only where a state has them
   undecided: number;
   order: number[];  // in which verdicts are listed, undecided the last
   obstacle: number;
@@ -84,8 +86,13 @@ export interface Choke { x_m: number; y_m: number; cell: [number, number]; reaso
 
 /** Codes in the order in which their verdicts are listed, undecided the last. */
 export function codesInOrder({ codes }: PageRecord, info: VerdictInfo): number[] {
-  if (!info.at_risk) return codes.order;
-  return [...codes.order.filter((code) => code !== codes.undecided), codes.at_risk!, codes.undecided];
+  return withRisk(codes, info, codes.order.filter((code) => !codes.seldom.includes(code) || info.count.some((of) => of[code] > 0)));
+}
+
+/** With those at risk before the undecided ones, where they are known. */
+export function withRisk(codes: Codes, info: VerdictInfo | undefined, order: number[]): number[] {
+  if (!info?.at_risk) return order;
+  return [...order.filter((code) => code !== codes.undecided), codes.at_risk!, codes.undecided];
 }
 
 /** How many samples have each code at a heading: at risk, or undecided, but not both. */
