@@ -26,7 +26,7 @@ class Follower {
         complete_(complete),
         cost_cells_(cost_cells),
         r_(turn_radius_m),
-        line_(flyable_path(path, turn_radius_m)) {}
+        line_(followed_line(path, turn_radius_m)) {}
 
   /// The command at cell i in place of `before`; none where that stays.
   std::optional<Heading> command(std::size_t i, Heading before) const {

@@ -49,6 +49,13 @@ def draw_track(file, points, pixel_m):
     high = [max(p[i] for p in points) + margin_m for i in (0, 1)]
     nx, ny = (int((high[i] - low[i]) / pixel_m) + 1 for i in (0, 1))
     image = bytearray(nx * ny)
+    for x, y, right_m, left_m in points:  # what the lines across leave out at the vertices
+        reach = int(min(right_m, left_m) / pixel_m)
+        px, py = int((x - low[0]) / pixel_m), int((y - low[1]) / pixel_m)
+        for dy in range(-reach, reach + 1):
+            half = int((reach * reach - dy * dy) ** 0.5)
+            first = (ny - 1 - py - dy) * nx + px - half
+            image[first:first + 2 * half + 1] = b"\xff" * (2 * half + 1)
     for a, b in zip(points, points[1:] + points[:1]):
         length = max(1e-9, ((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2) ** 0.5)
         steps = max(1, int(length / pixel_m))
