@@ -100,11 +100,8 @@ void report_proof(const Plan& plan, const FollowFlights& engine) {
   contract.command_error_m = 0.1 * r;
   contract.heading_error_rad = pi / 180.0;
   contract.turn_radius_m = {0.95 * r, 1.05 * r};
-  constexpr double finest_radii = 0.125;
-  const int parts =
-      std::clamp(static_cast<int>(std::lround(plan.grid.cell_m / (finest_radii * r))), 1, 4);
   const auto proved = prove_following(
-      plan, contract, parts, {}, [] { return true; }, [](const std::string&) {});
+      plan, contract, 1, {}, [] { return true; }, [](const std::string&) {});
   if (!proved || !proved->found) {
     fmt::print(",0,,,,");
     return;
