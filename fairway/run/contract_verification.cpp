@@ -1,6 +1,7 @@
 #include "fairway/run/contract_verification.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <bit>
 #include <chrono>
 #include <utility>
