@@ -1,9 +1,9 @@
 #include "fairway/run/contract_verification.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <bit>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>

@@ -19,7 +19,7 @@
 #include "fairway/base/parallel.hpp"
 #include "fairway/base/random.hpp"
 #include "fairway/plan/plan_file.hpp"
-#include "fairway/run/proved_following.hpp"
+#include "fairway/run/contract_verification.hpp"
 #include "tools/following/follow_flights.hpp"
 #include "tools/following/viable_states.hpp"
 
@@ -100,23 +100,26 @@ void report_proof(const Plan& plan, const FollowFlights& engine) {
   contract.command_error_m = 0.1 * r;
   contract.heading_error_rad = pi / 180.0;
   contract.turn_radius_m = {0.95 * r, 1.05 * r};
-  const auto proved = prove_following(
-      plan, contract, 1, {}, [] { return true; }, [](const std::string&) {});
-  if (!proved || !proved->found) {
+  ContractVerifyOptions options;
+  options.find_witnesses = false;
+  options.or_touch = false;
+  const ContractVerification proved =
+      verify_contract(plan, "plan", {}, contract, options, [](const std::string&) {});
+  if (!proved.following) {
     fmt::print(",0,,,,");
     return;
   }
-  const Following& found = *proved->found;
+  const Following& found = *proved.following;
   double gentle_m = 0.0;
-  const auto stretches = static_cast<double>(found.profile.size());
-  for (std::size_t k = 0; k < found.profile.size(); ++k) {
+  const auto stretches = static_cast<double>(found.tube.size());
+  for (std::size_t k = 0; k < found.tube.size(); ++k) {
     const double from = static_cast<double>(k) / stretches;
     if (engine.is_gentle(from, from + 1.0 / stretches)) {
-      gentle_m = std::max(gentle_m, found.profile[k].distance_m);
+      gentle_m = std::max(gentle_m, static_cast<double>(found.tube[k].distance_m));
     }
   }
   fmt::print(",{:.4f},{:.3f},{:.3f},{:.1f},{:.1f}",
-             proved->shares.all[static_cast<std::size_t>(Verdict::reach)], gentle_m / r,
+             proved.survey.shares.usable[static_cast<std::size_t>(Verdict::reach)], gentle_m / r,
              found.tube_m / r, found.lap_least_s, found.lap_most_s);
 }
 
