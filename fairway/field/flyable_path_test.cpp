@@ -9,6 +9,7 @@
 #include "fairway/base/heading.hpp"
 #include "fairway/base/random.hpp"
 #include "fairway/vehicle/path_geometry.hpp"
+#include "fairway/vehicle/path_locator.hpp"
 
 namespace fairway {
 namespace {
@@ -88,6 +89,52 @@ TEST(FlyablePath, NeverLeavesThePathByMoreThanTheRadiusAndKeepsOpenEnds) {
 TEST(FlyablePath, AsksForAPathAndARadius) {
   EXPECT_THROW((void)flyable_path({{{0.0, 0.0}}, false}, 1.0), PreconditionViolation);
   EXPECT_THROW((void)flyable_path({{{0.0, 0.0}, {1.0, 0.0}}, false}, 0.0), PreconditionViolation);
+}
+
+/// How sharply a path bends at most, over half a radius.
+double sharpest_bend_m(const PathMission& path, double radius_m) {
+  const PathLocator line(path);
+  const double half_m = 0.25 * radius_m;
+  double least_m = 1e9;
+  for (double at_m = half_m; at_m + half_m < line.length_m(); at_m += 0.05 * radius_m) {
+    const Vec2 here = line.place(at_m);
+    const Vec2 before = here - line.place(at_m - half_m);
+    const Vec2 after = line.place(at_m + half_m) - here;
+    const double turn = std::abs(Heading::of(before).turn_to(Heading::of(after)));
+    if (turn > 0.0) least_m = std::min(least_m, half_m / turn);
+  }
+  return least_m;
+}
+
+/// A bend by `turn_rad` of radius `bend_m` between straights.
+PathMission bend(double bend_m, double turn_rad) {
+  PathMission path{{{-100.0, -bend_m}}, false};
+  for (int k = 0; k <= 40; ++k) {
+    const double at = -0.5 * pi + turn_rad * k / 40.0;
+    path.vertices_m.push_back({bend_m * std::cos(at), bend_m * std::sin(at)});
+  }
+  path.vertices_m.push_back(path.vertices_m.back() + 100.0 * Heading::from_rad(turn_rad).unit());
+  return path;
+}
+
+TEST(FollowedLine, BendsMoreGentlyWhereThereIsRoomAndNowhereMoreSharply) {
+  constexpr double turn_m = 20.0;
+  for (const double bend_m : {10.0, 16.0, 20.0, 25.0, 35.0}) {
+    for (const double turn_rad : {0.8, 1.6, 2.4, 3.1, 4.7}) {
+      const PathMission path = bend(bend_m, turn_rad);
+      const double before_m = sharpest_bend_m(flyable_path(path, turn_m), turn_m);
+      const double after_m = sharpest_bend_m(followed_line(path, turn_m), turn_m);
+      EXPECT_GE(after_m, 0.98 * before_m) << bend_m << " " << turn_rad;
+      if (turn_rad > 2.0 || bend_m > turn_m) continue;
+      EXPECT_GT(after_m, 1.1 * before_m) << bend_m << " " << turn_rad;
+    }
+  }
+}
+
+TEST(FollowedLine, IsThePathWhereItIsGentle) {
+  const PathMission path = bend(35.0, 2.0);
+  const PathLocator line(followed_line(path, 20.0));
+  for (const Vec2 v : path.vertices_m) EXPECT_LT(line.nearest(v).distance_m, 0.05);
 }
 
 }  // namespace

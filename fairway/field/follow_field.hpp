@@ -17,26 +17,16 @@
 
 namespace fairway {
 
-/// How a line is approached, metres.
-struct Approach {
-  double circle_m = 0.0;  ///< R, radius of the circles
-  double flat_m = 0.0;    ///< nearer than this the command runs along the line
-  double band_m = 0.0;    ///< farther than this there is a wall close by; +inf: none
-  double turn_radius_m = 0.0;
-  double overshoot_m = 0.0;  ///< beyond the band: how far the line may be overshot
-};
+/// A(distance), 0 to pi / 2, for distance_m >= 0: the smaller of acos(1 - distance / circle_m), the
+/// angle of a circle that touches the line (pi / 2 from circle_m on), and distance / radian_m.
+///
+/// Whoever flies as it says turns with a radius of at least circle_m / 2. With circle_m > r one
+/// that flies backwards along a straight line turns away from it: it does not weave along it for
+/// ever. The circle's angle rises at once, like a root: the second one bounds how much the commands
+/// of neighbouring cells differ at the line, which is where those that follow are.
+[[nodiscard]] double approach_angle_rad(double distance_m, double circle_m, double radian_m);
 
-/// A(distance), 0 to pi / 2, for distance_m >= 0:
-///   acos(1 - (distance - flat) / R), 0 within flat, pi / 2 from flat + R on;
-///   beyond the band at least acos(1 - (distance + overshoot) / r), 88 degrees at most.
-/// With R >= r, and flat at least half a cell's extent across the line, a vehicle that flies
-/// backwards along a straight line turns away from it: it does not weave along it for ever. The
-/// second term turns vehicles away from a wall early and lets those that face backwards come round
-/// in a corridor narrower than two turns; whoever obeys it is parallel to the line again before it
-/// is the overshoot beyond it.
-[[nodiscard]] double approach_angle_rad(double distance_m, const Approach& approach);
-
-/// Sets the commands of cells within R = 3 r of the line; beyond the ends of an open path they
+/// Sets the commands of cells within R = 2.5 r of the line; beyond the ends of an open path they
 /// point back at the end. `field`, the paper's smoothed field, stays where an obstacle lies between
 /// a cell and the line (the way through free cells, `cost_cells`, is longer than straight to the
 /// line; faded over r), and takes over as far as needed where the new command would meet an

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <variant>
 
 #include "fairway/base/heading.hpp"
@@ -53,39 +52,27 @@ PathMission random_path(Random& random) {
   }
 }
 
-TEST(ApproachAngle, IsThatOfACircleTangentToTheLine) {
-  const Approach open{60.0, 2.0, std::numeric_limits<double>::infinity(), r};
-  EXPECT_EQ(approach_angle_rad(0.0, open), 0.0);
-  EXPECT_EQ(approach_angle_rad(2.0, open), 0.0);
-  EXPECT_NEAR(approach_angle_rad(32.0, open), std::acos(0.5), 1e-12);
-  EXPECT_NEAR(approach_angle_rad(62.0, open), pi / 2, 1e-12);
-  EXPECT_NEAR(approach_angle_rad(1e6, open), pi / 2, 1e-12);
+TEST(ApproachAngle, IsThatOfACircleTangentToTheLineAndLinearNextToIt) {
+  EXPECT_EQ(approach_angle_rad(0.0, 50.0, 10.0), 0.0);
+  EXPECT_NEAR(approach_angle_rad(3.0, 50.0, 10.0), 0.3, 1e-12);
+  EXPECT_NEAR(approach_angle_rad(25.0, 50.0, 10.0), std::acos(0.5), 1e-12);
+  EXPECT_NEAR(approach_angle_rad(50.0, 50.0, 10.0), pi / 2, 1e-12);
+  EXPECT_NEAR(approach_angle_rad(1e6, 50.0, 10.0), pi / 2, 1e-12);
 }
 
-TEST(ApproachAngle, GrowsWithDistanceAndBesideAWall) {
+// So that a vehicle that flies as it says, with R >= 2 r, turns no more sharply than it can.
+TEST(ApproachAngle, AsksForNoSharperTurnThanHalfTheCircle) {
   Random random(61);
   for (int i = 0; i < 2000; ++i) {
-    const Approach open{60.0, random.uniform(0.0, 10.0), 1e9, r};
-    Approach walled = open;
-    walled.overshoot_m = random.uniform(0.0, r);
-    walled.band_m = random.uniform(0.0, 40.0);
-    const double near_m = random.uniform(0.0, 80.0);
-    const double far_m = near_m + random.uniform(0.0, 20.0);
-    EXPECT_LE(approach_angle_rad(near_m, open), approach_angle_rad(far_m, open));
-    EXPECT_LE(approach_angle_rad(near_m, walled), approach_angle_rad(far_m, walled));
-    EXPECT_GE(approach_angle_rad(near_m, walled), approach_angle_rad(near_m, open));
-    EXPECT_LE(approach_angle_rad(near_m, walled), pi / 2);
-  }
-}
-
-// Whoever obeys the command beside a wall turns parallel to the line within r / 2 beyond it, here.
-TEST(ApproachAngle, BesideAWallLetsTheLineBeOvershotByNoMoreThanIsAllowed) {
-  const Approach walled{60.0, 0.0, 0.0, r, 0.5 * r};
-  for (double distance_m = 0.1; distance_m < 60.0; distance_m += 0.1) {
-    const double angle = approach_angle_rad(distance_m, walled);
-    const bool steepest = std::abs(angle - 88.0 * pi / 180.0) < 1e-9;
-    if (steepest || distance_m > 9.9) continue;
-    EXPECT_LE(r * (1.0 - std::cos(angle)) - distance_m, 0.5 * r + 1e-9);
+    const double circle_m = random.uniform(1.0, 80.0);
+    const double radian_m = random.uniform(0.1, 1.0) * circle_m;
+    const double near_m = random.uniform(0.0, circle_m);
+    const double far_m = near_m + random.uniform(1e-4, 1e-2) * circle_m;
+    const double near_rad = approach_angle_rad(near_m, circle_m, radian_m);
+    const double far_rad = approach_angle_rad(far_m, circle_m, radian_m);
+    EXPECT_LE(near_rad, far_rad);
+    if (far_m > circle_m) continue;
+    EXPECT_LE(std::cos(near_rad) - std::cos(far_rad), 2.0 * (far_m - near_m) / circle_m * 1.01);
   }
 }
 
@@ -103,9 +90,8 @@ TEST(FollowField, OfAStraightPathIsTheFormula) {
       const Vec2 p = map.grid.center(map.grid.cell_at(i));
       const PathFrame frame = locator.frame(p);
       const double distance_m = std::abs(frame.offset_m);
-      if (frame.beyond_m > 0.0 || distance_m >= 2.9 * r) continue;
-      const double flat_m = 0.5 * cell_m * (std::abs(u.x) + std::abs(u.y));
-      const double angle = approach_angle_rad(distance_m, {3.0 * r, flat_m, 1e9, r});
+      if (frame.beyond_m > 0.0 || distance_m >= 2.4 * r) continue;
+      const double angle = approach_angle_rad(distance_m, 2.5 * r, 0.5 * r);
       const double expected = turn + (frame.offset_m > 0.0 ? -angle : angle);
       const Heading found = Heading::from_rad(static_cast<double>(field.heading_rad[i]));
       EXPECT_NEAR(found.turn_to(Heading::from_rad(expected)), 0.0, 0.02) << p.x << " " << p.y;
@@ -174,7 +160,7 @@ TEST(FollowField, LeavesRegionsCostsAndWhatHasACommandAsTheyAre) {
     if (follow.heading_rad[k] == paper.heading_rad[k]) continue;
     ++changed;
     const PathFrame frame = locator.frame(map.grid.center(map.grid.cell_at(k)));
-    EXPECT_LT(std::abs(frame.offset_m), 3.0 * r);
+    EXPECT_LT(std::abs(frame.offset_m), 2.5 * r);
   }
   EXPECT_GT(changed, 100U);
 }
@@ -215,7 +201,7 @@ TEST(FollowField, PointsBackAtTheEndsOfAnOpenPathBeyondThem) {
     for (std::size_t k = 0; k < field.heading_rad.size(); ++k) {
       const Vec2 p = map.grid.center(map.grid.cell_at(k));
       const PathFrame frame = locator.frame(p);
-      if (frame.beyond_m == 0.0 || std::abs(frame.offset_m) > 2.9 * r) continue;
+      if (frame.beyond_m == 0.0 || std::abs(frame.offset_m) > 2.4 * r) continue;
       const Heading back = Heading::of(path.vertices_m[frame.station_m > 0.0 ? 1 : 0] - p);
       const Heading found = Heading::from_rad(static_cast<double>(field.heading_rad[k]));
       EXPECT_NEAR(back.turn_to(found), 0.0, 0.03);

@@ -23,7 +23,7 @@ class Tube {
  public:
   static constexpr float outside = std::numeric_limits<float>::infinity();
 
-  /// `grid`: of the parts' plan. Time in proportion to parts times pieces of the path near them.
+  /// `grid`: of the parts' plan. Time in proportion to parts, and to pieces of the path near them.
   Tube(const Parts& parts, const Grid& grid, const PathLocator& path, double widest_m);
 
   double length_m() const { return length_m_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -89,8 +90,13 @@ class Stopwatch {
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
-/// Coarser ones mix the commands of both sides of the line; finer ones prove hardly more.
-constexpr int parts_to_follow = 2;
+/// Coarser ones mix the commands of both sides of the line, finer ones prove hardly more and no
+/// narrower tube.
+int parts_to_follow(const Plan& plan) {
+  constexpr double widest_part_radii = 0.14;
+  const double cell_radii = plan.grid.cell_m / plan.vehicle.turn_radius_m;
+  return std::max(2, static_cast<int>(std::ceil(cell_radii / widest_part_radii)));
+}
 
 /// What is to be proved, of nothing yet.
 ContractCertificate question(const Plan& plan, const RegionOfInterest& region,
@@ -150,7 +156,8 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
                               ? earlier->certificate.parts_per_cell
                               : options.parts_per_cell;
   c = question(plan, region, contract, parts_asked);
-  if (PathFollower::is_asked(plan, region) && parts_asked == 0) c.parts_per_cell = parts_to_follow;
+  if (PathFollower::is_asked(plan, region) && parts_asked == 0)
+    c.parts_per_cell = parts_to_follow(plan);
   if (earlier != nullptr) require_same_proof(*earlier, c);
   // Where most states are undecided, a search in each takes too long.
   const bool search = options.find_witnesses && wild_share(plan, contract) <= most_wild_unwarned;

@@ -87,8 +87,8 @@ bool PathFollower::is_asked(const Plan& plan, const RegionOfInterest& region) {
 
 PathFollower::PathFollower(const Plan& plan, const ContractCertificate& question,
                            const std::function<bool()>& go_on)
-    // The line that the field follows: corners sharper than the vehicle turns are cut.
-    : path_(flyable_path(*path_of(plan), plan.vehicle.turn_radius_m)),
+    // The line that the field follows: its sharp bends are cut.
+    : path_(followed_line(*path_of(plan), plan.vehicle.turn_radius_m)),
       kind_(cell_kinds(plan.grid, plan.region, region_of(plan, path_))),
       parts_(parts_of(plan, kind_, question)),
       tube_(parts_, plan.grid, path_, widest_radii * plan.vehicle.turn_radius_m),

@@ -66,6 +66,14 @@ bool FollowFlights::gentle_at(double station_m) const {
   return gentle_[std::min(i, gentle_.size() - 1)];
 }
 
+bool FollowFlights::is_gentle(double from_share, double to_share) const {
+  const double to_m = to_share * length_m();
+  for (double at_m = from_share * length_m(); at_m < to_m; at_m += 0.5 * step_m_) {
+    if (!gentle_at(at_m)) return false;
+  }
+  return gentle_at(to_m);
+}
+
 FollowedFlight FollowFlights::fly(const State& start, double laps) const {
   const double length_m = locator_.length_m();
   const bool closed = locator_.path().closed;

@@ -37,6 +37,10 @@ class FollowFlights {
   /// Flies `laps` times the path's length; an open path to its end.
   [[nodiscard]] FollowedFlight fly(const State& start, double laps) const;
 
+  double length_m() const { return locator_.length_m(); }  ///< of the path
+  /// Whether the tube counts all along from one share of the path's length to another.
+  [[nodiscard]] bool is_gentle(double from_share, double to_share) const;
+
  private:
   void find_gentle();
   std::vector<bool> bends() const;

@@ -1,7 +1,10 @@
 // Flies random states of path missions' plans for some laps, and counts what becomes of them
 // (docs/following.md): one line of CSV for each plan.
 //
-// Usage: fairway-following PLAN... [--flights N] [--laps N] [--seed S]
+// With --proof also what is proved of them under a contract: a command error of 0.1 r, a heading
+// error of one degree, radii of r +-5 %.
+//
+// Usage: fairway-following PLAN... [--states N] [--laps N] [--seed S] [--proof]
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +19,7 @@
 #include "fairway/base/parallel.hpp"
 #include "fairway/base/random.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/run/contract_verification.hpp"
 #include "tools/following/follow_flights.hpp"
 #include "tools/following/viable_states.hpp"
 
@@ -24,17 +28,20 @@ namespace {
 
 struct Arguments {
   std::vector<std::string> plans;
-  std::size_t flights = 2000;
+  std::size_t states = 2000;
   double laps = 3.0;
   std::uint64_t seed = 1;
+  bool proof = false;
 };
 
 Arguments arguments_of(const std::vector<std::string>& words) {
   Arguments out;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i].starts_with("--") && i + 1 < words.size()) {
+    if (words[i] == "--proof") {
+      out.proof = true;
+    } else if (words[i].starts_with("--") && i + 1 < words.size()) {
       const std::string& value = words[i + 1];
-      if (words[i] == "--flights") out.flights = std::stoul(value);
+      if (words[i] == "--states") out.states = std::stoul(value);
       if (words[i] == "--laps") out.laps = std::stod(value);
       if (words[i] == "--seed") out.seed = std::stoul(value);
       ++i;
@@ -45,41 +52,85 @@ Arguments arguments_of(const std::vector<std::string>& words) {
   return out;
 }
 
-/// Uniform over the cells with a command, and viable.
-std::vector<State> viable_starts(const Plan& plan, const Arguments& asked, double& viable_share) {
-  constexpr int places_per_turn = 5;
-  const int fineness = std::max(1, static_cast<int>(std::lround(places_per_turn * plan.grid.cell_m /
-                                                                plan.vehicle.turn_radius_m)));
-  const ViableStates viable(plan, fineness);
+struct Starts {
+  std::vector<State> viable;
+  double least_share = 0.0;  // of all states of cells with a command, viable at least
+  double most_share = 0.0;
+};
+
+/// Uniform over the cells with a command.
+Starts draw_starts(const Plan& plan, const Arguments& asked) {
+  constexpr double cut_radii = 0.05;
   std::vector<std::size_t> cells;
   for (std::size_t i = 0; i < plan.region.size(); ++i) {
-    if (plan.region[i] != Region::obstacle && std::isfinite(plan.heading_rad[i]))
-      cells.push_back(i);
+    if (plan.region[i] == Region::obstacle || !std::isfinite(plan.heading_rad[i])) continue;
+    cells.push_back(i);
   }
-  std::vector<State> starts;
   Random random(asked.seed);
-  const std::size_t most = 100 * asked.flights;
-  std::size_t drawn = 0;
-  for (; starts.size() < asked.flights && drawn < most && !cells.empty(); ++drawn) {
+  std::vector<State> drawn(cells.empty() ? 0 : asked.states);
+  for (State& state : drawn) {
     const Vec2 corner = plan.grid.corner(plan.grid.cell_at(cells[random.below(cells.size())]));
     const double x = corner.x + plan.grid.cell_m * random.unit();
     const double y = corner.y + plan.grid.cell_m * random.unit();
-    const State state{{x, y}, Heading::from_rad(random.uniform(-pi, pi))};
-    if (viable.contains(state)) starts.push_back(state);
+    state = {{x, y}, Heading::from_rad(random.uniform(-pi, pi))};
   }
-  viable_share = drawn == 0 ? 0.0 : static_cast<double>(starts.size()) / static_cast<double>(drawn);
-  return starts;
+  const ViableStates viable(plan);
+  std::vector<char> sure(drawn.size());
+  std::vector<char> perhaps(drawn.size());
+  for_ranges(drawn.size(), 4, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      sure[i] = viable.contains(drawn[i], 0.0) ? 1 : 0;
+      perhaps[i] =
+          sure[i] != 0 || viable.contains(drawn[i], cut_radii * plan.vehicle.turn_radius_m) ? 1 : 0;
+    }
+  });
+  Starts out;
+  const auto n = static_cast<double>(std::max<std::size_t>(1, drawn.size()));
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    if (sure[i] != 0) out.viable.push_back(drawn[i]);
+    out.most_share += perhaps[i] / n;
+  }
+  out.least_share = static_cast<double>(out.viable.size()) / n;
+  return out;
+}
+
+void report_proof(const Plan& plan, const FollowFlights& engine) {
+  const double r = plan.vehicle.turn_radius_m;
+  VehicleContract contract = VehicleContract::of(plan.vehicle);
+  contract.command_error_m = 0.1 * r;
+  contract.heading_error_rad = pi / 180.0;
+  contract.turn_radius_m = {0.95 * r, 1.05 * r};
+  ContractVerifyOptions options;
+  options.find_witnesses = false;
+  options.or_touch = false;
+  const ContractVerification proved =
+      verify_contract(plan, "plan", {}, contract, options, [](const std::string&) {});
+  if (!proved.following) {
+    fmt::print(",0,,,,");
+    return;
+  }
+  const Following& found = *proved.following;
+  double gentle_m = 0.0;
+  const auto stretches = static_cast<double>(found.tube.size());
+  for (std::size_t k = 0; k < found.tube.size(); ++k) {
+    const double from = static_cast<double>(k) / stretches;
+    if (engine.is_gentle(from, from + 1.0 / stretches)) {
+      gentle_m = std::max(gentle_m, static_cast<double>(found.tube[k].distance_m));
+    }
+  }
+  fmt::print(",{:.4f},{:.3f},{:.3f},{:.1f},{:.1f}",
+             proved.survey.shares.usable[static_cast<std::size_t>(Verdict::reach)], gentle_m / r,
+             found.tube_m / r, found.lap_least_s, found.lap_most_s);
 }
 
 void report(const std::string& file, const Arguments& asked) {
   const Plan plan = read_plan(file);
-  double viable_share = 0.0;
-  const std::vector<State> starts = viable_starts(plan, asked, viable_share);
+  const Starts starts = draw_starts(plan, asked);
   constexpr double tube_radii = 0.5;
   const FollowFlights engine(plan, tube_radii);
-  std::vector<FollowedFlight> flown(starts.size());
-  for_ranges(starts.size(), 4, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) flown[i] = engine.fly(starts[i], asked.laps);
+  std::vector<FollowedFlight> flown(starts.viable.size());
+  for_ranges(flown.size(), 4, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) flown[i] = engine.fly(starts.viable[i], asked.laps);
   });
   std::array<std::size_t, fate_names.size()> count{};
   std::size_t forward = 0;
@@ -99,10 +150,12 @@ void report(const std::string& file, const Arguments& asked) {
     return of == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(of);
   };
   const double r = plan.vehicle.turn_radius_m;
-  fmt::print("{},{},{:.3f}", file, starts.size(), viable_share);
-  for (const std::size_t n : count) fmt::print(",{:.4f}", share(n, starts.size()));
-  fmt::print(",{:.4f},{:.3f},{:.2f}\n", share(forward_follow, forward), tube_m / r,
-             share(1, count[0]) * join_m / r);
+  fmt::print("{},{},{:.4f},{:.4f}", file, asked.states, starts.least_share, starts.most_share);
+  for (const std::size_t n : count) fmt::print(",{:.4f}", share(n, flown.size()));
+  fmt::print(",{:.4f},{:.3f},{:.2f},{:.1f}", share(forward_follow, forward), tube_m / r,
+             share(1, count[0]) * join_m / r, engine.length_m() / plan.vehicle.speed_mps);
+  if (asked.proof) report_proof(plan, engine);
+  fmt::print("\n");
   std::fflush(stdout);
 }
 
@@ -113,9 +166,11 @@ int main(int count, char** words) {
   using namespace fairway::following;
   try {
     const Arguments asked = arguments_of({words + 1, words + count});
-    fmt::print("plan,flights,viable_share");
+    fmt::print("plan,states,viable_least,viable_most");
     for (const char* name : fate_names) fmt::print(",{}", name);
-    fmt::print(",follow_facing_forward,tube_radii,join_radii\n");
+    fmt::print(",follow_facing_forward,tube_radii,join_radii,length_s");
+    if (asked.proof) fmt::print(",proved,proved_gentle_radii,proved_radii,lap_least_s,lap_most_s");
+    fmt::print("\n");
     for (const std::string& plan : asked.plans) report(plan, asked);
   } catch (const std::exception& error) {
     fmt::print(stderr, "fairway-following: {}\n", error.what());

@@ -1,112 +1,111 @@
 #include "tools/following/viable_states.hpp"
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <queue>
+#include <unordered_set>
 
-#include "fairway/base/parallel.hpp"
-#include "fairway/field/distance_transform.hpp"
-#include "fairway/vehicle/path_locator.hpp"
+#include "fairway/base/heading.hpp"
 
 namespace fairway::following {
 namespace {
 
-constexpr int headings = 48;
-constexpr int turn_steps = 2;  // headings passed in one step of a turn
-constexpr double heading_step_rad = two_pi / headings;
-constexpr int most_sweeps = 40;
+constexpr int steps_per_turn = 36;
+constexpr double step_rad = two_pi / steps_per_turn;
+constexpr double same_place_radii = 0.1;
+constexpr double on_path_radii = 0.25;
+constexpr double on_path_rad = 0.35;
+constexpr std::size_t most_nodes = 60000;
+constexpr double greed = 2.0;  // any way will do
 
 }  // namespace
 
-ViableStates::ViableStates(const Plan& plan, int fineness) {
-  const Grid& g = plan.grid;
-  turn_radius_m_ = plan.vehicle.turn_radius_m;
-  const PathLocator path(std::get<PathMission>(plan.record.mission.value()));
-  fine_ = {g.nx * fineness, g.ny * fineness, g.x0_m, g.y0_m, g.cell_m / fineness};
-  std::vector<std::uint8_t> obstacle(fine_.size());
-  node_.assign(fine_.size(), -1);
-  for (int iy = 0; iy < fine_.ny; ++iy) {
-    for (int ix = 0; ix < fine_.nx; ++ix) {
-      const std::size_t coarse = g.index({ix / fineness, iy / fineness});
-      const std::size_t i = fine_.index({ix, iy});
-      obstacle[i] = plan.region[coarse] == Region::obstacle ? 1 : 0;
-      if (obstacle[i] != 0 || !std::isfinite(plan.heading_rad[coarse])) continue;
-      node_[i] = static_cast<std::int32_t>(cell_.size());
-      cell_.push_back(static_cast<std::uint32_t>(i));
+struct ViableStates::Node {
+  Vec2 place;
+  double heading_rad = 0.0;
+  int turned = 0;  // since the start, in steps
+  int steps = 0;
+  double hope = 0.0;  // low: looked at early
+};
+
+ViableStates::ViableStates(const Plan& plan)
+    : plan_(plan),
+      path_(std::get<PathMission>(plan.record.mission.value())),
+      r_(plan.vehicle.turn_radius_m) {}
+
+/// Within an obstacle, by more than `cut_m` along the axes, or outside the grid.
+bool ViableStates::is_blocked(Vec2 place, double cut_m) const {
+  for (const Vec2 way : {Vec2{0.0, 0.0}, {1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}}) {
+    const Cell cell = plan_.grid.cell_of(place + cut_m * way);
+    if (plan_.grid.contains(cell) && plan_.region[plan_.grid.index(cell)] != Region::obstacle) {
+      return false;
+    }
+    if (cut_m == 0.0) break;
+  }
+  return true;
+}
+
+ViableStates::Node ViableStates::after(const Node& from, int side, double share) const {
+  const double turn = share * side * step_rad;
+  const double chord_m =
+      side == 0 ? share * step_rad * r_ : 2.0 * r_ * std::sin(0.5 * share * step_rad);
+  Node to = from;
+  to.place = from.place + chord_m * Heading::from_rad(from.heading_rad + 0.5 * turn).unit();
+  to.heading_rad += turn;
+  return to;
+}
+
+bool ViableStates::is_clear(const Node& from, int side, double cut_m) const {
+  const int probes = 1 + static_cast<int>(8.0 * step_rad * r_ / plan_.grid.cell_m);
+  for (int k = 1; k <= probes; ++k) {
+    if (is_blocked(after(from, side, static_cast<double>(k) / probes).place, cut_m)) return false;
+  }
+  return true;
+}
+
+/// From the path's direction; pi and more away from the path.
+double ViableStates::off_rad(const Node& node) const {
+  const PathFrame frame = path_.frame(node.place);
+  const double off =
+      std::abs(Heading::of(frame.tangent).turn_to(Heading::from_rad(node.heading_rad)));
+  if (frame.beyond_m > 0.0) return off + pi;
+  return std::abs(frame.offset_m) < on_path_radii * r_ ? off : std::max(off, on_path_rad);
+}
+
+bool ViableStates::contains(const State& state, double cut_m) const {
+  Node start;
+  start.place = state.position_m;
+  start.heading_rad = state.heading.rad();
+  if (is_blocked(start.place, 0.0)) return false;
+  const auto later = [](const Node& a, const Node& b) { return a.hope > b.hope; };
+  std::priority_queue<Node, std::vector<Node>, decltype(later)> open(later);
+  std::unordered_set<std::uint64_t> seen;
+  open.push(start);
+  while (!open.empty() && seen.size() < most_nodes) {
+    const Node node = open.top();
+    open.pop();
+    for (const int side : {0, -1, 1}) {
+      if (!is_clear(node, side, cut_m)) continue;
+      Node to = after(node, side, 1.0);
+      to.turned = (node.turned + side + steps_per_turn) % steps_per_turn;
+      to.steps = node.steps + 1;
+      const double off = off_rad(to);
+      if (off < on_path_rad) return true;
+      const auto x =
+          static_cast<std::uint64_t>((to.place.x - plan_.grid.x0_m) / (same_place_radii * r_));
+      const auto y =
+          static_cast<std::uint64_t>((to.place.y - plan_.grid.y0_m) / (same_place_radii * r_));
+      const std::uint64_t bin =
+          ((x << 24U) + y) * steps_per_turn + static_cast<std::uint64_t>(to.turned);
+      if (!seen.insert(bin).second) continue;
+      const double way_m = plan_.cost_m[plan_.grid.index(plan_.grid.cell_of(to.place))];
+      to.hope = to.steps + greed * std::max(off, way_m / r_) / step_rad;
+      open.push(to);
     }
   }
-  std::vector<std::int32_t> squared(fine_.size());
-  distance_transform(obstacle, fine_.nx, fine_.ny, {squared, {}});
-  clearance_m_.resize(cell_.size());
-  value_m_.resize(cell_.size() * headings);
-  for (std::size_t n = 0; n < cell_.size(); ++n) {
-    const auto d = static_cast<double>(squared[cell_[n]]);
-    clearance_m_[n] = static_cast<float>(std::min(std::sqrt(d) - 0.5, 2.0) * fine_.cell_m);
-    const PathFrame frame = path.frame(fine_.center(fine_.cell_at(cell_[n])));
-    for (int h = 0; h < headings; ++h) {
-      const double turn =
-          Heading::of(frame.tangent).turn_to(Heading::from_rad(h * heading_step_rad));
-      const bool on_path = std::abs(frame.offset_m) < 0.25 * turn_radius_m_ &&
-                           std::abs(turn) < 0.35 && frame.beyond_m == 0.0;
-      value_m_[n * headings + static_cast<std::size_t>(h)] =
-          on_path ? clearance_m_[n] : -static_cast<float>(fine_.cell_m);
-    }
-  }
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    std::atomic<std::size_t> changed{0};
-    for_ranges(cell_.size(), 256, [&](std::size_t first, std::size_t last) {
-      std::size_t here = 0;
-      for (std::size_t n = first; n < last; ++n) {
-        const Vec2 place = fine_.center(fine_.cell_at(cell_[n]));
-        for (int h = 0; h < headings; ++h) {
-          float& value = value_m_[n * headings + static_cast<std::size_t>(h)];
-          if (value >= clearance_m_[n]) continue;
-          const float next = std::min(clearance_m_[n], best_after(place, h));
-          if (next <= value) continue;
-          if (next > value + 0.02F * static_cast<float>(fine_.cell_m)) ++here;
-          value = next;
-        }
-      }
-      changed += here;
-    });
-    if (changed == 0) break;
-  }
-}
-
-float ViableStates::value_at(Vec2 p, int heading) const {
-  const double x = (p.x - fine_.x0_m) / fine_.cell_m - 0.5;
-  const double y = (p.y - fine_.y0_m) / fine_.cell_m - 0.5;
-  const int ix = static_cast<int>(std::floor(x));
-  const int iy = static_cast<int>(std::floor(y));
-  const auto at = [&](int jx, int jy) {
-    const Cell c{jx, jy};
-    const std::int32_t n = fine_.contains(c) ? node_[fine_.index(c)] : -1;
-    if (n < 0) return static_cast<float>(-0.5 * fine_.cell_m);
-    return value_m_[static_cast<std::size_t>(n) * headings + static_cast<std::size_t>(heading)];
-  };
-  const auto tx = static_cast<float>(x - ix);
-  const auto ty = static_cast<float>(y - iy);
-  return (1 - ty) * ((1 - tx) * at(ix, iy) + tx * at(ix + 1, iy)) +
-         ty * ((1 - tx) * at(ix, iy + 1) + tx * at(ix + 1, iy + 1));
-}
-
-float ViableStates::best_after(Vec2 place, int heading) const {
-  const double step_rad = turn_steps * heading_step_rad;
-  const double length_m = turn_radius_m_ * step_rad;
-  const double chord_m = 2.0 * turn_radius_m_ * std::sin(0.5 * step_rad);
-  float best = -1e9F;
-  for (const int side : {-1, 0, 1}) {
-    const double way = heading * heading_step_rad + 0.5 * side * step_rad;
-    const Vec2 to = place + (side == 0 ? length_m : chord_m) * Vec2{std::cos(way), std::sin(way)};
-    best = std::max(best, value_at(to, (heading + side * turn_steps + headings) % headings));
-  }
-  return best;
-}
-
-bool ViableStates::contains(const State& state) const {
-  const int h =
-      static_cast<int>(std::lround((state.heading.rad() + two_pi) / heading_step_rad)) % headings;
-  return value_at(state.position_m, h) > 0.0F;
+  return false;
 }
 
 }  // namespace fairway::following

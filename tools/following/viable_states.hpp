@@ -1,37 +1,37 @@
 // The states from which some control comes to the path, facing along it, without touching an
-// obstacle: what no field can exceed, measured on a grid of places and headings.
+// obstacle: what no field can exceed.
 //
-// V(x, h) = the clearance that the best control keeps on its way there = clearance(x) on the path,
-// elsewhere min(clearance(x), max over left, straight and right of V one step on). Values between
-// the grid's places are interpolated, so the border of the set is known to about half a step of
-// the grid; in corridors hardly wider than a turn back that matters, and errs on the large side.
+// A search, from each state by itself, over arcs of the turning radius to the left and right and
+// straight pieces, ten degrees of a turn long; places nearer to one another than a tenth of a
+// radius, with the same heading, count as one. What it finds is a way that can be flown: the share
+// of states with one is a bound from below. With `cut_m` > 0 ways may cut so far into obstacles:
+// what has not even such a way has hardly any, so that this share is an estimate from above.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "fairway/plan/plan.hpp"
+#include "fairway/vehicle/path_locator.hpp"
 #include "fairway/vehicle/vehicle.hpp"
 
 namespace fairway::following {
 
 class ViableStates {
  public:
-  /// Of the cells from which the plan has commands. `fineness`: places per side of a cell.
-  ViableStates(const Plan& plan, int fineness);
+  /// Of a plan with a path mission; keeps a reference to it.
+  explicit ViableStates(const Plan& plan);
 
-  [[nodiscard]] bool contains(const State& state) const;
+  [[nodiscard]] bool contains(const State& state, double cut_m) const;
 
  private:
-  float value_at(Vec2 place_m, int heading) const;
-  float best_after(Vec2 place_m, int heading) const;
+  struct Node;
 
-  Grid fine_;
-  double turn_radius_m_;
-  std::vector<std::int32_t> node_;   // [fine cell] its number, -1: none
-  std::vector<std::uint32_t> cell_;  // [node] of the fine grid
-  std::vector<float> clearance_m_;   // [node]
-  std::vector<float> value_m_;       // [node][heading]
+  bool is_blocked(Vec2 place, double cut_m) const;
+  bool is_clear(const Node& from, int side, double cut_m) const;
+  Node after(const Node& from, int side, double share) const;
+  double off_rad(const Node& node) const;
+
+  const Plan& plan_;
+  PathLocator path_;
+  double r_;
 };
 
 }  // namespace fairway::following
