@@ -29,9 +29,10 @@ struct Claims {
   double worst_time_s = 0.0;
 };
 
-/// Who reaches the core follows the path.
+/// Who reaches the core follows the path, or has reached the goal, where it stays.
 const char* name_in(const nlohmann::json& record, std::size_t verdict) {
-  return verdict == reach && record.contains("follow") ? "follow" : verdict_name[verdict];
+  const bool follows = record.contains("follow") && !record["follow"].contains("hold");
+  return verdict == reach && follows ? "follow" : verdict_name[verdict];
 }
 
 Claims claims_of(const nlohmann::json& record) {

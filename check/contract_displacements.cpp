@@ -14,9 +14,16 @@ Displacements::Displacements(int turn, double clock, double step, double least_r
   const Point chord = first + last;
   const double spread = most_radius - least_radius;
   whole = least_radius * chord;
-  const Point far = least_radius * chord;
-  const Point bend = least_radius * first;
-  const Shape arc = turn > 0 ? Shape{{0.0, 0.0}, bend, far} : Shape{{0.0, 0.0}, far, bend};
+  // Tangents of half the step meet in front of and behind its middle.
+  const double half = least_radius * std::tan(0.25 * step);
+  const Point before = half * unit(turn * clock);
+  const Point behind = whole - half * unit(turn * (clock + step));
+  const Shape arc = turn > 0 ? Shape{{0.0, 0.0}, before, behind, whole}
+                             : Shape{{0.0, 0.0}, whole, behind, before};
+  const Point one = most_radius * first;
+  const Point other = most_radius * last;
+  begun = turn > 0 ? Shape{{0.0, 0.0}, one, one + other, other}
+                   : Shape{{0.0, 0.0}, other, one + other, one};
   if (spread > 0.0) {
     const Point a = spread * first;
     const Point b = spread * last;

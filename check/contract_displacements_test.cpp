@@ -56,6 +56,24 @@ TEST(Displacements, HoldEveryArcOfTheLeastRadiusBetweenItsEnds) {
   }
 }
 
+TEST(Displacements, HoldEveryArcThatBeginsWithinTheStep) {
+  std::mt19937_64 random(3);
+  double beside = 0.0;  // what only `begun` holds
+  for (int i = 0; i < 2000; ++i) {
+    const int turn = i % 2 == 0 ? 1 : -1;
+    const double clock = 0.02 * (i - 1000);
+    const double step = 2.5 * pi / 180.0;
+    const double least = i % 3 == 0 ? 6.0 : 4.0;
+    const Displacements by(turn, clock, step, least, 6.0);
+    const double from = static_cast<double>(random() >> 11) * 0x1p-53;
+    const double share = (1.0 - from) * static_cast<double>(random() >> 11) * 0x1p-53;
+    const Point place = flown(turn, clock + from * step, step, share, least, 6.0, random);
+    EXPECT_LT(outside_by(by.begun, place), 1e-13);
+    beside = std::max(beside, outside_by(by.partial, place));
+  }
+  EXPECT_GT(beside, 1e-4);
+}
+
 TEST(Displacements, HoldEveryWayToVaryTheRadius) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 2000; ++i) {

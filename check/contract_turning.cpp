@@ -83,7 +83,7 @@ bool TurningSets::advance(Turning& set) {
   const bool joins = set.joined - set.clock > 0x1p-32;
   step = std::min({step, most_step, joins ? set.joined - set.clock : HUGE_VAL});
   Displacements by(set.turn, set.clock, step, following_.least_radius(), following_.most_radius());
-  Shape swept = sum(set.at, by.partial);
+  Shape swept = sum(set.at, joins ? by.begun : by.partial);
   const Box all = swept.bounds();
   if ((all.x1 - all.x0 + 1.0) * (all.y1 - all.y0 + 1.0) > most_parts_met) {
     following_.lose();
@@ -94,7 +94,7 @@ bool TurningSets::advance(Turning& set) {
     step = sooner;
     by = Displacements(set.turn, set.clock, step, following_.least_radius(),
                        following_.most_radius());
-    swept = sum(set.at, by.partial);
+    swept = sum(set.at, joins ? by.begun : by.partial);
   }
   const Point middle = unit(set.turn * (set.clock + 0.5 * step));  // all are in its quadrant
   (middle.x > 0.0 ? set.sure.x1 : set.sure.x0) = middle.x > 0.0 ? HUGE_VAL : -HUGE_VAL;
@@ -110,7 +110,7 @@ bool TurningSets::advance(Turning& set) {
       joins || std::any_of(met_.begin(), met_.end(), [](const Met& m) { return m.stays; });
   if (!stays || following_.is_lost()) return false;
   set.at = sum(set.at, by.slack, by.whole);
-  if (joins) set.at = hull(set.at, sum(set.joining, by.partial));
+  if (joins) set.at = hull(set.at, sum(set.joining, by.begun));
   set.clock = end;
   set.past = past;
   if (memory.any()) set.memory = memory;  // else it has only left parts behind

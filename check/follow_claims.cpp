@@ -31,11 +31,27 @@ void require_stages(const FollowClaims& f) {
     require(fits, fmt::format("stage {}: has an invalid direction, time or place", k));
   }
   // With fewer, to and fro could not be told from round.
-  require(f.closed ? f.stages() >= 3 : f.stages() == 1 && f.bends(0),
-          "stages: expected at least three, of an open path one without a direction");
+  require(f.closed && !f.holds ? f.stages() >= 3 : f.stages() == 1 && f.bends(0),
+          "stages: expected at least three, without laps one without a direction");
   require(std::all_of(f.stage.begin(), f.stage.end(),
                       [&](std::uint16_t stage) { return stage <= f.stages(); }),
           "leaf_stage: names a stage that does not exist");
+}
+
+/// The path is nowhere farther from the goal than one of its vertices is.
+void take_disc(const nlohmann::json& hold, FollowClaims& f) {
+  const auto goal = hold.at("goal_m").get<std::vector<double>>();
+  require(goal.size() == 2, "hold: goal_m: expected [x, y]");
+  f.holds = true;
+  f.goal = {goal[0], goal[1]};
+  f.hold_radius_m = hold.at("radius_m").get<double>();
+  double farthest = 0.0;
+  for (const Point p : f.path) {
+    farthest = std::max(farthest, std::hypot(p.x - f.goal.x, p.y - f.goal.y));
+  }
+  const float widest = *std::max_element(f.tube_distance_m.begin(), f.tube_distance_m.end());
+  require(f.closed && farthest + static_cast<double>(widest) <= f.hold_radius_m,
+          "hold: radius_m: the tube is not in the disc");
 }
 
 }  // namespace
@@ -69,6 +85,7 @@ FollowClaims follow_claims_of(const TensorFile& file, std::uint64_t leaves) {
     f.tube_off_rad.push_back(tube[i + 1]);
   }
   require(!tube.empty(), "tube: is empty");
+  if (record.contains("hold")) take_disc(record.at("hold"), f);
   require_stages(f);
   return f;
 }

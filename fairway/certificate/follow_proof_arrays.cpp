@@ -25,6 +25,16 @@ std::vector<Pair> pairs_of(const Safetensors& file, const char* name, const char
   return pairs;
 }
 
+HoldDisc disc_of(const json& value, const std::string& where) {
+  const json& goal = member(value, "goal_m", where);
+  const json& radius = member(value, "radius_m", where);
+  if (!goal.is_array() || goal.size() != 2 || !goal[0].is_number() || !goal[1].is_number() ||
+      !radius.is_number() || !(radius.get<double>() > 0.0)) {
+    throw InputError(where, "expected {\"goal_m\": [x, y], \"radius_m\": more than 0}");
+  }
+  return {{goal[0].get<double>(), goal[1].get<double>()}, radius.get<double>()};
+}
+
 bool fits(const FollowProof& f) {
   bool fit = f.path.vertices_m.size() >= 2 && !f.tube.empty() && f.stages.size() >= 1;
   for (const Vec2 v : f.path.vertices_m) fit = fit && std::isfinite(v.x) && std::isfinite(v.y);
@@ -53,7 +63,13 @@ void add_tensors(const FollowProof& f, std::vector<Tensor>& tensors) {
 }
 
 json record_of(const FollowProof& f) {
-  return {{"closed", f.path.closed}, {"lap_time_s", {f.stages.lap_least_s, f.stages.lap_most_s}}};
+  json record = {{"closed", f.path.closed},
+                 {"lap_time_s", {f.stages.lap_least_s, f.stages.lap_most_s}}};
+  if (f.hold) {
+    record["hold"] = {{"goal_m", {f.hold->goal_m.x, f.hold->goal_m.y}},
+                      {"radius_m", f.hold->radius_m}};
+  }
+  return record;
 }
 
 FollowProof follow_proof_of(const Safetensors& file, const json& record, std::size_t leaves,
@@ -69,6 +85,7 @@ FollowProof follow_proof_of(const Safetensors& file, const json& record, std::si
   f.path.closed = closed.get<bool>();
   f.stages.lap_least_s = lap_s[0].get<double>();
   f.stages.lap_most_s = lap_s[1].get<double>();
+  if (record.contains("hold")) f.hold = disc_of(record["hold"], place + ".hold");
   f.path.vertices_m = pairs_of<Vec2, double>(file, "path_m", "F64", where);
   f.tube = pairs_of<TubeStretch, float>(file, "tube", "F32", where);
   f.leaf_stage = array_of<std::uint16_t>(file, "leaf_stage", "U16", {leaves}, where);

@@ -28,6 +28,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "fairway/vehicle/mission.hpp"
@@ -51,13 +52,20 @@ struct TubeStretch {
   float off_rad = 0.0F;     ///< from the tangent, at most
 };
 
+/// Of a goal mission that holds: the path is a circle there, and who follows it stays in this disc.
+/// It is all that is proved: there is one stage, without laps.
+struct HoldDisc {
+  Vec2 goal_m;
+  double radius_m = 0.0;
+};
+
 struct FollowProof {
   PathMission path;  ///< the line that is followed; its tolerances are not used
   std::vector<std::uint16_t> leaf_stage;  ///< [leaves], from 1; 0: not of the core
   LapStages stages;                       ///< of an open path one, without a direction
   std::vector<TubeStretch> tube;          ///< equal stretches, from the path's first vertex
 
-  bool empty() const { return tube.empty(); }
+  std::optional<HoldDisc> hold;
 };
 
 }  // namespace fairway

@@ -142,20 +142,40 @@ bool FollowProver::leads_to_end(SizeRange speed_mps) {
     if (!core_.in[id]) core.leaf(id).state = LeafState::idle;
   }
   static_cast<void>(decide_groups(parts_, core, groups_));
-  core_.stage.assign(graph_.leaves(), 0);
   core_.group.assign(graph_.leaves(), core_group);
   double most = 0.0;  // parts
   for (Id id = 0; id < core.leaves(); ++id) {
     if (!core_.in[id]) continue;
     if (core.leaf(id).verdict != Verdict::reach) return false;
-    core_.stage[id] = 1;
     core_.group[id] = core.leaf(id).group;
     most = std::max(most, static_cast<double>(groups_.flown[core.leaf(id).group]));
   }
   const auto most_s = static_cast<float>(most * parts_.part_m() / speed_mps.least);
+  take_one_stage(std::nextafter(most_s, HUGE_VALF));
+  return true;
+}
+
+void FollowProver::take_one_stage(float time_s) {
   constexpr float none = std::numeric_limits<float>::quiet_NaN();
-  stages_ = {{0.0F}, {none}, {std::nextafter(most_s, HUGE_VALF)}, {0.0F}, 0.0, 0.0};
-  stages_.lap_most_s = static_cast<double>(stages_.time_s[0]);
+  stages_ = {{0.0F}, {none}, {time_s}, {0.0F}, 0.0, static_cast<double>(time_s)};
+  core_.stage.assign(graph_.leaves(), 0);
+  for (Id id = 0; id < graph_.leaves(); ++id) {
+    if (core_.in[id]) core_.stage[id] = 1;
+  }
+}
+
+/// Round the path, or to its end, or nothing more is asked for.
+bool FollowProver::goes_on(SizeRange speed_mps) {
+  if (!tube_.closed()) return leads_to_end(speed_mps);
+  if (!options_.laps) {
+    core_.group.assign(graph_.leaves(), core_group);
+    take_one_stage(0.0F);
+    return true;
+  }
+  std::optional<LapStages> stages =
+      find_lap_stages(parts_, tube_, graph_, speed_mps, core_, groups_);
+  if (!stages) return false;
+  stages_ = std::move(*stages);
   return true;
 }
 
@@ -195,15 +215,7 @@ std::optional<Following> FollowProver::find_core(SizeRange speed_mps) {
   Following found;
   found.staying = static_cast<std::size_t>(std::count(stays.begin(), stays.end(), true));
   found.core = static_cast<std::size_t>(std::count(core_.in.begin(), core_.in.end(), true));
-  if (found.core == 0) return {};
-  if (tube_.closed()) {
-    std::optional<LapStages> stages =
-        find_lap_stages(parts_, tube_, graph_, speed_mps, core_, groups_);
-    if (!stages) return {};
-    stages_ = std::move(*stages);
-  } else if (!leads_to_end(speed_mps)) {
-    return {};
-  }
+  if (found.core == 0 || !goes_on(speed_mps)) return {};
   measure_tube(found);
   found.lap_least_s = stages_.lap_least_s;
   found.lap_most_s = stages_.lap_most_s;

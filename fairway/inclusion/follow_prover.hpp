@@ -26,6 +26,7 @@ namespace fairway {
 struct FollowOptions {
   InclusionLimits limits;
   int stay_levels = 2;  ///< how often leaves near the path are halved
+  bool laps = true;     ///< a closed path is gone round; else it is enough to stay near it
 };
 
 /// The core, in numbers.
@@ -67,7 +68,9 @@ class FollowProver {
   std::vector<Id> round_trips(const std::vector<bool>& stays) const;
   std::vector<Id> beside_line(const std::vector<bool>& stays) const;
   void take_core(std::vector<Id> seeds);
+  bool goes_on(SizeRange speed_mps);
   bool leads_to_end(SizeRange speed_mps);
+  void take_one_stage(float time_s);
   void measure_tube(Following& found);
   template <typename Body>
   void for_targets(Id id, const Body& body) const;

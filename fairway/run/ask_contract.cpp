@@ -47,7 +47,8 @@ ContractReply ContractQueries::proved(const State& state) const {
                       certificate.least_speed_mps(), state.position_m, state.heading.rad());
   ContractReply reply;
   reply.verdict = answer.verdict;
-  reply.follows = certificate.follow.has_value() && answer.verdict == Verdict::reach;
+  reply.follows =
+      certificate.follow && !certificate.follow->hold && answer.verdict == Verdict::reach;
   reply.time_bound_s = answer.worst_time_s;
   return reply;
 }

@@ -52,8 +52,10 @@ std::vector<Finding> findings(const Plan& plan, const ContractVerification& made
   const bool is_goal = made.certificate.region_of_interest.kind == RegionOfInterest::Kind::goal;
   const std::string goal = is_goal ? goal_word(plan) : "region";
   constexpr const char* all = "all states";
-  const std::string proved = made.following ? "are proved to join the path and to follow it"
-                                            : "are proved to reach the " + goal;
+  const bool holds = made.following && made.certificate.follow->hold;
+  const std::string proved = holds            ? "are proved to reach the goal and to stay there"
+                             : made.following ? "are proved to join the path and to follow it"
+                                              : "are proved to reach the " + goal;
   const bool exact = is_exact(made.certificate);
   const std::string ever =
       made.following && made.certificate.follow->path.closed ? " for ever" : "";
@@ -87,7 +89,7 @@ std::vector<Finding> findings(const Plan& plan, const ContractVerification& made
     const double usable = share_of(s.usable, Verdict::reach);
     found.push_back({percent_text(usable, decimals_of_sample(s.usable_samples)),
                      "states that the mission can use", proved});
-    for (Finding& finding : findings(*made.following, made.certificate.follow->path.closed)) {
+    for (Finding& finding : findings(*made.following, *made.certificate.follow)) {
       found.push_back(std::move(finding));
     }
   }
@@ -97,8 +99,8 @@ std::vector<Finding> findings(const Plan& plan, const ContractVerification& made
 Finding no_tube_finding() {
   return {
       "", "",
-      "no tube about the path is proved that the vehicle never leaves: the shares say only that "
-      "the path is touched"};
+      "no tube is proved that the vehicle never leaves again: the shares say only that the path, "
+      "or the goal, is touched"};
 }
 
 std::optional<std::string> limit_warning(const ContractVerification& made) {

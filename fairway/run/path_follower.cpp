@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "fairway/field/flyable_path.hpp"
+#include "fairway/field/holding_circle.hpp"
 #include "fairway/verify/region_of_interest.hpp"
 
 namespace fairway {
@@ -16,8 +17,35 @@ namespace {
 /// that overshoot when they join.
 constexpr double widest_radii = 3.0;
 
-const PathMission* path_of(const Plan& plan) {
-  return plan.record.mission ? std::get_if<PathMission>(&*plan.record.mission) : nullptr;
+const GoalMission* hold_of(const Plan& plan) {
+  const auto* goal =
+      plan.record.mission ? std::get_if<GoalMission>(&*plan.record.mission) : nullptr;
+  return goal != nullptr && goal->hold ? goal : nullptr;
+}
+
+/// The line that the field follows: the path with its sharp bends cut, or the circle at a goal.
+std::optional<PathMission> line_of(const Plan& plan) {
+  if (const GoalMission* goal = hold_of(plan)) {
+    return path_of(holding_place_at(plan.grid, goal->goal_m, plan.vehicle));
+  }
+  const auto* path =
+      plan.record.mission ? std::get_if<PathMission>(&*plan.record.mission) : nullptr;
+  if (path == nullptr || path->accept != PathAccept::follow) return {};
+  return followed_line(*path, plan.vehicle.turn_radius_m);
+}
+
+/// How far the line lies from the goal at most.
+double farthest_m(const PathMission& line, Vec2 goal_m) {
+  double most = 0.0;
+  for (const Vec2 v : line.vertices_m) most = std::max(most, norm(v - goal_m));
+  return most;
+}
+
+double widest_m(const Plan& plan, const PathMission& line) {
+  const double widest = widest_radii * plan.vehicle.turn_radius_m;
+  const GoalMission* goal = hold_of(plan);
+  if (goal == nullptr || !goal->hold_radius_m) return widest;
+  return std::min(widest, *goal->hold_radius_m - farthest_m(line, goal->goal_m));
 }
 
 /// The cells about the end of an open path and beyond it, up to a turning radius away: who follows
@@ -80,24 +108,24 @@ std::vector<bool> usable_cells(const Plan& plan) {
 }
 
 bool PathFollower::is_asked(const Plan& plan, const RegionOfInterest& region) {
-  const PathMission* path = path_of(plan);
-  return path != nullptr && path->accept == PathAccept::follow &&
-         region.kind == RegionOfInterest::Kind::goal;
+  return region.kind == RegionOfInterest::Kind::goal && line_of(plan).has_value();
 }
 
 PathFollower::PathFollower(const Plan& plan, const ContractCertificate& question,
                            const std::function<bool()>& go_on)
-    // The line that the field follows: its sharp bends are cut.
-    : path_(followed_line(*path_of(plan), plan.vehicle.turn_radius_m)),
+    : path_(*line_of(plan)),
       kind_(cell_kinds(plan.grid, plan.region, region_of(plan, path_))),
       parts_(parts_of(plan, kind_, question)),
-      tube_(parts_, plan.grid, path_, widest_radii * plan.vehicle.turn_radius_m),
+      tube_(parts_, plan.grid, path_, widest_m(plan, path_.path())),
       speed_mps_(over_ground(question.contract).speed_mps),
       prover_(parts_, tube_, [&] {
         FollowOptions options;
         options.limits.go_on = go_on;
+        options.laps = hold_of(plan) == nullptr;
         return options;
-      }()) {}
+      }()) {
+  if (const GoalMission* goal = hold_of(plan)) goal_m_ = goal->goal_m;
+}
 
 bool PathFollower::find_core() {
   found_ = prover_.find_core(speed_mps_);
@@ -118,6 +146,10 @@ void PathFollower::fill(ContractCertificate& c) const {
   c.verdicts = prover_.verdicts(speed_mps_.least);
   c.follow = prover_.proof();
   c.follow->path = path_.path();
+  if (!goal_m_) return;
+  constexpr double rounding = 1.0 + 1e-9;
+  c.follow->hold =
+      HoldDisc{*goal_m_, rounding * (farthest_m(path_.path(), *goal_m_) + found_->tube_m)};
 }
 
 nlohmann::json following_json(const Following& f, const FollowProof& proof) {
@@ -129,14 +161,22 @@ nlohmann::json following_json(const Following& f, const FollowProof& proof) {
                        {"distance_m", f.tube[k].distance_m},
                        {"heading_rad", f.tube[k].off_rad}});
   }
-  return {{"tube_m", f.tube_m},
-          {"tube_heading_rad", f.off_rad},
-          {"length_m", length_m},
-          {"lap_time_s", {f.lap_least_s, f.lap_most_s}},
-          {"profile", std::move(profile)}};
+  nlohmann::json found = {{"tube_m", f.tube_m},
+                          {"tube_heading_rad", f.off_rad},
+                          {"length_m", length_m},
+                          {"lap_time_s", {f.lap_least_s, f.lap_most_s}},
+                          {"profile", std::move(profile)}};
+  if (proof.hold) found["hold_radius_m"] = proof.hold->radius_m;
+  return found;
 }
 
-std::vector<Finding> findings(const Following& f, bool closed) {
+std::vector<Finding> findings(const Following& f, const FollowProof& proof) {
+  if (proof.hold) {
+    return {{"", "",
+             fmt::format("who reaches the goal is within {:.3g} m of it for ever",
+                         proof.hold->radius_m)}};
+  }
+  const bool closed = proof.path.closed;
   const std::string on =
       closed ? fmt::format("goes round in {:.3g} to {:.3g} s", f.lap_least_s, f.lap_most_s)
              : fmt::format("comes to its end within {:.3g} s", f.lap_most_s);

@@ -19,7 +19,7 @@ namespace fairway {
 
 class PathFollower {
  public:
-  /// Whether the plan's mission is a path, and that is what flights should do.
+  /// Whether flights should follow a path: that of the mission, or a circle at a goal to hold at.
   static bool is_asked(const Plan& plan, const RegionOfInterest& region);
 
   /// `question`: of nothing yet (contract_certificate.hpp).
@@ -47,6 +47,7 @@ class PathFollower {
   SizeRange speed_mps_;
   FollowProver prover_;
   std::optional<Following> found_;
+  std::optional<Vec2> goal_m_;  ///< where to hold
 };
 
 /// What includes the exact vehicle, and hardly more: where commands are all the same, arcs of a
@@ -67,6 +68,6 @@ inline bool is_exact(const ContractCertificate& c) { return c.contract == nearly
 [[nodiscard]] nlohmann::json following_json(const Following& found, const FollowProof& proof);
 
 /// How near, and how fast round.
-[[nodiscard]] std::vector<Finding> findings(const Following& found, bool closed);
+[[nodiscard]] std::vector<Finding> findings(const Following& found, const FollowProof& proof);
 
 }  // namespace fairway

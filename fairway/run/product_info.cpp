@@ -70,6 +70,12 @@ class Description {
     for (const TubeStretch& s : proof.tube) tube_m = std::max(tube_m, s.distance_m);
     const double least_s = proof.stages.lap_least_s;
     const double most_s = proof.stages.lap_most_s;
+    if (proof.hold) {
+      line("to hold at", fmt::format("({:g}, {:g}), within {:.3g} m for ever", proof.hold->goal_m.x,
+                                     proof.hold->goal_m.y, proof.hold->radius_m));
+      info_.report["hold_radius_m"] = proof.hold->radius_m;
+      return;
+    }
     line("to be followed",
          fmt::format(
              "a{} path, within {:.3g} m; {}", proof.path.closed ? " closed" : "n open", tube_m,

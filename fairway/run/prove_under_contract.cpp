@@ -94,8 +94,10 @@ std::vector<Finding> findings(const Plan& plan, const ProvedUnderContract& prove
   const std::string within =
       is_exact(made.certificate) ? "" : " whatever the vehicle does within its contract";
   add(share_of(s.all, Verdict::reach),
-      (made.following ? "are proved to join the path and to follow it"
-                      : "are proved to reach the " + goal_of(plan, proved)) +
+      (made.following && made.certificate.follow->hold
+           ? "are proved to reach the goal and to stay there for ever"
+       : made.following ? "are proved to join the path and to follow it"
+                        : "are proved to reach the " + goal_of(plan, proved)) +
           within);
   double failing = 0.0;
   for (const Verdict verdict : verdicts_in_order) {
