@@ -69,10 +69,16 @@ std::vector<std::vector<Vec2>> tube_outline(const FollowProof& proof, double ste
   });
   std::vector<std::vector<Vec2>> lines = contour_lines(nx, ny, value, 0.0);
   for (std::vector<Vec2>& line : lines) {
-    const Vec2 along = line[1] - line[0];
-    const double length = norm(along);
-    const Vec2 left = line[0] + 0.5 * along + (length > 0.0 ? 0.25 / length : 0.0) * left_of(along);
-    if (depth.at(place_m(left)) < 0.0) std::reverse(line.begin(), line.end());
+    // Where the width jumps, interpolated lines are off: so most of their pieces decide.
+    double deep = 0.0;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      const Vec2 along = line[i] - line[i - 1];
+      const double length = norm(along);
+      if (!(length > 0.0)) continue;
+      const Vec2 left = line[i - 1] + 0.5 * along + 0.5 / length * left_of(along);
+      deep += depth.at(place_m(left)) < 0.0 ? -length : length;
+    }
+    if (deep < 0.0) std::reverse(line.begin(), line.end());
     for (Vec2& p : line) p = place_m(p);
   }
   return lines;

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include "fairway/base/heading.hpp"
-#include "fairway/vehicle/path_geometry.hpp"
+#include "fairway/base/random.hpp"
+#include "fairway/vehicle/path_locator.hpp"
 
 namespace fairway {
 namespace {
@@ -16,7 +19,8 @@ FollowProof circle_of(double radius_m, std::vector<float> distances_m) {
   proof.path.closed = true;
   for (int k = 0; k < 240; ++k) {
     const double angle = two_pi * k / 240.0;
-    proof.path.vertices_m.push_back({30.0 + radius_m * std::cos(angle), radius_m * std::sin(angle)});
+    proof.path.vertices_m.push_back(
+        {30.0 + radius_m * std::cos(angle), radius_m * std::sin(angle)});
   }
   for (const float d : distances_m) proof.tube.push_back({d, 0.1F});
   return proof;
@@ -62,6 +66,33 @@ TEST(TubeOutline, IsAsWideAsEachStretch) {
   }
   EXPECT_NEAR(highest, 62.0, 0.1);
   EXPECT_NEAR(lowest, -54.0, 0.1);
+}
+
+RC_GTEST_PROP(TubeOutline, LinesLeaveHolesOutWhereverTheWidthJumps, (std::uint64_t seed)) {
+  Random random(seed);
+  FollowProof proof;
+  proof.path.closed = true;
+  for (int k = 0; k < 9; ++k) {
+    const double angle = two_pi * k / 9.0;
+    const double radius_m = random.uniform(60.0, 140.0);
+    proof.path.vertices_m.push_back({radius_m * std::cos(angle), radius_m * std::sin(angle)});
+  }
+  for (int k = 0; k < 60; ++k) {
+    proof.tube.push_back({static_cast<float>(random.uniform(6.0, 20.0)), 0.1F});
+  }
+  const PathLocator path(proof.path);
+  double area = 0.0;
+  constexpr double step_m = 2.0;
+  for (double x = -170.0; x < 170.0; x += step_m) {
+    for (double y = -170.0; y < 170.0; y += step_m) {
+      const PathPoint nearest = path.nearest({x, y});
+      const double k = std::min(59.0, 60.0 * nearest.along_m / path.length_m());
+      if (nearest.distance_m <= proof.tube[static_cast<std::size_t>(k)].distance_m) {
+        area += step_m * step_m;
+      }
+    }
+  }
+  RC_ASSERT(std::abs(area_to_the_left(tube_outline(proof, 1.0)) / area - 1.0) < 0.03);
 }
 
 TEST(TubeOutline, OfAnOpenPathEndsInCapsAndACoarseLatticeIsUsedWhereItIsLarge) {
