@@ -96,7 +96,8 @@ export function showVolumes(record: PageRecord, tiles: Tiles): void {
   if (verify.volume_fraction) add("Safe starts with a command", "volume_fraction_free_commanded");
   if (verify.volume_fraction) add("Buffer around obstacles", "volume_fraction_buffer");
   const { undecided } = codes;
-  const order = withRisk(codes, record.contract_verdicts, codes.order);
+  // Shares of states that follow stand where those that reach do.
+  const order = withRisk(codes, record.contract_verdicts, codes.order.filter((v) => v === codes.reach || !names.reach.includes(record.styles.verdict[v].name)));
   const nameOf = (code: number): string => (code === codes.at_risk ? record.styles.at_risk! : record.styles.verdict[code]).name;
   const paints: (() => void)[] = [];
   byId("volumes").replaceChildren(...rows.map(([name, share]) => {
