@@ -167,6 +167,26 @@ class Follow(unittest.TestCase):
         self.assertIn("comes to its end within", words)
         self.assertEqual(summary["follow"]["lap_time_s"][0], 0.0)
 
+    def test_the_pictures_of_a_run_show_the_tube_that_is_proved(self):
+        (self.folder / "path.csv").write_text("x_m,y_m\n60,60\n340,60\n340,240\n60,240\n")
+        pictures = {}
+        for accept in ("follow", "touch"):
+            self.expect(0, "run", self.scenario(alpha=2.0), "-o", accept, "--set", "map.cell_m=8",
+                        "--set", f"mission.accept={accept}")
+            pictures[accept] = [(self.folder / accept / f"{name}.svg").read_text()
+                                for name in ("flights", "distance")]
+        tube_m = json.loads((self.folder / "follow/summary.json").read_text())["contract"]["follow"]["tube_m"]
+        flights, distance = pictures["follow"]
+        self.assertIn("proved tube (up to", flights)
+        self.assertIn('id="tube"', flights)
+        most_m = float(distance.split("proved once it follows: ")[1].split(" m")[0])
+        # Square corners are cut by arcs of 20 to 30 m, whose middles are 5.9 to 8.8 m from either leg.
+        cut_m = 20 * (1 - 0.5**0.5)
+        self.assertGreater(most_m, tube_m + cut_m - 0.2)
+        self.assertLess(most_m, tube_m + 1.5 * cut_m + 1.5)
+        for text in pictures["touch"]:
+            self.assertNotIn("proved", text)
+
     def test_following_is_refused_where_there_is_no_path(self):
         self.expect(0, "plan", self.scenario(), "-o", "p.safetensors")
         self.expect(64, "simulate", "p.safetensors", "--random", 1, "--laps", 1, "--follow", 3)

@@ -12,6 +12,7 @@
 #include "fairway/report/map_page.hpp"
 #include "fairway/report/outcome_style.hpp"
 #include "fairway/report/thinned_path.hpp"
+#include "fairway/report/tube_outline.hpp"
 
 namespace fairway {
 namespace {
@@ -166,6 +167,31 @@ void draw_legs(MapPage& page, const LegBundle& bundle, std::span<const Flight> f
   }
 }
 
+constexpr Color tube_ground{170, 51, 119, 0.2};
+const Pen tube_pen{{170, 51, 119}, 0.7, {}};
+
+void draw_tube(MapPage& page, const FollowProof& proof, double cell_m) {
+  DrawingPath outline;
+  for (const auto& line : tube_outline(proof, 0.25 * cell_m)) {
+    outline.move_to(page.frame().to_page(line.front()));
+    for (std::size_t i = 1; i + 1 < line.size(); ++i)
+      outline.line_to(page.frame().to_page(line[i]));
+    outline.close();
+  }
+  const DrawingPath drawn = thinned(outline, 2.0 * unseen_pt);
+  const auto layer = page.canvas().layer("tube", page.frame().rect);
+  page.canvas().fill(drawn, tube_ground);
+  page.canvas().stroke(drawn, tube_pen);
+}
+
+LegendEntry tube_entry(const FollowProof& proof) {
+  return {fmt::format("proved tube (up to {:.1f} m)", std::ceil(10.0 * widest_m(proof)) / 10.0),
+          [](Canvas& canvas, const Rect& box) {
+            canvas.fill(box.outline(), tube_ground);
+            canvas.stroke(box.outline(), tube_pen);
+          }};
+}
+
 }  // namespace
 
 Picture draw_flights(const Plan& plan, std::span<const Flight> flights,
@@ -181,6 +207,7 @@ Picture draw_flights(const Plan& plan, std::span<const Flight> flights,
   for (const Bundle& bundle : bundles) entries.push_back(line_entry(bundle.label, bundle.pen));
 
   for (const LegBundle& bundle : legs) entries.push_back(leg_entry(bundle));
+  if (options.follow != nullptr) entries.push_back(tube_entry(*options.follow));
 
   // Every outcome keeps its fair share: the few that collide matter more than the many that do not.
   std::vector<std::size_t> drawn(bundles.size(), 0);
@@ -202,6 +229,7 @@ Picture draw_flights(const Plan& plan, std::span<const Flight> flights,
   MapPage page(plan,
                {options.title, false, options.mission, options.frame_pt, options.pixels_per_pt},
                std::move(entries));
+  if (options.follow != nullptr) draw_tube(page, *options.follow, plan.grid.cell_m);
   if (legs.empty()) page.mark_mission();
   for (std::size_t k = 0; k < bundles.size(); ++k) draw_bundle(page, bundles[k], drawn[k]);
   for (const LegBundle& bundle : legs) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "fairway/inclusion/follow_proof.hpp"
 #include "fairway/plan/plan.hpp"
 #include "fairway/report/picture.hpp"
 #include "fairway/simulate/flight.hpp"
@@ -21,6 +22,7 @@ namespace fairway {
 struct FlightPictureOptions {
   std::string title = {};
   std::optional<Mission> mission = {};  ///< the goal point and heading, or the path, drawn below
+  const FollowProof* follow = nullptr;  ///< the tube of the path, drawn below; or none
   std::vector<std::string> names = {};  ///< empty, or one per flight; equal names share a style
   int most_drawn = 200;                 ///< lines drawn; a legend line says when there are more
   double frame_pt = 420.0;

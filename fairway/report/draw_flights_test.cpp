@@ -126,6 +126,29 @@ TEST(DrawFlights, TheLegendCountsOutcomesAndEachHasALayer) {
   EXPECT_FALSE(has_layer(picture.svg, "flights-leave"));
 }
 
+TEST(DrawFlights, TheProvedTubeLiesAboutThePathBelowTheFlights) {
+  const std::vector<Flight> flights{flight_of({{100.0, 120.0}, Heading()}, {{100.0, 0.0}})};
+  FollowProof proof;
+  proof.path = {{{40.0, 120.0}, {280.0, 120.0}}, false, 1.0, 0.5};
+  proof.tube.push_back({25.21F, 0.3F});
+  FlightPictureOptions options{.mission = proof.path};
+  EXPECT_FALSE(has_layer(draw_flights(open_water(), flights, options).svg, "tube"));
+  options.follow = &proof;
+  const Plan plan = open_water();
+  const Picture picture = draw_flights(plan, flights, options);
+  EXPECT_TRUE(has_layer(picture.svg, "tube"));
+  EXPECT_TRUE(has_text(picture.svg, "proved tube (up to 25.3 m)"));
+  EXPECT_LT(picture.svg.find("\"tube\""), picture.svg.find("\"flights-reach\""));
+  const MapPage page(plan, {"", false, proof.path, options.frame_pt, options.pixels_per_pt}, {});
+  const auto png = read_png(picture.png);
+  const auto at = [&](Vec2 place) {
+    const Vec2 p = page.frame().to_page(place);
+    return png.at(p.x * options.pixels_per_pt, p.y * options.pixels_per_pt);
+  };
+  EXPECT_NE(at({230.0, 140.0}), palette::free);
+  EXPECT_EQ(at({230.0, 150.0}), palette::free);
+}
+
 TEST(DrawFlights, FlightsThatCollideAfterReachingAreNotDrawnAsReaching) {
   const State start{{100.0, 100.0}, Heading()};
   std::vector<Flight> flights(4, flight_of(start, {{50.0, 0.0}}));

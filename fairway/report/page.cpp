@@ -124,6 +124,14 @@ json flights_json(const std::vector<PageFlights>& groups) {
   return shown;
 }
 
+/// The line that is followed, to the millimetre: an axis for distances from it.
+json line_json(const PathMission& line) {
+  json places = json::array();
+  const auto mm = [](double m) { return std::round(1000.0 * m) / 1000.0; };
+  for (const Vec2 p : line.vertices_m) places.push_back({mm(p.x), mm(p.y)});
+  return {{"line_m", std::move(places)}, {"closed", line.closed}};
+}
+
 json record_of(const PageContent& content) {
   const Grid& g = content.plan.grid;
   const PageValues values = page_values(g);
@@ -156,6 +164,8 @@ json record_of(const PageContent& content) {
   if (content.contract_verdicts != nullptr) {
     record["contract_verdicts"] =
         json::parse(page_verdicts_json(*content.contract_verdicts, content.witnesses));
+    if (content.exact_contract) record["exact_contract"] = true;
+    if (content.follow != nullptr) record["follow"] = line_json(content.follow->path);
     if (content.witnesses != nullptr) {
       record["styles"]["at_risk"] = style_json("at risk", at_risk_style());
       record["codes"]["at_risk"] = page_at_risk;
@@ -221,6 +231,7 @@ std::string page_html(const PageContent& content, std::string_view html) {
     const VerdictMap& map = *content.contract_verdicts;
     add_verdict_arrays(map, payload, "contract_verdict", content.witnesses);
     if (content.witnesses != nullptr) add_witness_arrays(map, *content.witnesses, payload);
+    if (content.follow != nullptr) add_tube_arrays(*content.follow, content.plan.grid, payload);
   }
   add_flight_arrays(content, payload);
   const std::array<std::pair<std::string_view, std::string>, 3> marks{

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "fairway/base/frame.hpp"
+#include "fairway/inclusion/follow_proof.hpp"
 #include "fairway/plan/plan.hpp"
 #include "fairway/report/page_witnesses.hpp"
 #include "fairway/simulate/flight.hpp"
@@ -45,6 +46,9 @@ struct PageContent {
   LonLatOf lon_lat = {};                      ///< none: the map is not georeferenced
   const VerdictMap* contract_verdicts = nullptr;  ///< besides `verdicts`, under a contract; or none
   const PageWitnesses* witnesses = nullptr;  ///< of contract_verdicts; none: none were searched for
+  /// What contract_verdicts prove beyond `reach`: that the path is followed; or none.
+  const FollowProof* follow = nullptr;
+  bool exact_contract = false;  ///< contract_verdicts are about hardly more than the exact vehicle
 };
 
 /// Throws PreconditionViolation when there is no template (page_template.hpp) or arrays do not fit.

@@ -9,6 +9,7 @@
 #include "fairway/base/heading.hpp"
 #include "fairway/report/contours.hpp"
 #include "fairway/report/streamlines.hpp"
+#include "fairway/report/tube_outline.hpp"
 
 namespace fairway {
 namespace {
@@ -164,6 +165,19 @@ void add_plan_arrays(const Plan& plan, PagePayload& payload) {
   payload.add("cost", {ny, nx}, std::span<const std::uint16_t>(cost), PageFilter::delta);
   add_streamlines(plan, payload);
   add_contours(plan, payload);
+}
+
+void add_tube_arrays(const FollowProof& proof, const Grid& g, PagePayload& payload) {
+  GridLines lines;
+  const double step_m = 0.25 * g.cell_m;
+  for (const auto& line : tube_outline(proof, step_m)) {
+    lines.begin.push_back(static_cast<std::uint32_t>(lines.x.size()));
+    for (const Vec2 p : without_straight_vertices(line, 0.1 * step_m)) {
+      lines.x.push_back(share(p.x - g.x0_m, g.width_m()));
+      lines.y.push_back(share(p.y - g.y0_m, g.height_m()));
+    }
+  }
+  lines.add_to(payload, "tube");
 }
 
 void add_verdict_arrays(const VerdictMap& map, PagePayload& payload, const std::string& name,

@@ -32,6 +32,9 @@ inline constexpr std::uint8_t page_target = 249;
 inline constexpr std::uint8_t page_at_risk = 248;
 static_assert(verdict_count <= page_at_risk);
 
+/// `tube_*`: the outline of the proved tube about the path.
+void add_tube_arrays(const FollowProof& proof, const Grid& grid, PagePayload& payload);
+
 /// NAME [headings][ny][nx]: a code of Verdict, page_obstacle, page_target or, with `witnesses`,
 /// page_at_risk; and NAME_count, in which states at risk are among the undecided ones.
 void add_verdict_arrays(const VerdictMap& map, PagePayload& payload,

@@ -18,6 +18,7 @@
 #include "fairway/report/page_payload.hpp"
 #include "fairway/report/page_template.hpp"
 #include "fairway/report/testing/plans_to_draw.hpp"
+#include "fairway/vehicle/path_geometry.hpp"
 
 namespace fairway {
 namespace {
@@ -293,6 +294,38 @@ TEST(Page, VerdictsUnderAContractAreASecondLayerAndWithoutThemNothingChanges) {
             verdict_count * under.samples());
   EXPECT_EQ(arrays.array<std::uint8_t>("verdict", 1),
             arrays_of(without).array<std::uint8_t>("verdict", 1));
+}
+
+TEST(Page, ThatAPathIsFollowedComesWithItsLineAndTheTubesOutline) {
+  const Plan plan = island_plan({20, 20, -3.0, 5.0, 6.0}, {60.0, 40.0}, {4, 6});
+  const VerdictMap map = verdicts_of(plan);
+  FollowProof proof;
+  proof.path = {{{30.0, 35.0}, {90.00049, 35.0}, {60.0, 95.0}}, true, 1.0, 0.5};
+  proof.tube = {{7.0F, 0.3F}, {9.0F, 0.3F}};
+  PageContent content{"t", plan, proof.path, {}, &map};
+  content.contract_verdicts = &map;
+  const std::string without = page_html(content, bare);
+  EXPECT_FALSE(record_of(without).contains("follow"));
+  EXPECT_FALSE(arrays_of(without).header.contains("tube_x"));
+  content.follow = &proof;
+  content.exact_contract = true;
+  const json record = record_of(page_html(content, bare));
+  EXPECT_EQ(record["follow"], json({{"closed", true},
+                                    {"line_m", {{30.0, 35.0}, {90.0, 35.0}, {60.0, 95.0}}}}));
+  EXPECT_EQ(record["exact_contract"], true);
+  // Every vertex of the outline is a tube's width away from the line.
+  const Decoded arrays = arrays_of(page_html(content, bare));
+  const auto x = arrays.array<std::uint16_t>("tube_x");
+  const auto y = arrays.array<std::uint16_t>("tube_y");
+  ASSERT_EQ(x.size(), y.size());
+  EXPECT_EQ(arrays.array<std::uint32_t>("tube_begin").back(), x.size());
+  ASSERT_GT(x.size(), 20U);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Vec2 p{-3.0 + x[i] / 65535.0 * 120.0, 5.0 + y[i] / 65535.0 * 120.0};
+    const double distance_m = nearest_on_path(p, proof.path).distance_m;
+    EXPECT_GT(distance_m, 6.5);
+    EXPECT_LT(distance_m, 9.5);
+  }
 }
 
 /// Two witnesses: of three steps, and of none.

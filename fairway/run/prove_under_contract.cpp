@@ -91,8 +91,8 @@ std::vector<Finding> findings(const Plan& plan, const ProvedUnderContract& prove
     found.push_back({percent_text(share, decimals), "all states", what});
   };
   const ContractVerification& made = proved.verification;
-  const std::string within =
-      is_exact(made.certificate) ? "" : " whatever the vehicle does within its contract";
+  const bool exact = is_exact(made.certificate);
+  const std::string within = exact ? "" : " whatever the vehicle does within its contract";
   add(share_of(s.all, Verdict::reach),
       (made.following && made.certificate.follow->hold
            ? "are proved to reach the goal and to stay there for ever"
@@ -103,18 +103,24 @@ std::vector<Finding> findings(const Plan& plan, const ProvedUnderContract& prove
   for (const Verdict verdict : verdicts_in_order) {
     if (fails(verdict)) failing += share_of(s.all, verdict);
   }
-  if (failing > 0.0) add(failing, "are proved to fail," + within);
-  if (s.at_risk > 0.0) add(s.at_risk, "are at risk: a behaviour within the contract fails");
+  if (failing > 0.0) add(failing, "are proved to fail" + (exact ? "" : "," + within));
+  if (s.at_risk > 0.0) {
+    add(s.at_risk, exact ? "are at risk: a flight is known that fails"
+                         : "are at risk: a behaviour within the contract fails");
+  }
   const double undecided = std::max(0.0, share_of(s.all, Verdict::undecided) - s.at_risk);
-  if (undecided > 0.0) add(undecided, "are undecided under the contract");
+  if (undecided > 0.0) {
+    add(undecided, exact ? "are undecided: to follow or not" : "are undecided under the contract");
+  }
   return found;
 }
 
 std::string notes_of(const ProvedUnderContract& proved) {
   const ContractVerification& made = proved.verification;
   const std::string time = time_words(made.survey.shares);
-  std::string notes = fmt::format("Under the contract {}{}{}.\n", time, time.empty() ? "" : "; ",
-                                  checked_words(proved.checked));
+  std::string notes = fmt::format(
+      "{} {}{}{}.\n", is_exact(made.certificate) ? "Of following the path:" : "Under the contract",
+      time, time.empty() ? "" : "; ", checked_words(proved.checked));
   const std::size_t shown = std::min<std::size_t>(made.survey.chokes.size(), 2);
   for (std::size_t i = 0; i < shown; ++i) {
     const Choke& choke = made.survey.chokes[i];

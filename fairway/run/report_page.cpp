@@ -78,7 +78,9 @@ std::string write_report_page(const Plan& plan, const Mission& mission,
       verdicts ? proof_assumptions() : nothing_proved(),
       lon_lat_of(frame_in(plan.record), page.title),
       page.contract_verdicts,
-      page.witnesses};
+      page.witnesses,
+      page.follow,
+      page.exact_contract};
   write_whole(folder / product::report_page, Existing::keep, page_html(content));
   return {};
 }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fairway/certificate/certificate.hpp"
+#include "fairway/inclusion/follow_proof.hpp"
 #include "fairway/plan/plan.hpp"
 #include "fairway/report/page_witnesses.hpp"
 #include "fairway/run/failing_flights.hpp"
@@ -26,6 +27,8 @@ struct ReportPage {
   std::vector<FailingFlights> failing;
   const VerdictMap* contract_verdicts = nullptr;  ///< under the contract, or none
   const PageWitnesses* witnesses = nullptr;       ///< of contract_verdicts, or none
+  const FollowProof* follow = nullptr;            ///< that contract_verdicts are of following
+  bool exact_contract = false;                    ///< page.hpp
 };
 
 /// Writes `folder`/report.html. Empty when it did; else why this build has no page, one sentence

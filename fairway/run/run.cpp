@@ -91,6 +91,12 @@ void write_flights(const ScenarioFlights& flown, const Plan& plan, const std::st
       outcomes_csv(flown.starts, flown.results, flown.measures, flown.followed.has_value()));
 }
 
+/// That the path is followed, where that was proved.
+const FollowProof* follow_of(const std::optional<ProvedUnderContract>& under_contract) {
+  if (!under_contract || !under_contract->verification.following) return nullptr;
+  return &*under_contract->verification.certificate.follow;
+}
+
 /// report.html; where this build has none, a warning says why.
 void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights& flown,
                 const Verified& verified, const std::optional<ProvedUnderContract>& under_contract,
@@ -107,7 +113,9 @@ void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights&
                   proved != nullptr ? failing_flights(flights, proved->failing, failing_of_each)
                                     : std::vector<FailingFlights>{},
                   contract_map,
-                  witnesses ? &*witnesses : nullptr};
+                  witnesses ? &*witnesses : nullptr,
+                  follow_of(under_contract),
+                  under_contract && is_exact(under_contract->verification.certificate)};
   if (under_contract) page.words.push_back(words_of(plan, *under_contract));
   const std::string absent = write_report_page(plan, mission, flown, page, place);
   if (!absent.empty()) result.warnings.push_back(absent);
@@ -169,7 +177,7 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
 
   clock.begin("drawing", left.from_pictures());
   const std::string title = scenario.file.stem().string();
-  write_run_pictures(plan, mission, flown, title, place);
+  write_run_pictures(plan, mission, flown, follow_of(under_contract), title, place);
   write_verified_pictures(as_asked, flights, verified, scenario.simulate.seed, title, place);
   std::optional<VerdictMap> contract_map;
   std::optional<PageWitnesses> witnesses;

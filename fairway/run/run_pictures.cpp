@@ -1,6 +1,9 @@
 #include "fairway/run/run_pictures.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,6 +14,8 @@
 #include "fairway/report/draw_flights.hpp"
 #include "fairway/report/draw_plan.hpp"
 #include "fairway/report/flight_series.hpp"
+#include "fairway/report/tube_outline.hpp"
+#include "fairway/vehicle/path_locator.hpp"
 
 namespace fairway {
 namespace {
@@ -51,16 +56,25 @@ Plan part_of(const Plan& plan, Vec2 low_m, Vec2 high_m) {
   return part;
 }
 
-/// Up to where a flight counts as on the path.
-ChartSeries delta_line(std::span<const ChartSeries> distances, double delta_m) {
+/// A distance, over the time of all lines.
+ChartSeries level_line(std::span<const ChartSeries> distances, std::string name, double level_m) {
   double end_s = 0.0;
   for (const ChartSeries& line : distances) {
     if (!line.x.empty()) end_s = std::max(end_s, line.x.back());
   }
-  return {fmt::format("delta_position_m, {:g} m", delta_m),
-          {0.0, end_s},
-          {delta_m, delta_m},
-          LineStyle::dashed};
+  return {std::move(name), {0.0, end_s}, {level_m, level_m}, LineStyle::dashed};
+}
+
+/// How far from the mission's path whoever follows it may be: the tube is about a line that cuts
+/// sharp corners.
+double proved_distance_m(const FollowProof& proof, const PathMission& path, double step_m) {
+  const PathLocator line(proof.path);
+  const PathLocator given(path);
+  double cut_m = 0.0;
+  for (double at_m = 0.0; at_m < line.length_m(); at_m += step_m) {
+    cut_m = std::max(cut_m, given.nearest(line.place(at_m)).distance_m);
+  }
+  return widest_m(proof) + cut_m + 0.5 * step_m;  // between two places it is no larger
 }
 
 /// The part of the map that the last legs need.
@@ -90,9 +104,11 @@ void write_final_legs(const Plan& plan, const Mission& mission, std::span<const 
 }  // namespace
 
 void write_run_pictures(const Plan& plan, const Mission& mission, const ScenarioFlights& flown,
-                        const std::string& title, const std::filesystem::path& folder) {
+                        const FollowProof* follow, const std::string& title,
+                        const std::filesystem::path& folder) {
   write(draw_plan(plan, {.title = title, .mission = mission}), folder, "plan");
-  write(draw_flights(plan, flown.recorded, {.title = title, .mission = mission, .names = {}}),
+  write(draw_flights(plan, flown.recorded,
+                     {.title = title, .mission = mission, .follow = follow, .names = {}}),
         folder, "flights");
   write_final_legs(plan, mission, flown.recorded, title, folder);
 
@@ -104,12 +120,12 @@ void write_run_pictures(const Plan& plan, const Mission& mission, const Scenario
   const auto* path = std::get_if<PathMission>(&mission);
   std::vector<ChartSeries> headings;
   std::vector<ChartSeries> distances;
+  const double step_m = plan.grid.cell_m / 4.0;
   for (const Flight& flight : std::span(flown.recorded).first(lines)) {
     const std::string name = name_of_start(flight.start);
     const double speed_mps = plan.vehicle.speed_mps;
     headings.push_back(wrapped_degrees(heading_over_time(flight, speed_mps, name)));
     if (path != nullptr) {
-      const double step_m = plan.grid.cell_m / 4.0;
       distances.push_back(path_distance_over_time(flight, speed_mps, *path, step_m, name));
     }
   }
@@ -118,7 +134,16 @@ void write_run_pictures(const Plan& plan, const Mission& mission, const Scenario
                      .y_label = "heading, degrees counter-clockwise from east"};
   write(draw_chart(headings, chart), folder, "headings");
   if (path == nullptr) return;
-  distances.push_back(delta_line(distances, path->delta_position_m));
+  const double delta_m = path->delta_position_m;  // up to where a flight counts as on the path
+  std::vector<ChartSeries> levels{
+      level_line(distances, fmt::format("delta_position_m, {:g} m", delta_m), delta_m)};
+  if (follow != nullptr) {
+    const double most_m = proved_distance_m(*follow, *path, step_m);
+    levels.push_back(level_line(
+        distances, fmt::format("proved once it follows: {:.1f} m", std::ceil(10.0 * most_m) / 10.0),
+        most_m));
+  }
+  distances.insert(distances.end(), levels.begin(), levels.end());
   chart.y_label = "distance to the path, m";
   chart.y_from_zero = true;
   write(draw_chart(distances, chart), folder, "distance");

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "fairway/inclusion/follow_proof.hpp"
 #include "fairway/plan/plan.hpp"
 #include "fairway/run/scenario_flights.hpp"
 #include "fairway/vehicle/mission.hpp"
@@ -16,8 +17,10 @@ namespace fairway {
 inline constexpr std::array<const char*, 5> run_pictures{"plan", "flights", "headings", "distance",
                                                          "final_legs"};
 
-/// Writes NAME.svg and NAME.png into `folder` for every picture.
+/// Writes NAME.svg and NAME.png into `folder` for every picture. `follow`: the proof that the path
+/// is followed, whose tube is drawn; or none.
 void write_run_pictures(const Plan& plan, const Mission& mission, const ScenarioFlights& flown,
-                        const std::string& title, const std::filesystem::path& folder);
+                        const FollowProof* follow, const std::string& title,
+                        const std::filesystem::path& folder);
 
 }  // namespace fairway

@@ -1,8 +1,10 @@
 // Heading and distance over time of the flights chosen.
 import uPlot from "uplot";
-import { byId, cssVariable, el, isDark, short } from "./dom";
+import { byId, el, short } from "./dom";
 import type { Pose, ShownFlight } from "./flights";
+import { axesOf, lineSeries, xSeries } from "./plot_style";
 import type { Mission, PageRecord } from "./record";
+import { TubeChart } from "./tube_chart";
 
 function distanceToSegment(p: Pose, a: [number, number], b: [number, number]): number {
   const dx = b[0] - a[0], dy = b[1] - a[1];
@@ -38,10 +40,15 @@ export class Charts {
   private curves: Curve[] = [];
   private flights: ShownFlight[] = [];
 
-  constructor(private readonly record: PageRecord, private readonly moved: (time_s: number) => void) {
+  private readonly tube: TubeChart | null;
+
+  /** `flown`: all flights of the page. */
+  constructor(private readonly record: PageRecord, flown: ShownFlight[], private readonly moved: (time_s: number) => void) {
+    this.tube = record.follow ? new TubeChart(record, flown) : null;
     new ResizeObserver(() => {
       const { width } = this;
       this.plots.forEach((plot) => { if (Math.abs(plot.width - width) > 1) plot.setSize({ width, height: plot.height }); });
+      this.tube?.resize(width);
     }).observe(byId("charts"));
   }
 
@@ -57,7 +64,8 @@ export class Charts {
     this.curves = flights.map((flight, k) => this.curve(flight, k));
     const goal = this.record.mission.kind === "goal";
     const boxes = [el("div"), el("div")];
-    byId("charts").replaceChildren(...boxes);
+    byId("charts").replaceChildren(...boxes, ...(this.tube ? [this.tube.box] : []));
+    this.tube?.show(flights.length === 1 ? flights[0] : null, this.width);
     if (this.curves.length === 0) return;
     this.plots = [
       this.plot(boxes[0], "Heading, degrees", joined(this.curves, (c) => c.heading), { y: { range: () => [-180, 180] } }),
@@ -92,11 +100,6 @@ export class Charts {
   }
 
   private plot(box: HTMLElement, title: string, data: uPlot.AlignedData, scales: uPlot.Scales): uPlot {
-    const stroke = cssVariable("--soft");
-    const grid = { stroke: cssVariable("--line"), width: 1 };
-    const family = getComputedStyle(document.body).fontFamily;
-    const axis = { stroke, grid, ticks: grid, font: `11px ${family}`, labelFont: `12px ${family}` };
-    const dark = isDark();
     const turns = title.startsWith("Heading") ? { splits: () => [-180, -90, 0, 90, 180] } : {};
     box.setAttribute("role", "img");
     box.setAttribute("aria-label", `${title} over time, ${this.curves.length} flight${this.curves.length === 1 ? "" : "s"}`);
@@ -111,10 +114,8 @@ export class Charts {
         return null;
       } } },
       scales: { x: { time: false }, ...scales },
-      axes: [{ ...axis, label: "time, s", labelSize: 18, size: 34 }, { ...axis, ...turns, label: title, labelSize: 20, size: 46 }],
-      series: [{ label: "time, s", value: (_plot, value) => value === null ? "–" : value.toFixed(1) },
-        ...this.curves.map((curve) => ({ label: curve.name, stroke: dark ? lighter(curve.color) : curve.color, width: 1.6, dash: curve.dash, spanGaps: false,
-          points: { show: false }, value: (_plot: uPlot, value: number | null) => value === null ? "–" : value.toFixed(1) }))],
+      axes: axesOf("time, s", title, turns),
+      series: [xSeries("time, s"), ...this.curves.map((curve) => lineSeries(curve.name, curve.color, curve.dash))],
     }, data, box);
   }
 
@@ -122,11 +123,4 @@ export class Charts {
   mark(time_s: number): void {
     for (const plot of this.plots) plot.setCursor({ left: plot.valToPos(time_s, "x"), top: 10 }, false);
   }
-}
-
-/** Line colours are made for paper; on a dark background they are mixed with white. */
-function lighter(color: string): string {
-  const n = parseInt(color.slice(1), 16);
-  const mix = (c: number) => Math.round(c + (255 - c) * 0.45);
-  return `rgb(${mix(n >> 16)} ${mix(n >> 8 & 255)} ${mix(n & 255)})`;
 }

@@ -9,5 +9,5 @@ export async function fieldOf(arrays: Arrays): Promise<FieldArrays> {
   };
   const [region, heading, cost, contour_level_m] = await Promise.all(["region", "heading", "cost", "contour_level_m"].map((name) => arrays.array(name)));
   const [streamlines, contours] = await Promise.all([lines("streamline"), lines("contour")]);
-  return { region, heading, cost, streamlines, contours, contour_level_m };
+  return { region, heading, cost, streamlines, contours, contour_level_m, tube: arrays.has("tube_x") ? await lines("tube") : null };
 }

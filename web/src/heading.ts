@@ -3,6 +3,7 @@ import { byId, cssVariable, degrees, el, fitted, headingWords, percent, turnOf, 
 import { bearingWords, courseWords, northUp } from "./earth";
 import { codesInOrder, countsAt, nearestHeading, type PageRecord, type VerdictInfo } from "./record";
 import type { Tiles } from "./layers";
+import { reachWord, verdictNames } from "./whose";
 
 export class HeadingSlider {
   index = 0;
@@ -112,12 +113,14 @@ export class HeadingSlider {
     const shown_rad = turnOf(parseFloat(headingWords(this.rad)));
     small.textContent = (northUp(this.record) ? `course ${courseWords(this.rad)}, ` : "") + `${wind(this.rad)} · ${shown_rad.toFixed(3)} rad`;
     const proved = document.createElement("span");
-    const reach = this.strips().map((info) => {
+    const shares = this.strips().map((info) => {
       const count = info.count[nearestHeading(info, this.rad)];
       return percent(count[this.record.codes.reach] / Math.max(1, count.reduce((a, b) => a + b, 0)));
     });
-    if (reach.length === 1) proved.textContent = `${reach[0]} of places reach`;
-    if (reach.length > 1) proved.textContent = `places that reach: ${reach[0]}, under the contract ${reach[1]}`;
+    const [first, second] = shares;
+    const { short, reach } = verdictNames(this.record);
+    if (shares.length === 1) proved.textContent = `${first} of places ${reachWord(this.record, this.strips()[0])}`;
+    if (shares.length > 1) proved.textContent = `places that ${reach[0]}: ${first}, ${short[1]}${reach[1] === short[1] ? ":" : ""} ${second}`;
     output.replaceChildren(big, small, proved);
     this.strip();
   }

@@ -1,7 +1,7 @@
 // What the colours and patterns of the map mean.
 import { byId, el, grouped, percent, short } from "./dom";
 import { paintSample } from "./base_map";
-import { share_classes, share_kinds, type Tiles } from "./layers";
+import { share_classes, type Tiles } from "./layers";
 import { codesInOrder, countsAt, no_value, verdictWords, type PageRecord, type VerdictInfo } from "./record";
 
 function entries(items: { code: number; name: string; numbers?: string[] }[], tiles: Tiles): { list: HTMLElement; paint: () => void } {
@@ -15,7 +15,7 @@ function entries(items: { code: number; name: string; numbers?: string[] }[], ti
 }
 
 /** Verdicts that the map shows: of one vehicle, or of two side by side. */
-export interface ShownVerdict { info: VerdictInfo; heading: number; name: string }
+export interface ShownVerdict { info: VerdictInfo; heading: number; name: string; reach: string }
 
 const total = (count: number[]): number => Math.max(1, count.reduce((sum, n) => sum + n, 0));
 
@@ -33,17 +33,18 @@ export function showVerdictLegend(record: PageRecord, tiles: Tiles, shown: Shown
   const { info } = shown[shown.length - 1];
   const { obstacle, target } = record.codes;
   const shares = columns(record, shown);
+  const reach = [...new Set(shown.map((its) => its.reach))].join(" or ");
   const { list, paint } = entries([
-    ...codesInOrder(record, info).map((code) => ({ code, name: verdictWords(record, code), numbers: shares.map((of) => of.get(code) ?? "") })),
+    ...codesInOrder(record, info).map((code) => ({ code, name: verdictWords(record, code, reach), numbers: shares.map((of) => of.get(code) ?? "") })),
     { code: obstacle, name: "obstacle" }, { code: target, name: "goal" }], tiles);
   if (shown.length > 1) list.prepend(el("li", { class: "head" }, ...shown.map(({ name }) => el("span", { class: "num" }, name))));
   const per = info.cells_per_sample;
   const each = per === 1 ? "each cell" : `one cell in each block of ${per} × ${per}`;
-  const sampled = shown.length > 1 ? "Under the contract: one state" : "One state";
+  const sampled = shown.length > 1 ? `${shown[1].name.replace(/^./, (c) => c.toUpperCase())}: one state` : "One state";
   byId("legend").replaceChildren(list, el("p", {},
     `${sampled} of ${each}, sampled near the cell's centre, at the slider's heading: ${grouped(total(countsAt(record, info, shown[shown.length - 1].heading)))} states, each looked up in the certificate. ` +
     "Other states of the same cell may differ; the volumes below come from states sampled everywhere." +
-    (info.at_risk ? ` At risk: nothing is proved, and a behaviour within the contract is known that fails. Undecided: no proof, and no such behaviour was found${info.not_searched ? ` (in ${grouped(info.not_searched)} states, at all headings, none was searched for)` : ""}.` : "")));
+    (info.at_risk ? ` At risk: nothing is proved, and a ${record.exact_contract ? "flight" : "behaviour within the contract"} is known that fails. Undecided: no proof, and no such ${record.exact_contract ? "flight" : "behaviour"} was found${info.not_searched ? ` (in ${grouped(info.not_searched)} states, at all headings, none was searched for)` : ""}.` : "")));
   paint();
 }
 
@@ -56,14 +57,14 @@ export function updateVerdictLegend(record: PageRecord, shown: ShownVerdict[]): 
   });
 }
 
-export function showShareLegend(record: PageRecord, info: VerdictInfo, tiles: Tiles, kind: number): void {
+export function showShareLegend(record: PageRecord, info: VerdictInfo, tiles: Tiles, kind: number, words: string): void {
   const hold = record.styles.verdict.findIndex(({ name }) => name === "hold");
   const { list, paint } = entries([
     ...share_classes.map((name, code) => ({ code, name })).reverse(),
     { code: 6, name: "obstacle" }, { code: 7, name: "goal" }], tiles);
   const holds = kind === 0 && info.count.some((of) => hold >= 0 && of[hold] > 0);
   byId("legend").replaceChildren(list, el("p", {},
-    `Share of the ${info.heading_rad.length} headings at each cell's sample point that is ${share_kinds[kind]}${holds ? " or to hold" : ""}.`));
+    `Share of the ${info.heading_rad.length} headings at each cell's sample point that is ${words}${holds ? " or to hold" : ""}.`));
   paint();
 }
 

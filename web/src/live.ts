@@ -7,6 +7,7 @@ import { MovedGoal, type PlanView } from "./moved_goal";
 import type { PageRecord } from "./record";
 import { linkable, writeLink, type LinkedState } from "./state_link";
 import type { Viewport } from "./viewport";
+import { verdictNames } from "./whose";
 import type { Witness } from "./witness";
 
 type Piece = [number, number, number, number, number];
@@ -270,14 +271,15 @@ class LiveTool implements Live {
   }
   private showState(answer: StateAnswer, begin: number): void {
     const { flight } = answer;
+    const names = verdictNames(this.record);
     this.track = this.trackOf(flight.pieces);
     this.leg = flight.leg && flight.leg.pieces.length > 0 ? this.trackOf(flight.leg.pieces) : null;
     this.outcome = flight.outcome;
-    const verdict = answer.verdict === null ? this.moved.goal ? "not proved" : "no certificate" : answer.verdict === "undecided" ? "undecided" : `proved: ${answer.verdict}`;
+    const verdict = answer.verdict === null ? this.moved.goal ? "not proved" : "no certificate" : answer.verdict === "undecided" ? "undecided" : `proved: ${answer.verdict === "reach" ? names.reach[0] : answer.verdict}`;
     const parts: (Node | string)[] = [el("b", {}, verdict)];
     if (answer.verdict === null && this.moved.goal) parts.push(": this plan has not been verified");
     if (answer.time_bound_s !== null) parts.push(` within ${answer.time_bound_s.toFixed(1)} s`);
-    if (answer.contract) parts.push(el("br"), ...contractWords(answer.contract));
+    if (answer.contract) parts.push(el("br"), ...contractWords(answer.contract, names.after));
     this.page.showWitness(answer.contract?.witness ? this.witnessOf(answer.contract.witness) : null);
     parts.push(el("br"), `flown: ${flight.outcome}` +
       (flight.time_s === null ? "" : ` after ${flight.time_s.toFixed(1)} s, ${Math.round(flight.length_m!)} m`) + (flight.cut ? " (line cut short)" : ""));
@@ -330,10 +332,10 @@ class LiveTool implements Live {
   }
 }
 
-/** "under the contract, proved: reach within 80.1 s". */
-function contractWords({ verdict, time_bound_s }: ContractAnswer): (Node | string)[] {
+/** "under the contract proved: reach within 80.1 s". */
+function contractWords({ verdict, time_bound_s }: ContractAnswer, after: string): (Node | string)[] {
   const words = verdict === "at_risk" ? "at risk" : verdict === "undecided" ? "undecided" : `proved: ${verdict}`;
-  return ["under the contract ", el("b", {}, words), time_bound_s === null ? "" : ` within ${time_bound_s.toFixed(1)} s`];
+  return [`${after} `, el("b", {}, words), time_bound_s === null ? "" : ` within ${time_bound_s.toFixed(1)} s`];
 }
 
 function drawGoalHeld(context: CanvasRenderingContext2D, view: Viewport, place: [number, number]): void {

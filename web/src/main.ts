@@ -25,7 +25,8 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
   showWords(record);
   showTrust(record);
   showNumbers(record);
-  const map = new MapPage(record, arrays, await fieldOf(arrays), await flightsIn(record, arrays));
+  const field = await fieldOf(arrays);
+  const map = new MapPage(record, arrays, field, await flightsIn(record, arrays));
   showChokes(record, (x, y) => void map.visit(x, y));
   const { verdicts } = map;
   const exact = { ...record };  // the map's record changes with what it shows
@@ -44,7 +45,7 @@ async function show(record: PageRecord, arrays: Arrays): Promise<void> {
   if (verdicts) {
     await map.needCounts();
     void verdicts.askAll();
-    map.turned = showSolid(exact, verdicts);
+    map.turned = showSolid(exact, verdicts, field.tube);
   } else {
     byId("solid-section").hidden = true;
   }

@@ -18,19 +18,17 @@ import type { MovedPlan, PlanView } from "./moved_goal";
 import { linkable, writeLink, type LinkedState } from "./state_link";
 import { Replay } from "./replay";
 import { Viewport } from "./viewport";
+import { reachWord, verdictNames, type VerdictNames, type Whose } from "./whose";
 import { Witnesses, type Witness } from "./witness";
 import { poseWords, WitnessPlay } from "./witness_play";
 
 type View = "verdict" | "share" | "cost" | "region";
 type Part = "base" | "lines" | "marks" | "readout";
-type Whose = "exact" | "contract" | "both";
 
 const view_names: [View, string][] = [
   ["verdict", "Verdicts at a heading"], ["share", "Share of headings proved"], ["cost", "Cost to go"], ["region", "Regions"]];
 const layer_names: [keyof LayerChoice, string][] = [
-  ["streamlines", "Field (streamlines)"], ["arrows", "Field (arrows)"], ["contours", "Cost contours"], ["flights", "Flights"], ["chokes", "Chokes"], ["mission", "Mission"]];
-
-const vehicle_names: [Whose, string][] = [["exact", "Exact vehicle"], ["contract", "Under the contract"], ["both", "Side by side"]];
+  ["streamlines", "Field (streamlines)"], ["arrows", "Field (arrows)"], ["contours", "Cost contours"], ["tube", "Proved tube"], ["flights", "Flights"], ["chokes", "Chokes"], ["mission", "Mission"]];
 
 /** What is set aside while another plan is shown. */
 interface Own { moved: MovedPlan; info: VerdictInfo | null; verdicts: VerdictLayers | null; arrays: Arrays; shown: View; flights: boolean }
@@ -51,7 +49,7 @@ export class MapPage implements MapHands, PlanView {
   private readonly overlay: Overlay;
   private readonly input: MapInput;
   private readonly replay: Replay;
-  private readonly choice: LayerChoice = { arrows: false, streamlines: true, contours: false, flights: false, chokes: true, mission: true };
+  private readonly choice: LayerChoice = { arrows: false, streamlines: true, contours: false, flights: false, chokes: true, tube: true, mission: true };
   private readonly boxes = new Map<keyof LayerChoice, HTMLInputElement>();
   private pictures!: Record<"cost" | "region", { layer: CodeLayer; tiles: Tiles }>;
   private share_tiles: Tiles[] = [];
@@ -63,13 +61,17 @@ export class MapPage implements MapHands, PlanView {
   private readonly exact: VerdictLayers | null;
   private readonly contract: VerdictLayers | null = null;  // besides `exact`, where the vehicle has one
   private whose: Whose = "exact";
-  private readonly vehicles = oneOf(vehicle_names.map(([, words]) => words), "Which vehicle", (k) => this.showVehicle(vehicle_names[k][0]));
+  private readonly names: VerdictNames;
+  private readonly vehicles: HTMLElement;
   private readonly witness: WitnessPlay;
   private readonly witnesses: Promise<Witnesses | null>;
   private readonly stale = new Set<Part>();
 
   constructor(private readonly record: PageRecord, private arrays: Arrays, private readonly field: FieldArrays, private readonly flown: ShownFlight[]) {
     this.grid = record.grid;
+    const { choices, maps } = this.names = verdictNames(record);
+    this.vehicles = oneOf(choices.map(([, words]) => words), "Which vehicle", (k) => this.showVehicle(choices[k][0]));
+    document.querySelectorAll(".map-name").forEach((name, k) => { name.textContent = maps[k]; });
     this.view = new Viewport(record.grid);
     this.base = new BaseMap(byId<HTMLCanvasElement>("map-base"), record.grid);
     this.beside = new BaseMap(byId<HTMLCanvasElement>("map-beside"), record.grid);
@@ -216,7 +218,7 @@ export class MapPage implements MapHands, PlanView {
     const { verdicts, exact, whose } = this;
     if (!verdicts) return [];
     const of = (layers: VerdictLayers): ShownVerdict => ({ info: layers.info, heading: nearestHeading(layers.info, this.slider.rad),
-      name: layers === this.contract ? "under the contract" : "exact" });
+      name: this.names.short[layers === this.contract ? 1 : 0], reach: reachWord(this.record, layers.info) });
     return (whose === "both" ? [exact!, verdicts] : [verdicts]).map(of);
   }
 
@@ -426,14 +428,16 @@ export class MapPage implements MapHands, PlanView {
       void layers.ask(k).then(() => this.redraw("readout"));
       return [];
     }
-    return [{ info, codes, heading_rad: info.heading_rad[k], reaching: this.shares.get(layers)?.reaching ?? null, whose: layers === this.contract ? " under the contract" : "" }];
+    return [{ info, codes, heading_rad: info.heading_rad[k], reaching: this.shares.get(layers)?.reaching ?? null, whose: layers === this.contract ? ` ${this.names.after}` : "", reach: reachWord(this.record, info) }];
   }
+
+  private shareWords(kind: number): string { return share_kinds[kind].replace("reach", [...new Set(this.names.reach)].join(" or ")); }
 
   private showLegend(): void {
     const { record, shown, share_kind } = this;
     this.nameShown();
     if (shown === "verdict" && record.verdicts) showVerdictLegend(record, this.verdict_tiles, this.shownVerdicts());
-    if (shown === "share" && record.verdicts) showShareLegend(record, record.verdicts, this.share_tiles[share_kind], share_kind);
+    if (shown === "share" && record.verdicts) showShareLegend(record, record.verdicts, this.share_tiles[share_kind], share_kind, this.shareWords(share_kind));
     if (shown === "cost") showCostLegend(record, this.pictures.cost.tiles);
     if (shown === "region") showRegionLegend(this.pictures.region.tiles);
   }
@@ -442,7 +446,7 @@ export class MapPage implements MapHands, PlanView {
     this.vehicles.classList.add("sub", "vehicles");
     this.vehicles.hidden = this.contract === null;
     byId("views").append(this.vehicles);
-    const shares = oneOf(share_kinds, "Which share", (kind) => {
+    const shares = oneOf(share_kinds.map((_, kind) => this.shareWords(kind)), "Which share", (kind) => {
       this.share_kind = kind;
       this.showLegend();
       this.redraw("base");
@@ -463,7 +467,7 @@ export class MapPage implements MapHands, PlanView {
     });
     byId("views").querySelector("input[value=share]")?.parentElement!.after(shares);
     for (const [name, words] of layer_names) {
-      const number = name === "flights" ? this.flown.length : name === "chokes" ? this.chokes.length : null;
+      const number = name === "flights" ? this.flown.length : name === "chokes" ? this.chokes.length : name === "tube" && !this.field.tube ? 0 : null;
       if (number === 0) continue;
       const count = number === null ? [] : [el("small", {}, grouped(number))];
       this.boxes.set(name, checkBox(byId("layers"), name, [words, ...count], this.choice[name], (on) => this.setLayer(name, on)));
@@ -483,9 +487,9 @@ export class MapPage implements MapHands, PlanView {
   private nameShown(): void {
     const view = view_names.find(([name]) => name === this.shown)![1];
     const what = this.shown === "verdict" ? `Verdicts at heading ${bearingWords(this.record, this.slider.rad)}, ${wind(this.slider.rad)}`
-      : this.shown === "share" ? `${view}: ${share_kinds[this.share_kind]}` : view;
+      : this.shown === "share" ? `${view}: ${this.shareWords(this.share_kind)}` : view;
     const layers = layer_names.filter(([name]) => this.choice[name] && this.boxes.has(name)).map(([, words]) => words.toLowerCase());
-    const whose = this.under_contract && (this.shown === "verdict" || this.shown === "share") ? `, under the contract${this.split ? ", next to those of the exact vehicle" : ""}` : "";
+    const whose = this.under_contract && (this.shown === "verdict" || this.shown === "share") ? `, ${this.names.after}${this.split ? `, next to those ${this.record.follow ? "of touching it" : "of the exact vehicle"}` : ""}` : "";
     byId("shown-words").textContent = what + whose + (layers.length > 0 ? `; overlays: ${layers.join(", ")}` : "") + ".";
   }
 

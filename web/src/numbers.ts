@@ -3,6 +3,7 @@ import { byId, el, fitted, grouped, percent, short, term } from "./dom";
 import { wordRows } from "./key_words";
 import type { Tiles } from "./layers";
 import { withRisk, type Choke, type Finding, type PageRecord } from "./record";
+import { verdictNames } from "./whose";
 
 function missionWords(record: PageRecord): string {
   const { mission } = record;
@@ -33,6 +34,9 @@ export function showFacts(record: PageRecord): void {
   byId("facts").replaceChildren(...factTerms(findings, verify?.worst_time_s ?? 0));
   if (under.length === 0) return;
   byId("contract-facts").replaceChildren(...factTerms(under, contract.worst_time_s ?? 0));
+  const { rows } = verdictNames(record);
+  byId("facts-h").textContent = rows[0];
+  byId("contract-facts-h").textContent = rows[1];
   for (const id of ["facts-h", "contract-facts-h", "contract-facts"]) byId(id).hidden = false;
 }
 
@@ -48,8 +52,8 @@ export function showChokes(record: PageRecord, visit: (x: number, y: number) => 
   const chokes: Choke[] = record.summary.contract?.chokes ?? [];
   byId("chokes-section").hidden = chokes.length === 0;
   if (chokes.length === 0) return;
-  byId("chokes-words").textContent = `Under the contract, states that are not proved wait for few places: a behaviour that comes there may end in more than one way, ` +
-    `or cannot be shown to move on. More room there, or a tighter contract, proves them all. ${chokes.length === 1 ? "This is the one" : `These are the ${chokes.length}`} that cost most, with the share of all states that wait for each; press one to go there.`;
+  byId("chokes-words").textContent = `${verdictNames(record).after.replace(/^./, (c) => c.toUpperCase())}, states that are not proved wait for few places: a behaviour that comes there may end in more than one way, ` +
+    `or cannot be shown to move on. More room there${record.exact_contract ? "" : ", or a tighter contract,"} proves them all. ${chokes.length === 1 ? "This is the one" : `These are the ${chokes.length}`} that cost most, with the share of all states that wait for each; press one to go there.`;
   const rows = chokes.map(({ x_m, y_m, reason, share }, k) => {
     const go = el("button", { type: "button" }, `(${short(x_m)}, ${short(y_m)})`);
     go.addEventListener("click", () => visit(x_m, y_m));
@@ -63,33 +67,43 @@ export function showWords(record: PageRecord): void {
   byId("words").replaceChildren(...record.words.map((words) => el("p", {}, words)));
 }
 
+const or_at_risk = "undecided or at risk";
+
 /** A bar for each region of states: verdicts by their share of volume. */
 export function showVolumes(record: PageRecord, tiles: Tiles): void {
   const verify = record.summary.verify ?? {};
   const { contract } = record.summary;
   const { codes } = record;
+  const names = verdictNames(record);
+  const reach = record.styles.verdict[codes.reach].name;
   const rows: [string, Record<string, number>][] = [];
   const add = (name: string, key: string, at_risk?: number | null) => {
-    if (verify[key]) rows.push([name, verify[key]]);
+    const named = (shares: Record<string, number>, word: string) => Object.fromEntries(Object.entries(shares).map(([key, value]) => [key === reach ? word : key, value]));
+    if (verify[key]) rows.push([name, named(verify[key], names.reach[0])]);
     if (!contract?.[key]) return;
-    const share = { ...contract[key] };
+    const share = named(contract[key], names.reach[1]);
     if (at_risk !== null && at_risk !== undefined && codes.at_risk) {
       share[record.styles.at_risk!.name] = at_risk;
       share.undecided = Math.max(0, share.undecided - at_risk);
+    } else if (codes.at_risk && share.undecided) {
+      share[or_at_risk] = share.undecided;  // how many of these are at risk was not counted
     }
-    rows.push([`${name}, under the contract`, share]);
+    rows.push([`${name}, ${names.after}`, share]);
   };
   add("All states", "volume_fraction", contract?.at_risk);
+  add("States that the mission can use", "volume_fraction_usable");
   add("Safe starts", "volume_fraction_free", contract?.at_risk_free);
   if (verify.volume_fraction) add("Safe starts with a command", "volume_fraction_free_commanded");
-  if (verify.volume_fraction) rows.push(["Buffer around obstacles", verify.volume_fraction_buffer]);
+  if (verify.volume_fraction) add("Buffer around obstacles", "volume_fraction_buffer");
   const { undecided } = codes;
-  const order = withRisk(codes, record.contract_verdicts, codes.order);
+  // Shares of states that follow stand where those that reach do.
+  const order = withRisk(codes, record.contract_verdicts, codes.order.filter((v) => v === codes.reach || !names.reach.includes(record.styles.verdict[v].name)));
   const nameOf = (code: number): string => (code === codes.at_risk ? record.styles.at_risk! : record.styles.verdict[code]).name;
   const paints: (() => void)[] = [];
   byId("volumes").replaceChildren(...rows.map(([name, share]) => {
-    const of = (v: number): number => share[nameOf(v)] ?? 0;
-    const words = order.filter((v) => of(v) > 0).map((v) => `${percent(of(v))} ${nameOf(v)}`);
+    const word = (v: number): string => v === codes.reach ? names.reach.find((it) => it in share)! : v === undecided && or_at_risk in share ? or_at_risk : nameOf(v);
+    const of = (v: number): number => share[word(v)] ?? 0;
+    const words = order.filter((v) => of(v) > 0).map((v) => `${percent(of(v))} ${word(v)}`);
     const canvas = el("canvas", { role: "img", "aria-label": `${name}: ${words.join(", ")}` });
     paints.push(() => {
       fitted(canvas);
@@ -126,10 +140,14 @@ export function showTrust(record: PageRecord): void {
     : verify.checked ? "fairway-check, a separate program that shares no code with the prover, re-proved the certificate."
     : "The certificate was not re-proved by the separate program in this run.";
   const { contract } = record.summary;
-  const under = contract ? [contract.checked ? "It re-proved the certificate under the contract, too." : "The certificate under the contract was not re-proved in this run."] : [];
-  const risk = record.contract_verdicts ? ["Under the contract a verdict holds for every behaviour that the contract allows. That a state is at risk is proved, too: by a behaviour whose every step keeps the contract."] : [];
+  const second = record.follow ? "of following the path" : "under the contract";
+  const model = record.exact_contract ? `For following the path, instead of the model: the vehicle obeys its commands within ${contract?.contract?.heading_error_rad ?? 0.001} rad.`
+    : "Under the contract, instead of the model: the vehicle keeps its contract at every instant.";
+  const under = contract ? [contract.checked ? `It re-proved the certificate ${second}, too.` : `The certificate ${second} was not re-proved in this run.`] : [];
+  const following = "A state that follows: it joins the path and stays in the tube about it for ever, or to the end of an open path. The tube and the bounds of the time for a lap are part of the certificate.";
+  const risk = record.contract_verdicts ? [...(record.exact_contract ? [] : ["Under the contract a verdict holds for every behaviour that the contract allows."]), ...(record.follow ? [following] : []), `That a state is at risk is proved, too: by a ${record.exact_contract ? "flight" : "behaviour whose every step keeps the contract"}.`] : [];
   byId("trust").replaceChildren(
-    el("h3", {}, "What is assumed"), list([...record.assumptions, ...(contract ? ["Under the contract, instead of the model: the vehicle keeps its contract at every instant."] : [])]),
+    el("h3", {}, "What is assumed"), list([...record.assumptions, ...(contract ? [model] : [])]),
     el("h3", {}, "What is shown"), list([...(record.verdicts ? shown : shown.slice(2)), ...risk]),
     el("h3", {}, "Who checked it"), list([checked, ...under]));
 }

@@ -3,6 +3,7 @@ import type { Numbers } from "./arrays";
 import { short } from "./dom";
 import { strokeTrack, type ShownFlight } from "./flights";
 import { no_value, RegionCode, valueIndex, type Choke, type Mission, type PageRecord } from "./record";
+import { tube_color } from "./tube_chart";
 import type { Viewport } from "./viewport";
 
 /** Lines on the grid: places as shares of its width and height in 65535ths. */
@@ -15,9 +16,10 @@ export interface FieldArrays {
   streamlines: GridLines;
   contours: GridLines;
   contour_level_m: Numbers;
+  tube: GridLines | null;  // about the path that is followed: closed lines
 }
 
-export interface LayerChoice { arrows: boolean; streamlines: boolean; contours: boolean; mission: boolean; flights: boolean; chokes: boolean }
+export interface LayerChoice { arrows: boolean; streamlines: boolean; contours: boolean; mission: boolean; flights: boolean; chokes: boolean; tube: boolean }
 
 const ink = "#22262b";
 
@@ -36,6 +38,7 @@ export class Overlay {
   draw(context: CanvasRenderingContext2D, view: Viewport, choice: LayerChoice, flights: ShownFlight[], selected: number): void {
     context.lineJoin = "round";
     context.lineCap = "butt";
+    if (choice.tube) this.tube(context, view);
     if (choice.contours) this.contours(context, view);
     if (choice.streamlines) this.streamlines(context, view);
     if (choice.arrows) this.arrows(context, view);
@@ -59,6 +62,27 @@ export class Overlay {
     context.strokeStyle = "rgb(34 38 43 / 45%)";
     context.lineWidth = 1;
     context.strokeRect(left, bottom - ny * cell_m * view.scale, nx * cell_m * view.scale, ny * cell_m * view.scale);
+  }
+
+  private tube(context: CanvasRenderingContext2D, view: Viewport): void {
+    const { tube } = this.field;
+    if (!tube) return;
+    const at = this.lineToScreen(view);
+    context.beginPath();
+    for (let k = 0; k + 1 < tube.begin.length; ++k) {
+      for (let i = tube.begin[k]; i < tube.begin[k + 1]; ++i) {
+        const [x, y] = at(tube.x[i], tube.y[i]);
+        if (i === tube.begin[k]) context.moveTo(x, y); else context.lineTo(x, y);
+      }
+      context.closePath();
+    }
+    context.fillStyle = "rgb(170 51 119 / 22%)";
+    context.fill("evenodd");
+    for (const [color, width] of [["rgb(255 255 255 / 75%)", 3.4], [tube_color, 1.5]] as const) {
+      context.strokeStyle = color;
+      context.lineWidth = width;
+      context.stroke();
+    }
   }
 
   private contours(context: CanvasRenderingContext2D, view: Viewport): void {

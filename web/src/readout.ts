@@ -7,7 +7,7 @@ import { no_value, RegionCode, sampleIndex, valueIndex, verdictWords, type PageR
 const region_names = ["buffer", "safe start", "obstacle", "goal"];
 
 /** What a vehicle's verdicts say at a heading, once their layer is inflated, and for how many headings each sample reaches. */
-export interface ReadVerdicts { info: VerdictInfo; codes: Uint8Array; heading_rad: number; reaching: Uint16Array | null; whose: string }
+export interface ReadVerdicts { info: VerdictInfo; codes: Uint8Array; heading_rad: number; reaching: Uint16Array | null; whose: string; reach: string }
 
 type Cell = [number, number];
 
@@ -17,14 +17,14 @@ export function cellAt(record: PageRecord, place: [number, number]): Cell | null
   return cell[0] >= 0 && cell[0] < nx && cell[1] >= 0 && cell[1] < ny ? cell : null;
 }
 
-function verdictTerms(record: PageRecord, cell: Cell, { info, codes, heading_rad, reaching, whose }: ReadVerdicts): HTMLElement[] {
+function verdictTerms(record: PageRecord, cell: Cell, { info, codes, heading_rad, reaching, whose, reach: word }: ReadVerdicts): HTMLElement[] {
   const sample = sampleIndex(info, cell);
   const code = codes[sample];
   if (code === record.codes.obstacle || code === record.codes.target) return [];
   const name = `verdict at ${headingWords(heading_rad)}${whose}`;
   const reach = reaching ? `${reaching[sample]} of ${info.heading_rad.length}` : "";
-  if (whose) return [wide(term(name, verdictWords(record, code), ...(reach ? [el("small", {}, `, reach at ${reach} headings`)] : [])))];
-  return [term(name, verdictWords(record, code)), ...(reach ? [term("headings that reach", reach)] : [])];
+  if (whose) return [wide(term(name, verdictWords(record, code, word), ...(reach ? [el("small", {}, `, ${word} at ${reach} headings`)] : [])))];
+  return [term(name, verdictWords(record, code, word)), ...(reach ? [term(`headings that ${word}`, reach)] : [])];
 }
 
 function wide(element: HTMLElement): HTMLElement {

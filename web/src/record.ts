@@ -73,12 +73,22 @@ export interface PageRecord {
   };
   codes: Codes;
   verdicts: VerdictInfo | null;
-  contract_verdicts?: VerdictInfo;  // under the vehicle's contract, where it has one
+  contract_verdicts?: VerdictInfo;  // under the vehicle's contract, where it has one, or of following a path
+  exact_contract?: boolean;  // contract_verdicts: the contract allows hardly more than the exact vehicle
+  follow?: { line_m: [number, number][]; closed: boolean };  // the line that contract_verdicts prove to be followed
   flights: FlightRecord[];
   flights_left_out: Record<string, number>;
   words: string[];
   assumptions: string[];  // of every proof
   summary: Record<string, any>;
+}
+
+/** What is proved of those that follow the path: `profile` in equal stretches of its length. */
+export interface Following {
+  tube_m: number;
+  length_m: number;
+  lap_time_s: [number, number];  // of an open path: 0, and the longest time to its end
+  profile: { station_m: number; distance_m: number; heading_rad: number }[];
 }
 
 /** A place that undecided states under the contract wait for. */
@@ -116,11 +126,11 @@ export function sampleIndex(info: VerdictInfo, [ix, iy]: [number, number]): numb
   return Math.floor(iy / info.cells_per_sample) * info.nx + Math.floor(ix / info.cells_per_sample);
 }
 
-/** "proved: reach", "at risk", "undecided". */
-export function verdictWords(record: PageRecord, code: number): string {
+/** "proved: reach", "at risk", "undecided"; `reach`: what reaching is called. */
+export function verdictWords(record: PageRecord, code: number, reach: string): string {
   const { codes, styles } = record;
   if (code === codes.at_risk) return styles.at_risk!.words;
-  return (code === codes.undecided ? "" : "proved: ") + styles.verdict[code].words;
+  return (code === codes.undecided ? "" : "proved: ") + (code === codes.reach ? reach : styles.verdict[code].words);
 }
 
 /** Codes of the array `region`: those of a plan file plus 1. */

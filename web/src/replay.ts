@@ -25,7 +25,7 @@ export class Replay {
   private ready = false;
 
   constructor(record: PageRecord, private readonly flights: ShownFlight[], private readonly changed: (what: "choice" | "time") => void) {
-    this.charts = new Charts(record, (time_s) => this.moveTo(time_s));
+    this.charts = new Charts(record, flights, (time_s) => this.moveTo(time_s));
     if (flights.length === 0) {
       byId("flights-section").hidden = true;
       return;

@@ -5,8 +5,10 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { oneOf } from "./choices";
 import { byId, cssVariable, el, headingWords, pixelRatio } from "./dom";
 import { obstacleColor, verdictsOfKind, type VerdictLayers } from "./layers";
+import type { GridLines } from "./overlay";
 import type { PageRecord } from "./record";
 import { boundary } from "./solid_mesh";
+import { tube_color } from "./tube_chart";
 
 const most_across = 128;
 const height = 0.62;  // of the longer side of the map
@@ -26,6 +28,7 @@ class Solid {
   private kind = 0;
   private readonly marks: (LineSegments | Sprite)[] = [];
   private body: Mesh<BufferGeometry, MeshBasicMaterial> | null = null;
+  private outline: LineSegments | null = null;
   private readonly width: number;
   private readonly depth: number;
   private readonly colors: string[];
@@ -108,6 +111,20 @@ class Solid {
     sprite.position.set(x, y, z);
     this.marks.push(sprite);
     this.scene.add(sprite);
+  }
+
+  /** The proved tube's outline, at the height of the cut: it is about places, whatever the heading. */
+  set tube({ x, y, begin }: GridLines) {
+    const { grid } = this.record;
+    const { nx, ny, cells_per_sample } = this.record.verdicts!;
+    const [across, up] = [grid.nx / (nx * cells_per_sample) * this.width, grid.ny / (ny * cells_per_sample) * this.depth];
+    const points: number[] = [];
+    const put = (i: number) => points.push(x[i] / 65535 * across - this.width / 2, y[i] / 65535 * up - this.depth / 2, 0.002);
+    for (let k = 0; k + 1 < begin.length; ++k) for (let i = begin[k] + 1; i < begin[k + 1]; ++i) { put(i - 1); put(i); }
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
+    this.outline = new LineSegments(geometry, new LineBasicMaterial({ color: new Color(tube_color) }));
+    this.scene.add(this.outline);
   }
 
   /** The box's edges and axis labels. */
@@ -228,6 +245,7 @@ class Solid {
     const z = height * (heading + 1) / this.layers.length;
     this.cutting.constant = z - 1e-4;
     this.slice.position.z = z;
+    this.outline?.position.setZ(z);
     const { obstacle, target } = this.record.codes;
     const verdicts = verdictsOfKind(this.record, this.kind);
     const in_map = (code: number) => code === obstacle || code === target;
@@ -253,7 +271,7 @@ class Solid {
 }
 
 /** Builds the view when it scrolls into sight; returns what to call when the heading changes. */
-export function showSolid(record: PageRecord, layers: VerdictLayers): (heading: number) => void {
+export function showSolid(record: PageRecord, layers: VerdictLayers, tube: GridLines | null): (heading: number) => void {
   const box = byId("solid");
   const first_cut = Math.round(0.68 * layers.length);
   let follow: (heading: number) => void = () => {};
@@ -266,6 +284,7 @@ export function showSolid(record: PageRecord, layers: VerdictLayers): (heading: 
       // Checked beforehand: the library would complain in the console.
       if (!document.createElement("canvas").getContext("webgl2")) throw new Error("no WebGL");
       solid = new Solid(box, record, layers, first_cut);
+      if (tube) solid.tube = tube;
     } catch {
       box.replaceChildren(el("p", { class: "hint" }, "This browser does not support WebGL; the map above shows the same states, heading by heading."));
       return;

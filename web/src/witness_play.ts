@@ -36,6 +36,7 @@ export class WitnessPlay {
     this.stop();
     this.shown = witness;
     const { track, end, start } = witness;
+    const { exact_contract } = this.record;
     const close = el("button", { type: "button", class: "close", "aria-label": "Close the witness" }, "×");
     close.addEventListener("click", () => this.hide());
     const zoom = el("button", { type: "button" }, "Zoom to it");
@@ -43,10 +44,10 @@ export class WitnessPlay {
     const steps = track.count;
     this.box.replaceChildren(
       el("h3", {}, "At risk", close),
-      el("p", { role: "status" }, el("b", {}, "A vehicle within the contract that fails from here."),
+      el("p", { role: "status" }, el("b", {}, `A ${exact_contract ? "flight" : "vehicle within the contract"} that fails from here.`),
         track.count === 0 ? ` It ${ends[end] ?? end} at once.`
           : ` It ${ends[end] ?? end} after ${track.duration_s.toFixed(1)} s and ${short(Math.round(track.time_s[track.count] * track.speed_mps))} m. ` +
-            `${steps === 1 ? "Its one step is" : `Each of its ${steps} steps is`} one that the contract allows; an adversary picks ${steps === 1 ? "it" : "them"}.`),
+            `${steps === 1 ? "Its one step is" : `Each of its ${steps} steps is`} one that ${exact_contract ? "the vehicle flies, give or take a thousandth of a radian" : "the contract allows"}; an adversary picks ${steps === 1 ? "it" : "them"}.`),
       ...(note.length > 0 ? [el("p", { class: "hint" }, ...note)] : []),
       ...(track.count === 0 ? [] : [el("div", { class: "controls" }, this.play, this.scrub, this.clock), this.step, zoom]));
     this.box.dataset.start = `${start.x},${start.y},${start.h}`;
