@@ -12,6 +12,7 @@
 #include "check/proof.hpp"
 #include "check/testing/taken_apart.hpp"
 #include "fairway/certificate/contract_certificate_file.hpp"
+#include "fairway/field/holding_circle.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/run/contract_verification.hpp"
 #include "fairway/vehicle/path_locator.hpp"
@@ -21,6 +22,7 @@ namespace fairway_check {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 using std::numbers::pi;
 
 /// Commands that approach a path on circles of 60 m.
@@ -55,6 +57,18 @@ fairway::PathMission a_line() {
   return path;
 }
 
+/// A goal in open water, and the circle that is held there.
+fairway::Plan plan_that_holds() {
+  const fairway::Vec2 goal_m{108.0, 108.0};
+  fairway::Plan plan = fairway::empty_plan(27, 27, 8.0, 20.0);
+  plan = plan_along(path_of(holding_place_at(plan.grid, goal_m, plan.vehicle)), 27, 27);
+  fairway::GoalMission goal;
+  goal.goal_m = goal_m;
+  goal.hold = true;
+  plan.record.mission = goal;
+  return plan;
+}
+
 fairway::VehicleContract a_contract() {
   fairway::VehicleContract contract;
   contract.command_error_m = 1.0;
@@ -71,6 +85,7 @@ class FollowMutation : public testing::Test {
     fs::create_directories(folder_);
     closed_ = certificate(plan_along(an_ellipse(), 32, 30));
     open_ = certificate(plan_along(a_line(), 30, 15));
+    hold_ = certificate(plan_that_holds());
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }
 
@@ -110,10 +125,12 @@ class FollowMutation : public testing::Test {
   static fs::path folder_;
   static std::string closed_;
   static std::string open_;
+  static std::string hold_;
 };
 fs::path FollowMutation::folder_;
 std::string FollowMutation::closed_;
 std::string FollowMutation::open_;
+std::string FollowMutation::hold_;
 
 TEST_F(FollowMutation, WhatTheProverProvesIsAccepted) {
   EXPECT_EQ(refusal(TakenApart(closed_)), "");
@@ -251,6 +268,37 @@ TEST_F(FollowMutation, StagesLieWhereThePathIs) {
   const float far = parts.at<float>("stage_station_m", k) + 250.0F;
   parts.put<float>("stage_station_m", k, far);
   expect_refused(parts, "far along the path");
+}
+
+TEST_F(FollowMutation, WhoHoldsStaysInItsDisc) {
+  const TakenApart good(hold_);
+  EXPECT_EQ(refusal(good), "");
+  EXPECT_GT(good.record["volume_fraction"]["reach"], 0.3);
+  TakenApart parts = good;
+  json& hold = parts.record["follow"]["hold"];
+  const double radius_m = hold["radius_m"];
+  hold["radius_m"] = 0.99 * radius_m;
+  expect_refused(parts, "the tube is not in the disc");
+  hold["radius_m"] = 2.0 * radius_m;  // less is claimed
+  EXPECT_EQ(refusal(parts), "");
+  hold["goal_m"] = {128.0, 108.0};
+  hold["radius_m"] = radius_m;
+  expect_refused(parts, "the tube is not in the disc");
+  hold["goal_m"] = {128.0};
+  expect_refused(parts, "goal_m");
+  parts = good;  // then laps would be proved
+  parts.record["follow"].erase("hold");
+  expect_refused(parts, "stages");
+  parts = good;
+  parts.record["follow"]["lap_time_s"] = {1.0, 2.0};
+  expect_refused(parts, "lap_time_s");
+  parts = good;
+  std::size_t core = 0;
+  for (std::size_t leaf = 0; leaf < parts.leaves(); ++leaf) {
+    if (stage_of(parts, leaf) != 0 && ++core % 2 == 0)
+      parts.put<std::uint16_t>("leaf_stage", leaf, 0);
+  }
+  expect_refused(parts, "leave the core");
 }
 
 TEST_F(FollowMutation, OpenIsNotClosed) {

@@ -187,6 +187,23 @@ class Follow(unittest.TestCase):
         for text in pictures["touch"]:
             self.assertNotIn("proved", text)
 
+    def test_who_holds_at_a_goal_is_proved_to_stay_in_its_disc(self):
+        text = (self.folder / self.scenario()).read_text()
+        begin, end = text.index("[mission]"), text.index("[plan]")
+        (self.folder / "hold.toml").write_text(
+            text[:begin] + '[mission]\nkind = "goal"\ngoal_m = [200, 150]\nhold = true\n' + text[end:])
+        self.expect(0, "plan", "hold.toml", "-o", "hold.safetensors")
+        done = self.expect(0, "verify", "hold.safetensors", "-o", "hold.cc", "--volume-samples", 1000)
+        self.assertIn("are proved to reach the goal and to stay there for ever", done.stdout)
+        summary = json.loads((self.folder / "hold.summary.json").read_text())
+        self.assertGreater(summary["volume_fraction_usable"]["reach"], 0.8)
+        radius_m = summary["follow"]["hold_radius_m"]
+        self.assertLess(radius_m, 60.0)
+        self.assertIn("accepted", self.expect(0, "check", "hold.cc", "--plan", "hold.safetensors").stdout)
+        self.assertEqual(json.loads(self.expect(0, "--json", "info", "hold.cc").stdout)["hold_radius_m"], radius_m)
+        row = self.expect(0, "query", "hold.cc", "--state", "100,150,0").stdout.splitlines()[1].split(",")
+        self.assertEqual(row[3], "reach")
+
     def test_following_is_refused_where_there_is_no_path(self):
         self.expect(0, "plan", self.scenario(), "-o", "p.safetensors")
         self.expect(64, "simulate", "p.safetensors", "--random", 1, "--laps", 1, "--follow", 3)

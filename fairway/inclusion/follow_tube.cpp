@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t most_stretches = 512;
 /// Who checks may find a little more.
 constexpr double more_m = 1.0 + 1e-5;
-constexpr double more_off_rad = 2e-3;
+constexpr double more_off_rad = 0.05;  // it turns in steps of its own
 
 void widen(TubeStretch& stretch, const TubeStretch& by) {
   stretch.distance_m = std::max(stretch.distance_m, by.distance_m);

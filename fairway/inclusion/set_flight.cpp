@@ -31,6 +31,12 @@ void for_common(const HeadingArc& arc, double range_lo, double range_hi, const B
   }
 }
 
+/// Whether headings are not the same, but nearly so.
+bool hardly_differ(double a_rad, double b_rad) {
+  const double off = std::abs(std::remainder(a_rad - b_rad, whole_turn_rad));
+  return off > 1e-12 && off < 1e-5;
+}
+
 }  // namespace
 
 ConvexSet segment_of_side(PartPlace part, PartSide side, double lo, double hi) {
@@ -166,7 +172,11 @@ void SetFlight::start(PartPlace part, const ArrivingSet& arriving, const Heading
   const HeadingArc starts{arriving.lo_rad, arriving.hi_rad - arriving.lo_rad};
   note(part, starts);
   if (arc.widened(align_slack_rad).meets(starts)) {
-    align(part, arriving.set, {arriving.past.headings.with(starts), arriving.past.flown},
+    // Who checks may take a heading that is hardly beside an arc past it, and back.
+    const bool is_beside =
+        hardly_differ(arriving.lo_rad, arc.lo_rad) || hardly_differ(arriving.hi_rad, arc.hi_rad());
+    const double more = is_beside ? parts_.turn_radius().most * options_.step_rad : 0.0;
+    align(part, arriving.set, {arriving.past.headings.with(starts), arriving.past.flown + more},
           arriving.slack);
   }
   // The smaller angle, and near opposite either side.

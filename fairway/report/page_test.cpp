@@ -310,8 +310,8 @@ TEST(Page, ThatAPathIsFollowedComesWithItsLineAndTheTubesOutline) {
   content.follow = &proof;
   content.exact_contract = true;
   const json record = record_of(page_html(content, bare));
-  EXPECT_EQ(record["follow"], json({{"closed", true},
-                                    {"line_m", {{30.0, 35.0}, {90.0, 35.0}, {60.0, 95.0}}}}));
+  EXPECT_EQ(record["follow"],
+            json({{"closed", true}, {"line_m", {{30.0, 35.0}, {90.0, 35.0}, {60.0, 95.0}}}}));
   EXPECT_EQ(record["exact_contract"], true);
   // Every vertex of the outline is a tube's width away from the line.
   const Decoded arrays = arrays_of(page_html(content, bare));

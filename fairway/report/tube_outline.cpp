@@ -40,7 +40,7 @@ double widest_m(const FollowProof& proof) {
 }
 
 std::vector<std::vector<Vec2>> tube_outline(const FollowProof& proof, double step_m) {
-  require(!proof.empty() && step_m > 0.0, "a tube has stretches, a lattice a step");
+  require(!proof.tube.empty() && step_m > 0.0, "a tube has stretches, a lattice a step");
   Vec2 low = proof.path.vertices_m.front();
   Vec2 high = low;
   for (const Vec2 p : proof.path.vertices_m) {
