@@ -13,6 +13,8 @@ namespace {
 using std::numbers::pi;
 
 constexpr double most_step = 2.5 * pi / 180.0;
+/// While some begin to turn, when the set widens with the square of the step.
+constexpr double finer_step = 0.5 * most_step;
 constexpr double most_joining = 2.5 * pi / 180.0;  ///< headings of a set that begins
 constexpr std::size_t most_waiting = 4096;
 constexpr std::size_t few_waiting = 64;
@@ -81,7 +83,8 @@ bool TurningSets::advance(Turning& set) {
   if (!following_.spend()) return false;
   double step = (std::floor(set.clock / (0.5 * pi) + 0x1p-30) + 1.0) * (0.5 * pi) - set.clock;
   const bool joins = set.joined - set.clock > 0x1p-32;
-  step = std::min({step, most_step, joins ? set.joined - set.clock : HUGE_VAL});
+  step =
+      std::min({step, joins ? finer_step : most_step, joins ? set.joined - set.clock : HUGE_VAL});
   Displacements by(set.turn, set.clock, step, following_.least_radius(), following_.most_radius());
   Shape swept = sum(set.at, joins ? by.begun : by.partial);
   const Box all = swept.bounds();

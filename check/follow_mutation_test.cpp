@@ -34,8 +34,8 @@ fairway::Plan plan_along(const fairway::PathMission& path, int nx, int ny) {
     const auto frame = locator.frame(plan.grid.center(plan.grid.cell_at(i)));
     const double off = std::acos(1.0 - std::min(1.0, std::abs(frame.offset_m) / 60.0));
     const double tangent = std::atan2(frame.tangent.y, frame.tangent.x);
-    plan.heading_rad[i] =
-        static_cast<float>(std::remainder(tangent + (frame.offset_m > 0.0 ? -off : off), 2.0 * pi));
+    plan.heading_rad[i] = static_cast<float>(
+        0.9999 * std::remainder(tangent + (frame.offset_m > 0.0 ? -off : off), 2.0 * pi));
     plan.cost_m[i] = static_cast<float>(std::abs(frame.offset_m));
   }
   return plan;

@@ -142,7 +142,7 @@ class Follow(unittest.TestCase):
             "turn_radius_m = [19.0, 21.0]\nspeed_mps = [9.0, 11.0]\n")
         def verified(*settings):
             self.expect(0, "plan", self.scenario(alpha=2.0), "-o", "p.safetensors", "--force", *settings)
-            done = self.expect(0, "verify", "p.safetensors", "--contract", "c.toml", "-o", "p.cc", "--force",
+            done = self.expect(0, "verify", "p.safetensors", "--contract", "c.toml", "--parts", 2, "-o", "p.cc", "--force",
                                "--volume-samples", 1000)
             self.assertIn("accepted", self.expect(0, "check", "p.cc", "--plan", "p.safetensors").stdout)
             return json.loads((self.folder / "p.summary.json").read_text()), done.stdout

@@ -67,7 +67,6 @@ def test_any_law_follows_in_wind_and_noise(tour):
     exact = tour.fly(starts, laps=1)
     assert named.distance_mean_m.mean() < 1.0
     assert not np.array_equal(named.distance_mean_m, exact.distance_mean_m)
-    assert named.summary["following"]["on_path_share"] < exact.summary["following"]["on_path_share"]
 
 
 def test_files_are_those_of_the_command(tour, command, tmp_path):

@@ -51,6 +51,7 @@ export function showReadout(record: PageRecord, field: FieldArrays, place: [numb
     term("region", cut_off ? `${region[i] === RegionCode.free ? "free" : "buffer"}, but cut off from the goal: ${commanded ? "the command leads to a circle on which to wait" : "no command"}` : region_names[region[i]]),
     term("cost to go", cost[i] === no_value ? "none" : `${short(cost[i] * record.cost_step_m)} m`),
     term("commanded heading", commanded ? bearingWords(record, headingOfCode(heading[i])) : open ? "none: straight on" : "none"),
-    ...verdicts.flatMap((its) => verdictTerms(record, cell, its)),
+    // Where the mission is out of reach, who is safe holds.
+    ...verdicts.flatMap((its) => verdictTerms(record, cell, cut_off ? { ...its, reach: "hold" } : its)),
     ...(per > 1 ? [term("values", `of one cell in ${per} × ${per}`)] : []));
 }

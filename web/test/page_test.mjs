@@ -45,7 +45,8 @@ test("what must not be missed comes first: cut-off cells, then the share of what
   const box = await page.locator("#map").boundingBox();
   await page.mouse.move(box.x + 0.8 * box.width, box.y + 0.5 * box.height);
   await frames(page);
-  assert.match(await readout(page), /free, but cut off from the goal: no command/);
+  assert.match(await readout(page), /free, but cut off from the goal: the command leads to a circle/);
+  assert.match(await readout(page), /headings that hold/);
   assert.doesNotMatch(await readout(page), /safe start/);
   assert.match(await page.locator("#flight-table").innerText(), /from a cut-off cell/);
   assert.deepEqual(trouble, []);
