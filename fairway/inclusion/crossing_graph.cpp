@@ -96,7 +96,7 @@ void LinkStore::keep(std::span<Place> places) {
 }
 
 std::size_t LinkStore::bytes() const {
-  std::size_t sum = block_.capacity() * sizeof(block_[0]);
+  std::size_t sum = block_.capacity() * sizeof(std::vector<CrossingLink>);
   for (const auto& block : block_) sum += block.capacity() * sizeof(CrossingLink);
   return sum;
 }
