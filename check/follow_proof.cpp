@@ -16,6 +16,8 @@ constexpr double time_margin = 1.0 + 1e-9;
 constexpr double least_difference = 0x1p-30;
 /// So near a leaf is to where its stage begins, as a share of the path.
 constexpr double most_beside_stage = 0.25;
+/// Less than a right angle: so far off its direction one still moves on in a stage.
+constexpr double most_off_rad = 1.5;
 
 Point scaled_unit(double rad, double by) { return {by * std::cos(rad), by * std::sin(rad)}; }
 double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
@@ -41,10 +43,7 @@ class CoreOutcome : public Sightings {
       most = std::max(most, look(leaf, past));
     });
     if (!any) fault = "its behaviours come where nothing is claimed";
-    if (!bends_ && off_direction(past) > f_.off_rad[stage_] + angle_slack) {
-      fault = fmt::format("behaviours of stage {} head {:.6f} rad from its direction", stage_,
-                          off_direction(past));
-    }
+    if (!bends_) note_heading(off_direction(past));
     if (most == 0) return;
     const Cell at = c_.parts.part_at(part);
     for (const Point p : places_on(side, low, high).corners()) {
@@ -93,6 +92,15 @@ class CoreOutcome : public Sightings {
     }
     return on;
   }
+  /// Who heads farther from a stage's direction than is claimed moves on along it more slowly.
+  void note_heading(double off_rad) {
+    if (off_rad > most_off_rad) {
+      fault =
+          fmt::format("behaviours of stage {} head {:.6f} rad from its direction", stage_, off_rad);
+    } else if (off_rad > static_cast<double>(f_.off_rad[stage_])) {
+      sums_.slow_down(stage_, off_rad);
+    }
+  }
   static double off(const Past& past, double direction_rad) {
     const double middle = 0.5 * (past.least_rad + past.most_rad);
     return std::abs(std::remainder(middle - direction_rad, 2.0 * pi)) +
@@ -113,7 +121,11 @@ class CoreOutcome : public Sightings {
 }  // namespace
 
 LapSums::LapSums(const ContractCertificate& c)
-    : late_s_(c.follow->stages(), -HUGE_VAL), way_m_(c.follow->stages(), HUGE_VAL) {
+    : late_s_(c.follow->stages(), -HUGE_VAL),
+      way_m_(c.follow->stages(), HUGE_VAL),
+      begin_s_(c.follow->stages(), HUGE_VAL),
+      end_s_(c.follow->stages(), -HUGE_VAL),
+      off_rad_(c.follow->off_rad.begin(), c.follow->off_rad.end()) {
   const FollowClaims& f = *c.follow;
   for (std::size_t k = 0; k < f.stages(); ++k) {
     along_.push_back(scaled_unit(f.heading_rad[k], 1.0));
@@ -128,6 +140,9 @@ LapSums::LapSums(const ContractCertificate& c)
 /// x . (w - w'), where one stage ends and the next begins, and what laps do not begin alike.
 void LapSums::pass(std::size_t k, std::size_t stages, Point at) {
   const std::size_t count = late_s_.size();
+  const std::size_t then = (k + stages) % count;
+  end_s_[k] = std::max(end_s_[k], dot(at, slowness_[k]));
+  begin_s_[then] = std::min(begin_s_[then], dot(at, slowness_[then]));
   for (std::size_t i = 0; i < stages; ++i, k = (k + 1) % count) {
     const std::size_t next = (k + 1) % count;
     late_s_[k] = std::max(late_s_[k], dot(at, slowness_[k] - slowness_[next]));
@@ -140,10 +155,24 @@ void LapSums::pass(std::size_t k, std::size_t stages, Point at) {
   }
 }
 
+void LapSums::slow_down(std::size_t k, double off_rad) {
+  off_rad_[k] = std::max(off_rad_[k], off_rad);
+}
+
+/// By how much longer stage k takes than with the angle claimed: along its whole extent at most.
+double LapSums::slower_s(std::size_t k, double claimed_rad) const {
+  if (!(off_rad_[k] > claimed_rad)) return 0.0;
+  const double extent_s = std::max(0.0, end_s_[k] - begin_s_[k]);
+  return extent_s * (std::cos(claimed_rad) / std::cos(off_rad_[k]) - 1.0);
+}
+
 void LapSums::add(const LapSums& other) {
   for (std::size_t k = 0; k < late_s_.size(); ++k) {
     late_s_[k] = std::max(late_s_[k], other.late_s_[k]);
     way_m_[k] = std::min(way_m_[k], other.way_m_[k]);
+    begin_s_[k] = std::min(begin_s_[k], other.begin_s_[k]);
+    end_s_[k] = std::max(end_s_[k], other.end_s_[k]);
+    if (other.off_rad_[k] > off_rad_[k]) off_rad_[k] = other.off_rad_[k];
   }
   start_least_s_ = std::min(start_least_s_, other.start_least_s_);
   start_most_s_ = std::max(start_most_s_, other.start_most_s_);
@@ -161,7 +190,8 @@ std::string LapSums::defect(const ContractCertificate& c) const {
   double most_s = start_most_s_ - start_least_s_;
   double least_m = start_least_m_ - start_most_m_;
   for (std::size_t k = 0; k < late_s_.size(); ++k) {
-    most_s += late_s_[k] + static_cast<double>(f.time_s[k]);
+    most_s += late_s_[k] + static_cast<double>(f.time_s[k]) +
+              slower_s(k, static_cast<double>(f.off_rad[k]));
     least_m += way_m_[k];
   }
   // Every stage is left by somebody, or its sums are infinite.

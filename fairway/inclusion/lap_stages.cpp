@@ -13,8 +13,7 @@ constexpr long fewest_stages = 9;
 constexpr long most_stages = 60000;
 /// Stages in which headings are farther than this from their direction are left by groups.
 constexpr double most_off_rad = 1.2;
-/// Who checks turns in steps of its own, and may find as much more.
-constexpr double more_off_rad = 0.05;
+constexpr double more_off_rad = 2e-3;
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 

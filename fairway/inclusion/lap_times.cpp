@@ -9,8 +9,8 @@ namespace fairway {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// Who checks may find a little more.
-constexpr double more = 1.0 + 1e-3;
+/// Who checks may find some that head farther from their stage's direction.
+constexpr double more = 1.03;
 
 Vec2 unit(double rad) { return {std::cos(rad), std::sin(rad)}; }
 
