@@ -254,9 +254,9 @@ TEST_F(FollowMutation, LapsTakeNoLessAndNoLonger) {
   const double least = parts.record["follow"]["lap_time_s"][0];
   const double most = parts.record["follow"]["lap_time_s"][1];
   ASSERT_GT(least, 0.0);
-  parts.record["follow"]["lap_time_s"] = {1.02 * least, most};
+  parts.record["follow"]["lap_time_s"] = {1.1 * least, most};
   expect_refused(parts, "lap_time_s");
-  parts.record["follow"]["lap_time_s"] = {least, 0.98 * most};
+  parts.record["follow"]["lap_time_s"] = {least, 0.9 * most};
   expect_refused(parts, "lap_time_s");
   parts.record["follow"]["lap_time_s"] = {least};
   expect_refused(parts, "lap_time_s");
