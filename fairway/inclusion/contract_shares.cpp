@@ -136,18 +136,20 @@ ContractSurvey survey(const Flow& flow, const std::vector<bool>& is_free,
   std::vector<Tally> rows(static_cast<std::size_t>(grid.ny));
   const Surveyor surveyor(flow, parts, verdicts, prover, speed_least_mps);
   for_ranges(rows.size(), 4, [&](std::size_t a, std::size_t b) {
-    const IsAtRisk is_at_risk = make_search ? make_search() : IsAtRisk{};
+    const IsAtRisk no_search;
+    const IsAtRisk is_at_risk = make_search ? make_search() : no_search;
     for (std::size_t row = a; row < b; ++row) {
       for (int ix = 0; ix < grid.nx; ++ix) {
         const Cell cell{ix, static_cast<int>(row)};
         const std::size_t i = grid.index(cell);
         if (flow.kind[i] != CellKind::ordinary) continue;
+        const IsAtRisk& search = options.search_all || is_usable[i] ? is_at_risk : no_search;
         Random random(options.seed * 0x9e3779b97f4a7c15U + i);
         for (std::size_t k = 0; k < (is_usable[i] ? per_usable : per_cell); ++k) {
           const Vec2 offset{random.unit(), random.unit()};
           const double heading_rad = random.uniform(-pi, pi);
-          surveyor.look(cell, offset, heading_rad, {k < per_cell, is_free[i], is_usable[i]},
-                        is_at_risk, rows[row]);
+          surveyor.look(cell, offset, heading_rad, {k < per_cell, is_free[i], is_usable[i]}, search,
+                        rows[row]);
         }
       }
     }

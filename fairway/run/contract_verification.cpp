@@ -125,6 +125,8 @@ void measure(const Plan& plan, const Parts& parts, const InclusionProver& prover
   SurveyOptions sampled;
   sampled.samples = options.samples;
   sampled.seed = options.seed;
+  // Nothing is claimed outside the walls of a track, and searches there would take minutes.
+  sampled.search_all = !made.following;
   made.survey = survey(c.flow(), is_free, usable_cells(plan), parts, c.verdicts, prover,
                        c.least_speed_mps(), sampled, undecided.gatherer());
 }
