@@ -47,6 +47,7 @@ class Surveyor {
     bool of_all;
     bool is_free;
     bool is_usable;
+    bool is_looked_into;  ///< what it waits for, when it is undecided
   };
   void look(Cell cell, Vec2 offset, double heading_rad, Counts counts, const IsAtRisk& is_at_risk,
             Tally& tally) const {
@@ -70,7 +71,7 @@ class Surveyor {
       ++tally.at_risk;
       tally.at_risk_free += counts.is_free ? 1 : 0;
     }
-    ++tally.waiting[cause_of(answer, cell)];
+    if (counts.is_looked_into) ++tally.waiting[cause_of(answer, cell)];
   }
 
  private:
@@ -143,13 +144,14 @@ ContractSurvey survey(const Flow& flow, const std::vector<bool>& is_free,
         const Cell cell{ix, static_cast<int>(row)};
         const std::size_t i = grid.index(cell);
         if (flow.kind[i] != CellKind::ordinary) continue;
-        const IsAtRisk& search = options.search_all || is_usable[i] ? is_at_risk : no_search;
+        const bool looks = options.search_all || is_usable[i];
+        const IsAtRisk& search = looks ? is_at_risk : no_search;
         Random random(options.seed * 0x9e3779b97f4a7c15U + i);
         for (std::size_t k = 0; k < (is_usable[i] ? per_usable : per_cell); ++k) {
           const Vec2 offset{random.unit(), random.unit()};
           const double heading_rad = random.uniform(-pi, pi);
-          surveyor.look(cell, offset, heading_rad, {k < per_cell, is_free[i], is_usable[i]}, search,
-                        rows[row]);
+          surveyor.look(cell, offset, heading_rad, {k < per_cell, is_free[i], is_usable[i], looks},
+                        search, rows[row]);
         }
       }
     }

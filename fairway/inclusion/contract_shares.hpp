@@ -49,7 +49,8 @@ struct SurveyOptions {
   std::size_t samples = 40000;  ///< at least 1000, and one in each cell
   std::uint64_t seed = 1;
   std::size_t most_chokes = 20;
-  bool search_all = true;  ///< for behaviours that fail; else in cells that the mission can use
+  /// For behaviours that fail, and for chokes; else only in cells that the mission can use.
+  bool search_all = true;
 };
 
 /// Whether a behaviour that fails from this state is known; called for undecided states, by
