@@ -75,6 +75,8 @@ void require_leaves(ContractCertificate& c) {
             leaf == c.first[s] ? c.begin[leaf] == 0 : c.begin[leaf - 1] < c.begin[leaf];
         const std::uint8_t v = c.verdict[leaf];
         const bool has_group = v == reach || v == collide || v == leave;
+        require(!c.follow || c.follow->stage[leaf] == 0 || v == reach,
+                c.name_of(leaf) + ": is of the core, but is not claimed to follow");
         if (in_order && v < verdict_count && c.group[leaf] < c.group_time_s.size() &&
             (c.group[leaf] > 0) == has_group) {
           continue;

@@ -33,7 +33,7 @@
 #include <numbers>
 #include <random>
 
-#include "check/proof.hpp"
+#include "check/testing/refusal.hpp"
 #include "check/testing/taken_apart.hpp"
 #include "fairway/certificate/contract_certificate_file.hpp"
 #include "fairway/plan/plan_file.hpp"
@@ -93,14 +93,7 @@ class ContractMutation : public testing::Test {
 
   static std::string refusal(const std::string& bytes, const std::string& plan = "") {
     std::ofstream(folder_ / "changed", std::ios::binary) << bytes;
-    nlohmann::ordered_json report;
-    try {
-      return judge(folder_ / "changed", plan, 5000, report);
-    } catch (const Defect& defect) {
-      return std::string("unreadable: ") + defect.what();
-    } catch (const json::exception& error) {
-      return std::string("unreadable: ") + error.what();
-    }
+    return refusal_of(folder_ / "changed", plan, 5000);
   }
   static void expect_refused(TakenApart parts, const std::string& because) {
     parts.sign();

@@ -131,6 +131,7 @@ class LeafRules {
   explicit LeafRules(const ContractCertificate& c) : c_(c) {
     if (c.follow) core_.emplace(c);
   }
+  std::string defect() const { return core_ ? core_->defect() : ""; }
   LapSums no_laps() const { return core_ ? LapSums(c_) : LapSums(); }
   std::string defect(Behaviours& behaviours, std::size_t section, std::size_t leaf, Share& share,
                      LapSums& laps) const {
@@ -237,6 +238,7 @@ std::string judge_contract(const std::string& path, const std::string& plan, std
   const ContractCertificate c = read_contract_certificate(path, plan);
   std::vector<Share> shares;
   const LeafRules rules(c);
+  if (std::string wrong = rules.defect(); !wrong.empty()) return wrong;
   LapSums laps = rules.no_laps();
   const std::vector<std::uint8_t> fails = failing_leaves(c, rules, shares, laps);
   const auto why = [&](std::size_t section, std::size_t leaf) {

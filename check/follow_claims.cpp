@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -39,18 +38,15 @@ void require_stages(const FollowClaims& f) {
 }
 
 /// The path is nowhere farther from the goal than one of its vertices is.
-void take_disc(const nlohmann::json& hold, FollowClaims& f) {
+void require_disc(const nlohmann::json& hold, const FollowClaims& f) {
   const auto goal = hold.at("goal_m").get<std::vector<double>>();
   require(goal.size() == 2, "hold: goal_m: expected [x, y]");
-  f.holds = true;
-  f.goal = {goal[0], goal[1]};
-  f.hold_radius_m = hold.at("radius_m").get<double>();
   double farthest = 0.0;
   for (const Point p : f.path) {
-    farthest = std::max(farthest, std::hypot(p.x - f.goal.x, p.y - f.goal.y));
+    farthest = std::max(farthest, std::hypot(p.x - goal[0], p.y - goal[1]));
   }
   const float widest = *std::max_element(f.tube_distance_m.begin(), f.tube_distance_m.end());
-  require(f.closed && farthest + static_cast<double>(widest) <= f.hold_radius_m,
+  require(f.closed && farthest + static_cast<double>(widest) <= hold.at("radius_m").get<double>(),
           "hold: radius_m: the tube is not in the disc");
 }
 
@@ -85,7 +81,8 @@ FollowClaims follow_claims_of(const TensorFile& file, std::uint64_t leaves) {
     f.tube_off_rad.push_back(tube[i + 1]);
   }
   require(!tube.empty(), "tube: is empty");
-  if (record.contains("hold")) take_disc(record.at("hold"), f);
+  f.holds = record.contains("hold");
+  if (f.holds) require_disc(record.at("hold"), f);
   require_stages(f);
   return f;
 }

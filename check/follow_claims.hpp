@@ -21,8 +21,6 @@ struct FollowClaims {
   std::vector<float> tube_distance_m;  ///< [stretches] of the path, equally long
   std::vector<float> tube_off_rad;     ///< [stretches]
   bool holds = false;                  ///< at a goal: all that follow stay in a disc about it
-  Point goal{0.0, 0.0};
-  double hold_radius_m = 0.0;
   double lap_least_s = 0.0;
   double lap_most_s = 0.0;  ///< of an open path: to its end
 

@@ -9,59 +9,27 @@
 #include <fstream>
 #include <numbers>
 
-#include "check/proof.hpp"
+#include "check/follow_proof.hpp"
+#include "check/testing/refusal.hpp"
 #include "check/testing/taken_apart.hpp"
 #include "fairway/certificate/contract_certificate_file.hpp"
 #include "fairway/field/holding_circle.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/run/contract_verification.hpp"
-#include "fairway/vehicle/path_locator.hpp"
-#include "fairway/verify/testing/plans_to_verify.hpp"
+#include "fairway/verify/testing/plans_along_paths.hpp"
 
 namespace fairway_check {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using std::numbers::pi;
-
-/// Commands that approach a path on circles of 60 m.
-fairway::Plan plan_along(const fairway::PathMission& path, int nx, int ny) {
-  fairway::Plan plan = fairway::empty_plan(nx, ny, 8.0, 20.0);
-  const fairway::PathLocator locator(path);
-  plan.record.mission = path;
-  for (std::size_t i = 0; i < plan.grid.size(); ++i) {
-    const auto frame = locator.frame(plan.grid.center(plan.grid.cell_at(i)));
-    const double off = std::acos(1.0 - std::min(1.0, std::abs(frame.offset_m) / 60.0));
-    const double tangent = std::atan2(frame.tangent.y, frame.tangent.x);
-    plan.heading_rad[i] = static_cast<float>(
-        0.9999 * std::remainder(tangent + (frame.offset_m > 0.0 ? -off : off), 2.0 * pi));
-    plan.cost_m[i] = static_cast<float>(std::abs(frame.offset_m));
-  }
-  return plan;
-}
-
-fairway::PathMission an_ellipse() {
-  fairway::PathMission path;
-  path.closed = true;
-  for (int k = 0; k < 72; ++k) {
-    const double at = 2.0 * pi * k / 72.0;
-    path.vertices_m.push_back({128.0 + 84.0 * std::cos(at), 120.0 + 76.0 * std::sin(at)});
-  }
-  return path;
-}
-
-fairway::PathMission a_line() {
-  fairway::PathMission path;
-  path.vertices_m = {{40.0, 60.0}, {200.0, 60.0}};
-  return path;
-}
 
 /// A goal in open water, and the circle that is held there.
 fairway::Plan plan_that_holds() {
   const fairway::Vec2 goal_m{108.0, 108.0};
-  fairway::Plan plan = fairway::empty_plan(27, 27, 8.0, 20.0);
-  plan = plan_along(path_of(holding_place_at(plan.grid, goal_m, plan.vehicle)), 27, 27);
+  const fairway::Plan water = fairway::empty_plan(27, 27, 8.0, 20.0);
+  fairway::Plan plan = plan_along(path_of(holding_place_at(water.grid, goal_m, water.vehicle)),
+                                  water.grid.nx, water.grid.ny);
   fairway::GoalMission goal;
   goal.goal_m = goal_m;
   goal.hold = true;
@@ -69,22 +37,13 @@ fairway::Plan plan_that_holds() {
   return plan;
 }
 
-fairway::VehicleContract a_contract() {
-  fairway::VehicleContract contract;
-  contract.command_error_m = 1.0;
-  contract.heading_error_rad = 0.01;
-  contract.turn_radius_m = {19.0, 21.0};
-  contract.speed_mps = {9.0, 11.0};
-  return contract;
-}
-
 class FollowMutation : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = fs::temp_directory_path() / ("fairway-follow-" + std::to_string(::getpid()));
     fs::create_directories(folder_);
-    closed_ = certificate(plan_along(an_ellipse(), 32, 30));
-    open_ = certificate(plan_along(a_line(), 30, 15));
+    closed_ = certificate(plan_along(fairway::ellipse_to_follow(), 32, 30));
+    open_ = certificate(plan_along(fairway::line_to_follow(), 30, 15));
     hold_ = certificate(plan_that_holds());
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }
@@ -93,8 +52,9 @@ class FollowMutation : public testing::Test {
     fairway::ContractVerifyOptions options;
     options.samples = 5000;
     options.find_witnesses = false;
-    const auto made = fairway::verify_contract(plan, "plan", fairway::RegionOfInterest{},
-                                               a_contract(), options, [](const std::string&) {});
+    const auto made =
+        fairway::verify_contract(plan, "plan", fairway::RegionOfInterest{},
+                                 fairway::contract_to_follow(), options, [](const std::string&) {});
     EXPECT_TRUE(made.following);
     write_contract_certificate(made.certificate, folder_ / "good", fairway::Existing::replace);
     std::ifstream in(folder_ / "good", std::ios::binary);
@@ -103,14 +63,7 @@ class FollowMutation : public testing::Test {
   static std::string refusal(TakenApart parts) {
     parts.sign();
     std::ofstream(folder_ / "changed", std::ios::binary) << parts.file();
-    nlohmann::ordered_json report;
-    try {
-      return judge(folder_ / "changed", "", 2000, report);
-    } catch (const Defect& defect) {
-      return std::string("unreadable: ") + defect.what();
-    } catch (const nlohmann::json::exception& error) {
-      return std::string("unreadable: ") + error.what();
-    }
+    return refusal_of(folder_ / "changed", "", 2000);
   }
   static void expect_refused(const TakenApart& parts, const std::string& because) {
     EXPECT_THAT(refusal(parts), testing::HasSubstr(because));
@@ -161,7 +114,11 @@ TEST_F(FollowMutation, ALeafIsNotOfTheCoreUnlessItIs) {
     expect_refused(parts, "stage that does not exist");
     parts = TakenApart(file);
     parts.put<std::uint8_t>("leaf_verdict", core_leaf(parts), collide);
-    expect_refused(parts, "could not be re-proved");
+    expect_refused(parts, "is of the core, but is not claimed to follow");
+    // Of which nothing is claimed, nothing would be proved again.
+    parts.put<std::uint8_t>("leaf_verdict", core_leaf(parts), undecided);
+    parts.put<std::uint32_t>("leaf_group", core_leaf(parts), 0);
+    expect_refused(parts, "is of the core, but is not claimed to follow");
   }
 }
 
@@ -228,8 +185,8 @@ TEST_F(FollowMutation, TheTubeHoldsAllThatFollow) {
       expect_refused(parts, "leave the tube");
     }
     TakenApart parts = good;
-    for (std::size_t i = 0; i < parts.arrays.at("path_m").size() / 8; ++i) {
-      parts.put<double>("path_m", i, good.at<double>("path_m", i) + 9.0);
+    for (std::size_t i = 1; i < parts.arrays.at("path_m").size() / 8; i += 2) {
+      parts.put<double>("path_m", i, good.at<double>("path_m", i) + 3.0);
     }
     expect_refused(parts, "leave the tube");
     parts.put<double>("path_m", 0, NAN);
@@ -269,10 +226,66 @@ TEST_F(FollowMutation, LapsTakeNoLessAndNoLonger) {
 
 TEST_F(FollowMutation, StagesLieWhereThePathIs) {
   TakenApart parts(closed_);
-  const std::size_t k = stage_of(parts, core_leaf(parts)) - 1U;
-  const float far = parts.at<float>("stage_station_m", k) + 250.0F;
-  parts.put<float>("stage_station_m", k, far);
+  const std::size_t stages = parts.arrays.at("stage_station_m").size() / 4;
+  std::vector<float> station(stages);
+  for (std::size_t k = 0; k < stages; ++k) station[k] = parts.at<float>("stage_station_m", k);
+  for (std::size_t k = 0; k < stages; ++k) {  // half a lap off
+    parts.put<float>("stage_station_m", k, station[(k + stages / 2) % stages]);
+  }
   expect_refused(parts, "far along the path");
+}
+
+TEST_F(FollowMutation, StagesGoRoundThePathOnce) {
+  const TakenApart good(closed_);
+  const std::size_t stages = good.arrays.at("stage_station_m").size() / 4;
+  const std::size_t k = stages / 2;
+  TakenApart parts = good;  // one back, and on again
+  parts.put<float>("stage_station_m", k, good.at<float>("stage_station_m", k + 1));
+  parts.put<float>("stage_station_m", k + 1, good.at<float>("stage_station_m", k));
+  expect_refused(parts, "do not go round the path once");
+}
+
+TEST_F(FollowMutation, EndsAreAtTheEndOfThePath) {
+  // A path that goes on beyond the cells where flights end.
+  TakenApart parts(open_);
+  const std::size_t last_x = parts.arrays.at("path_m").size() / 8 - 2;
+  parts.put<double>("path_m", last_x, parts.at<double>("path_m", last_x) + 60.0);
+  expect_refused(parts, "is not at the end of the path");
+}
+
+TEST(LapSums, WhoHeadsFartherOffThanClaimedTakesLonger) {
+  // A square of 100 m, by stages along its sides.
+  FollowClaims f;
+  for (int k = 0; k < 4; ++k) {
+    f.heading_rad.push_back(static_cast<float>(0.5 * std::numbers::pi * k));
+    f.off_rad.push_back(0.1F);
+    f.time_s.push_back(0.0F);
+    f.station_m.push_back(100.0F * static_cast<float>(k));
+  }
+  ContractCertificate c;
+  c.contract.least_speed = c.contract.most_speed = 10.0;
+  const auto defect_with = [&](double lap_most_s, bool slow, std::size_t jump) {
+    c.follow = f;
+    c.follow->lap_most_s = lap_most_s;
+    LapSums sums(c);
+    sums.pass(0, jump, {100.0, 0.0});
+    if (jump == 1) sums.pass(1, 1, {100.0, 100.0});
+    sums.pass(1, 1, {100.0, 100.0});
+    sums.pass(2, 1, {0.0, 100.0});
+    sums.pass(3, 1, {0.0, 0.0});
+    if (slow) sums.slow_down(1, 1.2);
+    return sums.defect(c);
+  };
+  const double side_s = 10.0;
+  const double lap_s = 4.0 * side_s / std::cos(0.1);
+  EXPECT_EQ(defect_with(1.001 * lap_s, false, 1), "");
+  EXPECT_NE(defect_with(0.999 * lap_s, false, 1), "");
+  // One side at 1.2 rad off.
+  const double slow_s = lap_s + side_s * (1.0 / std::cos(1.2) - 1.0 / std::cos(0.1));
+  EXPECT_NE(defect_with(0.999 * slow_s, true, 1), "");
+  EXPECT_EQ(defect_with(1.001 * slow_s, true, 1), "");
+  // Some pass from stage 0 to 2 where others come to stage 1: they begin it there.
+  EXPECT_NE(defect_with(0.999 * slow_s, true, 2), "");
 }
 
 TEST_F(FollowMutation, WhoHoldsStaysInItsDisc) {

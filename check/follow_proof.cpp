@@ -140,11 +140,10 @@ LapSums::LapSums(const ContractCertificate& c)
 /// x . (w - w'), where one stage ends and the next begins, and what laps do not begin alike.
 void LapSums::pass(std::size_t k, std::size_t stages, Point at) {
   const std::size_t count = late_s_.size();
-  const std::size_t then = (k + stages) % count;
   end_s_[k] = std::max(end_s_[k], dot(at, slowness_[k]));
-  begin_s_[then] = std::min(begin_s_[then], dot(at, slowness_[then]));
   for (std::size_t i = 0; i < stages; ++i, k = (k + 1) % count) {
     const std::size_t next = (k + 1) % count;
+    begin_s_[next] = std::min(begin_s_[next], dot(at, slowness_[next]));
     late_s_[k] = std::max(late_s_[k], dot(at, slowness_[k] - slowness_[next]));
     way_m_[k] = std::min(way_m_[k], dot(at, along_[k] - along_[next]));
     if (next != 0) continue;
@@ -229,6 +228,34 @@ CoreProof::Beside CoreProof::beside(std::size_t part) const {
   return known[part] = {near.station, farthest, ways};
 }
 
+std::string CoreProof::defect() const {
+  const FollowClaims& f = *c_.follow;
+  if (f.holds) return "";
+  if (!f.closed) {
+    const Point end = f.path.back() - Point{c_.geometry.x0_m, c_.geometry.y0_m};
+    const double cell_m = c_.geometry.cell_m;
+    for (std::size_t i = 0; i < c_.loop.kind.size(); ++i) {
+      const Cell cell = c_.loop.cell_at(i);
+      const Point off = Point{(cell.x + 0.5) * cell_m, (cell.y + 0.5) * cell_m} - end;
+      if (c_.loop.kind[i] == target &&
+          std::hypot(off.x, off.y) > c_.geometry.turn_radius_m + 1.5 * cell_m) {
+        return fmt::format("cell ({}, {}): is not at the end of the path", cell.x, cell.y);
+      }
+    }
+    return "";
+  }
+  // Else a small circle beside the path could be said to go round it.
+  std::size_t wraps = 0;
+  for (std::size_t k = 0; k < f.stages(); ++k) {
+    const double by = static_cast<double>(f.station_m[(k + 1) % f.stages()]) -
+                      static_cast<double>(f.station_m[k]);
+    wraps += by < 0.0 ? 1 : 0;
+    const double on = by < 0.0 ? by + path_.length() : by;
+    if (!(on >= 0.0 && on <= 0.5 * path_.length())) wraps = f.stages();
+  }
+  return wraps == 1 ? "" : "stages: do not go round the path once";
+}
+
 bool CoreProof::is_in_tube(std::size_t part, double least, double most) const {
   const FollowClaims& f = *c_.follow;
   const Beside b = beside(part);
@@ -253,7 +280,6 @@ std::string CoreProof::defect_of_leaf(Behaviours& behaviours, std::size_t sectio
                                       Share& share, LapSums& sums) const {
   const FollowClaims& f = *c_.follow;
   const std::size_t stage = f.stage[leaf] - std::size_t{1};
-  if (c_.verdict[leaf] != reach) return "it is of the core, but is not claimed to follow";
   if (!is_near_stage(section / 4, stage)) return "its stage begins far along the path";
   if (!f.holds && f.bends(stage) && c_.group_time_s[c_.group[leaf]] > f.time_s[stage]) {
     return fmt::format("its group takes longer than its stage {}", stage);

@@ -42,9 +42,9 @@ class LapSums {
   std::vector<Point> along_;         ///< [stages], of length 1
   std::vector<double> late_s_;       ///< [stages], at most
   std::vector<double> way_m_;        ///< [stages], at least
-  std::vector<double> begin_s_;      ///< [stages], of the places where they begin, along slowness_
-  std::vector<double> end_s_;        ///< [stages], and where they end
-  std::vector<double> off_rad_;      ///< [stages]
+  std::vector<double> begin_s_;      ///< [stages], of places where they begin, at least
+  std::vector<double> end_s_;        ///< [stages], of places where they end, at most
+  std::vector<double> off_rad_;      ///< [stages], from their directions, at most
   double start_least_s_ = HUGE_VAL;  ///< of where laps begin
   double start_most_s_ = -HUGE_VAL;
   double start_least_m_ = HUGE_VAL;
@@ -55,6 +55,9 @@ class CoreProof {
  public:
   /// Of a certificate that claims to follow, which must outlive this.
   explicit CoreProof(const ContractCertificate& c);
+
+  /// "" when stages go round the path, or all ends are at the end of an open one; else why not.
+  std::string defect() const;
 
   /// "" when the rule for one leaf of the core holds, else why not.
   std::string defect_of_leaf(Behaviours& behaviours, std::size_t section, std::size_t leaf,
