@@ -152,6 +152,7 @@ class Follow(unittest.TestCase):
         self.assertGreater(summary["volume_fraction_free"]["follow"], 0.9)
         self.assertGreater(summary["volume_fraction_usable"]["follow"], 0.5)
         self.assertIn("are proved to join the path and to follow it for ever", words)
+        self.assertEqual(self.expect(0, "info", "p.cc").stdout.count("% follow"), 2)  # of all, of safe starts
         told = json.loads(self.expect(0, "--json", "info", "p.cc").stdout)
         self.assertEqual(told["follow"]["lap_time_s"], follow["lap_time_s"])
         row = self.expect(0, "query", "p.cc", "--state", "200,62,0").stdout.splitlines()[1].split(",")
@@ -164,7 +165,7 @@ class Follow(unittest.TestCase):
         self.assertGreater(most_s, 880 / 10.0)
         summary, words = verified("--set", "map.cell_m=8", "--set", "mission.closed=false")
         self.assertGreater(summary["volume_fraction_usable"]["follow"], 0.5)
-        self.assertIn("comes to its end within", words)
+        self.assertIn("it takes at most", words)
         self.assertEqual(summary["follow"]["lap_time_s"][0], 0.0)
 
     def test_the_pictures_of_a_run_show_the_tube_that_is_proved(self):
@@ -186,6 +187,16 @@ class Follow(unittest.TestCase):
         self.assertLess(most_m, tube_m + 1.5 * cut_m + 1.5)
         for text in pictures["touch"]:
             self.assertNotIn("proved", text)
+
+    def test_touching_is_enough_by_name(self):
+        self.expect(0, "plan", self.scenario(alpha=2.0), "-o", "p.safetensors", "--set", "map.cell_m=8",
+                    "--set", 'mission.accept="touch"')
+        done = self.expect(0, "verify", "p.safetensors", "-o", "p.cert", "--volume-samples", 1000)
+        self.assertIn("are proved to reach the path", done.stdout)
+        summary = json.loads((self.folder / "p.summary.json").read_text())
+        self.assertEqual(summary["method"], "certified")
+        self.assertNotIn("follow", summary)
+        self.assertGreater(summary["volume_fraction"]["reach"], 0.5)
 
     def test_who_holds_at_a_goal_is_proved_to_stay_in_its_disc(self):
         text = (self.folder / self.scenario()).read_text()

@@ -52,6 +52,18 @@ double rounded_down(double value, int digits) {
   return rounded;
 }
 
+double rounded_up(double value, int digits) {
+  const int unit = static_cast<int>(std::floor(std::log10(value))) - digits + 1;
+  double rounded = 0.0;
+  // Once more when log10 or the quotient came out a trifle too low.
+  for (auto units = std::ceil(value / std::pow(10.0, unit) - 1e-9); rounded < value; units += 1.0) {
+    const std::string text =
+        std::to_string(static_cast<long long>(units)) + "e" + std::to_string(unit);
+    rounded = std::strtod(text.c_str(), nullptr);
+  }
+  return rounded;
+}
+
 std::string whole_percent_text(double share) {
   if (share > 0.0 && share < 0.01) return "under 1 %";
   return std::to_string(static_cast<int>(std::floor(100.0 * share + 1e-9))) + " %";

@@ -19,6 +19,9 @@ namespace fairway {
 /// once it is printed: "{:.4g}" shows one of 4 digits whole.
 [[nodiscard]] double rounded_down(double value, int digits);
 
+/// The same for a bound from above: at least `value`.
+[[nodiscard]] double rounded_up(double value, int digits);
+
 /// A share from 0 to 1 as "97 %", rounded down, and not to nothing: "under 1 %".
 [[nodiscard]] std::string whole_percent_text(double share);
 

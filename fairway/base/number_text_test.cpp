@@ -78,6 +78,21 @@ TEST(NumberText, RoundedDownIsAtMostTheValueAndOneUnitOfItsDigitsBelow) {
   }
 }
 
+TEST(NumberText, RoundedUpIsAtLeastTheValueAndOneUnitOfItsDigitsAbove) {
+  EXPECT_EQ(rounded_up(1.59901, 4), 1.6);
+  EXPECT_EQ(rounded_up(452.06, 3), 453.0);
+  EXPECT_EQ(rounded_up(2.0, 3), 2.0);
+  EXPECT_EQ(rounded_up(std::nextafter(2.0, 3.0), 4), 2.001);
+  EXPECT_EQ(rounded_up(9999.5, 3), 10000.0);
+  Random random(3);
+  for (int i = 0; i < 10'000; ++i) {
+    const double x = random.unit() * std::pow(10.0, random.uniform(-8.0, 8.0));
+    if (x == 0.0) continue;
+    EXPECT_GE(rounded_up(x, 4), x);
+    EXPECT_LT(rounded_up(x, 4), x * (1.0 + 1.001e-3));
+  }
+}
+
 TEST(NumberText, WholePercentsAreRoundedDownButNotToNothing) {
   EXPECT_EQ(whole_percent_text(0.0), "0 %");
   EXPECT_EQ(whole_percent_text(0.004), "under 1 %");

@@ -241,30 +241,19 @@ bool FollowProver::join(const std::function<void(const InclusionLevel&)>& progre
   return joining_->run(progress);
 }
 
-ContractVerdicts FollowProver::verdicts(double speed_least_mps) const {
-  ContractVerdicts made = joining_->verdicts(speed_least_mps);
+FollowProver::Proved FollowProver::proved(double speed_least_mps) const {
+  Proved made{joining_->verdicts(speed_least_mps), {}};
+  made.proof.path.closed = tube_.closed();
+  made.proof.stages = stages_;
+  made.proof.tube = stretches_;
+  made.proof.leaf_stage.assign(made.verdicts.leaves(), 0);
   // Leaves of the core are as they were, and in the same order.
   std::size_t id = 0;
-  for (std::uint32_t& group : made.group) {
-    if (group != core_group) continue;
+  for (std::size_t k = 0; k < made.verdicts.leaves(); ++k) {
+    if (made.verdicts.group[k] != core_group) continue;
     while (!core_.in[id]) ++id;
-    group = core_.group[id++];
-  }
-  return made;
-}
-
-FollowProof FollowProver::proof() const {
-  FollowProof made;
-  made.path.closed = tube_.closed();
-  made.stages = stages_;
-  made.tube = stretches_;
-  const ContractVerdicts verdicts = joining_->verdicts(1.0);
-  made.leaf_stage.assign(verdicts.leaves(), 0);
-  std::size_t id = 0;
-  for (std::size_t k = 0; k < verdicts.leaves(); ++k) {
-    if (verdicts.group[k] != core_group) continue;
-    while (!core_.in[id]) ++id;
-    made.leaf_stage[k] = core_.stage[id++];
+    made.verdicts.group[k] = core_.group[id];
+    made.proof.leaf_stage[k] = core_.stage[id++];
   }
   return made;
 }

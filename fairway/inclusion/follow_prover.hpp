@@ -55,9 +55,11 @@ class FollowProver {
   /// Of states that have not joined yet: nothing is claimed of those that come to the end of an
   /// open path without it.
   const Parts& joining_parts() const { return *joining_parts_; }
-  [[nodiscard]] ContractVerdicts verdicts(double speed_least_mps) const;
-  /// About these verdicts; its path is not filled in.
-  [[nodiscard]] FollowProof proof() const;
+  struct Proved {
+    ContractVerdicts verdicts;
+    FollowProof proof;  ///< without its path
+  };
+  [[nodiscard]] Proved proved(double speed_least_mps) const;
 
  private:
   using Id = CrossingGraph::Id;

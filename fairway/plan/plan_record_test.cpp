@@ -82,6 +82,9 @@ TEST(PlanRecord, NamesWhatIsDamaged) {
   expect(R"({"mission":{"kind":"goal","goal_m":[1,2],"goal_heading_rad":"east"}})",
          "goal_heading_rad");
   expect(R"({"mission":{"kind":"path","vertices_m":[[1,2],[3,4]],"closed":1}})", "mission.closed");
+  expect(
+      R"({"mission":{"kind":"path","vertices_m":[[1,2],[3,4]],"closed":true,"delta_position_m":1,"delta_heading_rad":1,"accept":"follow"}})",
+      "mission.accept");
   expect(R"({"frame":3})", "p: fairway.frame");
   expect(R"({"frame":{"georeference":{"latitude_deg":1}}})", "longitude_deg");
   expect(R"({"frame":{"projected_crs":7}})", "projected_crs");

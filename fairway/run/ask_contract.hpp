@@ -27,7 +27,9 @@ struct ContractReply {
   std::optional<BehaviourFlight> witness;  ///< of an undecided state that is at risk
 
   /// The verdict's name, "follow" or "at_risk".
-  const char* word() const { return witness ? "at_risk" : follows ? "follow" : name_of(verdict); }
+  const char* word() const {
+    return witness ? "at_risk" : name_of(follows ? Verdict::follow : verdict);
+  }
 };
 
 /// What questions about one certificate have in common, made once; what searches for witnesses

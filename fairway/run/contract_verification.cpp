@@ -47,7 +47,7 @@ json evidence_of(const ContractVerifyOptions& options, const ContractVerificatio
   const auto shares = [&](const std::array<double, verdict_count>& of) {
     json by_name = shares_json(of);
     if (!made.following || made.certificate.follow->hold) return by_name;
-    by_name["follow"] = by_name[name_of(Verdict::reach)];
+    by_name[name_of(Verdict::follow)] = by_name[name_of(Verdict::reach)];
     by_name.erase(name_of(Verdict::reach));
     return by_name;
   };

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "fairway/base/number_text.hpp"
 #include "fairway/field/flyable_path.hpp"
 #include "fairway/field/holding_circle.hpp"
 #include "fairway/verify/region_of_interest.hpp"
@@ -143,8 +144,9 @@ void PathFollower::fill(ContractCertificate& c) const {
   for (std::size_t i = 0; i < kind_.size(); ++i) {
     if (kind_[i] == CellKind::target) c.region_of_interest.cells[i] = 1;
   }
-  c.verdicts = prover_.verdicts(speed_mps_.least);
-  c.follow = prover_.proof();
+  auto [verdicts, proof] = prover_.proved(speed_mps_.least);
+  c.verdicts = std::move(verdicts);
+  c.follow = std::move(proof);
   c.follow->path = path_.path();
   if (!goal_m_) return;
   constexpr double rounding = 1.0 + 1e-9;
@@ -170,20 +172,25 @@ nlohmann::json following_json(const Following& f, const FollowProof& proof) {
   return found;
 }
 
+std::string lap_words(const FollowProof& proof) {
+  const double most_s = rounded_up(proof.stages.lap_most_s, 3);
+  if (!proof.path.closed) return fmt::format("it takes at most {:g} s to its end", most_s);
+  const double least_s = proof.stages.lap_least_s;
+  return fmt::format("a lap takes {:g} to {:g} s", least_s > 0.0 ? rounded_down(least_s, 3) : 0.0,
+                     most_s);
+}
+
 std::vector<Finding> findings(const Following& f, const FollowProof& proof) {
   if (proof.hold) {
     return {{"", "",
-             fmt::format("who reaches the goal is within {:.3g} m of it for ever",
-                         proof.hold->radius_m)}};
+             fmt::format("who reaches the goal is within {:g} m of it for ever",
+                         rounded_up(proof.hold->radius_m, 3))}};
   }
-  const bool closed = proof.path.closed;
-  const std::string on =
-      closed ? fmt::format("goes round in {:.3g} to {:.3g} s", f.lap_least_s, f.lap_most_s)
-             : fmt::format("comes to its end within {:.3g} s", f.lap_most_s);
-  return {{"", "",
-           fmt::format("who follows is within {:.3g} m of the path, heads within {:.0f} degrees of "
-                       "it, and {}",
-                       f.tube_m, f.off_rad * 180.0 / pi, on)}};
+  return {
+      {"", "",
+       fmt::format("who follows is within {:g} m of the path and heads within {:.0f} degrees "
+                   "of it; {}",
+                   rounded_up(f.tube_m, 3), std::ceil(f.off_rad * 180.0 / pi), lap_words(proof))}};
 }
 
 }  // namespace fairway

@@ -16,6 +16,7 @@
 #include "fairway/run/contract_file.hpp"
 #include "fairway/run/findings.hpp"
 #include "fairway/run/map_survey.hpp"
+#include "fairway/run/path_follower.hpp"
 #include "fairway/run/summary.hpp"
 #include "fairway/vehicle/contract_json.hpp"
 #include "fairway/verify/region_of_interest_json.hpp"
@@ -68,21 +69,18 @@ class Description {
   void follow(const FollowProof& proof) {
     float tube_m = 0.0F;
     for (const TubeStretch& s : proof.tube) tube_m = std::max(tube_m, s.distance_m);
-    const double least_s = proof.stages.lap_least_s;
-    const double most_s = proof.stages.lap_most_s;
     if (proof.hold) {
-      line("to hold at", fmt::format("({:g}, {:g}), within {:.3g} m for ever", proof.hold->goal_m.x,
-                                     proof.hold->goal_m.y, proof.hold->radius_m));
+      line("to hold at", fmt::format("({:g}, {:g}), within {:g} m for ever", proof.hold->goal_m.x,
+                                     proof.hold->goal_m.y, rounded_up(proof.hold->radius_m, 3)));
       info_.report["hold_radius_m"] = proof.hold->radius_m;
       return;
     }
     line("to be followed",
-         fmt::format(
-             "a{} path, within {:.3g} m; {}", proof.path.closed ? " closed" : "n open", tube_m,
-             proof.path.closed ? fmt::format("a lap takes {:.3g} to {:.3g} s", least_s, most_s)
-                               : fmt::format("to its end in {:.3g} s", most_s)));
-    info_.report["follow"] = {
-        {"closed", proof.path.closed}, {"tube_m", tube_m}, {"lap_time_s", {least_s, most_s}}};
+         fmt::format("a{} path, within {:g} m; {}", proof.path.closed ? " closed" : "n open",
+                     rounded_up(static_cast<double>(tube_m), 3), lap_words(proof)));
+    info_.report["follow"] = {{"closed", proof.path.closed},
+                              {"tube_m", tube_m},
+                              {"lap_time_s", {proof.stages.lap_least_s, proof.stages.lap_most_s}}};
   }
   /// What the file's own record says, which anybody may have written.
   void evidence(const json& record) {
@@ -130,7 +128,6 @@ class Description {
       if (open) add("at risk", risk);
       add(name_of(verdict), number_in(*shares, name_of(verdict)) - (open ? risk : 0.0));
     }
-    add("follow", number_in(*shares, "follow"));
     if (!words.empty()) line(title, words);
     return !words.empty();
   }
