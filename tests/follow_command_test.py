@@ -192,7 +192,7 @@ class Follow(unittest.TestCase):
         self.expect(0, "plan", self.scenario(alpha=2.0), "-o", "p.safetensors", "--set", "map.cell_m=8",
                     "--set", 'mission.accept="touch"')
         done = self.expect(0, "verify", "p.safetensors", "-o", "p.cert", "--volume-samples", 1000)
-        self.assertIn("are proved to reach the path", done.stdout)
+        self.assertIn("are proved to touch the path", done.stdout)
         summary = json.loads((self.folder / "p.summary.json").read_text())
         self.assertEqual(summary["method"], "certified")
         self.assertNotIn("follow", summary)

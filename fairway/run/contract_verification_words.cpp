@@ -55,7 +55,7 @@ std::vector<Finding> findings(const Plan& plan, const ContractVerification& made
   const bool holds = made.following && made.certificate.follow->hold;
   const std::string proved = holds            ? "are proved to reach the goal and to stay there"
                              : made.following ? "are proved to join the path and to follow it"
-                                              : "are proved to reach the " + goal;
+                                              : proved_to_reach(goal);
   const bool exact = is_exact(made.certificate);
   const std::string ever =
       made.following && made.certificate.follow->path.closed ? " for ever" : "";

@@ -28,7 +28,7 @@ double share_of(const std::array<double, verdict_count>& volume, Verdict verdict
 std::string done_by_states(Verdict verdict, const std::string& goal) {
   switch (verdict) {
     case Verdict::reach:
-      return "are proved to reach the " + goal;
+      return proved_to_reach(goal);
     case Verdict::follow:
       return "are proved to follow the " + goal;
     case Verdict::hold:
@@ -75,6 +75,10 @@ bool is_mostly_cut_off(const RegionCells& cells) {
 }
 
 }  // namespace
+
+std::string proved_to_reach(const std::string& goal) {
+  return (goal == "path" ? "are proved to touch the " : "are proved to reach the ") + goal;
+}
 
 std::vector<Finding> plan_findings(const Plan& plan) {
   const RegionCells cells = count_regions(plan);

@@ -27,6 +27,9 @@ struct Finding {
   std::string what;
 };
 
+/// "are proved to reach the goal": of a path, to reach is only to touch it.
+[[nodiscard]] std::string proved_to_reach(const std::string& goal);
+
 /// Of the plan alone: how many free cells are cut off.
 [[nodiscard]] std::vector<Finding> plan_findings(const Plan& plan);
 

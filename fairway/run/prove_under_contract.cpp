@@ -106,7 +106,7 @@ std::vector<Finding> findings(const Plan& plan, const ProvedUnderContract& prove
       (made.following && made.certificate.follow->hold
            ? "are proved to reach the goal and to stay there for ever"
        : made.following ? "are proved to join the path and to follow it"
-                        : "are proved to reach the " + goal_of(plan, proved)) +
+                        : proved_to_reach(goal_of(plan, proved))) +
           within);
   double failing = 0.0;
   for (const Verdict verdict : verdicts_in_order) {
