@@ -189,7 +189,7 @@ class Follow(unittest.TestCase):
             self.assertNotIn("proved", text)
 
     def test_touching_is_enough_by_name(self):
-        self.expect(0, "plan", self.scenario(alpha=2.0), "-o", "p.safetensors", "--set", "map.cell_m=8",
+        self.expect(0, "plan", self.scenario(), "-o", "p.safetensors",
                     "--set", 'mission.accept="touch"')
         done = self.expect(0, "verify", "p.safetensors", "-o", "p.cert", "--volume-samples", 1000)
         self.assertIn("are proved to touch the path", done.stdout)
