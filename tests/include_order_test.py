@@ -8,10 +8,10 @@ import re
 import sys
 
 STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "verify", "behaviour", "inclusion", "certificate", "cellular",
-          "bitmap", "steer", "identify", "exchange", "report", "run", "view", "app"]
+          "bitmap", "steer", "identify", "ceiling", "improve", "exchange", "report", "run", "compare", "tune", "view", "app"]
 TOOLBOXES = {"base", "vehicle"}
 ON_TOOLBOXES_ALONE = {"cellular", "steer", "identify"}
-JOINERS = {"run", "view", "app"}
+JOINERS = {"run", "compare", "tune", "view", "app"}
 NOUNS = {
     "map": {"obstacle_map.hpp", "region.hpp", "gdal_session.hpp"},
     "field": {"field.hpp"},
@@ -24,6 +24,7 @@ NOUNS = {
     "certificate": {"certificate.hpp", "contract_certificate.hpp"},
     "cellular": {"border_heading_set.hpp", "cell_sets.hpp"},
     "bitmap": {"border_bitmap.hpp", "bitmap.hpp", "sampled.hpp", "reachability_map.hpp"},
+    "ceiling": {"ceiling.hpp"},
     "report": {"picture.hpp"},
 }
 # Libraries that must stay out of the core, and the folders that may name them.
