@@ -8,7 +8,8 @@ import re
 import sys
 
 STAGES = ["base", "vehicle", "map", "field", "plan", "simulate", "verify", "behaviour", "inclusion", "certificate", "cellular",
-          "bitmap", "steer", "identify", "ceiling", "improve", "exchange", "report", "run", "compare", "tune", "view", "app"]
+          "bitmap", "steer", "identify", "ceiling", "improve", "exchange", "report", "run", "compare", "tune",
+          "view", "app"]
 TOOLBOXES = {"base", "vehicle"}
 ON_TOOLBOXES_ALONE = {"cellular", "steer", "identify"}
 JOINERS = {"run", "compare", "tune", "view", "app"}
@@ -24,7 +25,6 @@ NOUNS = {
     "certificate": {"certificate.hpp", "contract_certificate.hpp"},
     "cellular": {"border_heading_set.hpp", "cell_sets.hpp"},
     "bitmap": {"border_bitmap.hpp", "bitmap.hpp", "sampled.hpp", "reachability_map.hpp"},
-    "ceiling": {"ceiling.hpp"},
     "report": {"picture.hpp"},
 }
 # Libraries that must stay out of the core, and the folders that may name them.
