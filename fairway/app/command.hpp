@@ -24,6 +24,7 @@ struct Command {
 Action declare_run(CLI::App& options);
 Action declare_plan(CLI::App& options);
 Action declare_simulate(CLI::App& options);
+Action declare_improve(CLI::App& options);
 Action declare_verify(CLI::App& options);
 Action declare_query(CLI::App& options);
 Action declare_check(CLI::App& options);

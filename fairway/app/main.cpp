@@ -38,6 +38,8 @@ constexpr Command commands[] = {
     {"plan", "compute only the feedback plan", declare_plan, true},
     {"simulate", "fly a plan: exactly, or with a sampled control law in noise and wind",
      declare_simulate, true},
+    {"improve", "change a plan's commands where proofs confirm that it helps", declare_improve,
+     true},
     {"verify", "prove which states reach the goal, and write a certificate", declare_verify, true},
     {"query", "look up states in a certificate or a bitmap", declare_query, false},
     {"check", "re-prove a certificate with an independent program", declare_check, false},

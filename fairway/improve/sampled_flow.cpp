@@ -49,6 +49,7 @@ SampledFlow::SampledFlow(const Flow& flow, const SampledFlowOptions& options)
       per_side_(static_cast<std::uint32_t>(options.nodes_per_side)),
       per_cell_(static_cast<std::uint32_t>(options.starts_per_cell)),
       most_crossings_(options.most_crossings),
+      reaches_aligned_(options.reaches_aligned),
       heading_rad_(flow.heading_rad, flow.heading_rad + flow.grid.size()) {
   require(options.nodes_per_side > 0 && options.starts_per_cell > 0 && options.most_crossings > 0,
           "samples are positive numbers");
@@ -149,8 +150,10 @@ SampledFlow::Id SampledFlow::fly(Id flight, const std::vector<Direction>& comman
     state = state_of_start(flight);
   }
   for (int crossings = 0;; ++crossings) {
-    if (kind_[place] == CellKind::target) return reaches;
-    if (kind_[place] != CellKind::ordinary || crossings == most_crossings_) return fails;
+    const bool is_target = kind_[place] == CellKind::target;
+    if (is_target && !reaches_aligned_) return reaches;
+    if ((kind_[place] != CellKind::ordinary && !is_target) || crossings == most_crossings_)
+      return fails;
     if (met != nullptr) met->push_back(static_cast<std::uint32_t>(place));
     const Direction& command = commands[place];
     const CellExit exit = cross_cell(state, command, shape_);
@@ -158,6 +161,7 @@ SampledFlow::Id SampledFlow::fly(Id flight, const std::vector<Direction>& comman
     const std::size_t next = place + steps[side];
     const bool commanded = command.unit != Vec2{};
     const bool aligned = commanded && (exit.path == CellPath::arc_then_straight || exit.turn == 0);
+    if (aligned && is_target) return reaches;
     const Vec2 p = exit.state.position_m;
     if (aligned && kind_[next] == CellKind::ordinary) {
       const double along = (is_upright(exit.side) ? p.y : p.x) / d * per_side_;

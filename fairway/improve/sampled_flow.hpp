@@ -31,6 +31,9 @@ struct SampledFlowOptions {
   int nodes_per_side = 32;   ///< at least 1
   int starts_per_cell = 96;  ///< at least 1
   int most_crossings = 500;  ///< of a flight; after as many it circles, which is to fail
+  /// Not whoever enters a target cell reaches, but whoever leaves one aligned with its command: of
+  /// the cells of a path, whoever flies along it.
+  bool reaches_aligned = false;
 };
 
 /// By how much the figures of a model change.
@@ -136,6 +139,7 @@ class SampledFlow {
   std::uint32_t per_side_ = 0;
   std::uint32_t per_cell_ = 0;
   int most_crossings_ = 0;
+  bool reaches_aligned_ = false;
   Id nodes_ = 0;
   std::int64_t starts_ = 0;
   std::int64_t reached_ = 0;

@@ -40,6 +40,34 @@ HoldingPlace holding_place_of(const json& value, const std::string& where) {
           side == "left" ? Rotation::left : Rotation::right};
 }
 
+json json_of(const ImprovedRecord& improved) {
+  json value = {{"from_sha256", improved.from_sha256},
+                {"cells_changed", improved.cells_changed},
+                {"exact", improved.exact}};
+  if (improved.under_contract) value["under_contract"] = *improved.under_contract;
+  return value;
+}
+
+ImprovedRecord improved_of(const json& value, const std::string& where) {
+  if (!value.is_object()) throw InputError(where, "expected an object, found " + shown(value));
+  const auto shares_of = [&](const char* key) {
+    const json& shares = member(value, key, where);
+    if (!shares.is_array() || shares.size() != 2 || !shares[0].is_number() ||
+        !shares[1].is_number()) {
+      throw InputError(where + "." + key, "expected [before, after], found " + shown(shares));
+    }
+    return std::array{shares[0].get<double>(), shares[1].get<double>()};
+  };
+  const json& cells = member(value, "cells_changed", where);
+  if (!cells.is_number_unsigned()) {
+    throw InputError(where + ".cells_changed", "expected a number of cells, found " + shown(cells));
+  }
+  ImprovedRecord improved{text_member(value, "from_sha256", where), cells.get<std::size_t>(),
+                          shares_of("exact")};
+  if (value.contains("under_contract")) improved.under_contract = shares_of("under_contract");
+  return improved;
+}
+
 std::vector<InputFile> inputs_of(const json& value, const std::string& where) {
   if (!value.is_array()) throw InputError(where, "expected a list of files, found " + shown(value));
   std::vector<InputFile> inputs;
@@ -53,8 +81,8 @@ std::vector<InputFile> inputs_of(const json& value, const std::string& where) {
 
 json json_of(const PlanRecord& record) {
   json value = object_of(record.more_json, "more_json is a JSON object");
-  for (const char* key :
-       {"program", "mission", "options", "inputs", "frame", "contract", "holding_places"}) {
+  for (const char* key : {"program", "mission", "options", "inputs", "frame", "contract",
+                          "holding_places", "improved"}) {
     require(!value.contains(key), "more_json leaves out what the record holds");
   }
   if (record.program) value["program"] = *record.program;
@@ -73,6 +101,7 @@ json json_of(const PlanRecord& record) {
   for (const HoldingPlace& place : record.holding_places) {
     value["holding_places"].push_back(json_of(place));
   }
+  if (record.improved) value["improved"] = json_of(*record.improved);
   return value;
 }
 
@@ -106,6 +135,9 @@ PlanRecord plan_record_of(json value, const std::string& where) {
   take("holding_places", [&](const json& found, const std::string& place) {
     if (!found.is_array()) throw InputError(place, "expected a list, found " + shown(found));
     for (const json& one : found) record.holding_places.push_back(holding_place_of(one, place));
+  });
+  take("improved", [&](const json& found, const std::string& place) {
+    record.improved = improved_of(found, place);
   });
   if (!value.empty()) record.more_json = value.dump();
   return record;

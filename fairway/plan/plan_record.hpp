@@ -5,6 +5,8 @@
 // written as it was read.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +19,16 @@
 
 namespace fairway {
 
+/// That commands were changed where verdicts confirmed that it helps. Shares are of all states,
+/// proved to do what the mission asks, before and after.
+struct ImprovedRecord {
+  std::string from_sha256;  ///< of the commands before, as in the digests of that plan
+  std::size_t cells_changed = 0;
+  std::array<double, 2> exact{};
+  std::optional<std::array<double, 2>> under_contract = std::nullopt;
+  friend bool operator==(const ImprovedRecord&, const ImprovedRecord&) = default;
+};
+
 struct PlanRecord {
   std::optional<std::string> program;  ///< name and version
   std::optional<Mission> mission;
@@ -26,6 +38,7 @@ struct PlanRecord {
   std::string more_json;     ///< members of other programs, one JSON object; empty: none
   std::optional<VehicleContract> contract = std::nullopt;  ///< none: the vehicle is exact
   std::vector<HoldingPlace> holding_places = {};           ///< in cells out of the mission's reach
+  std::optional<ImprovedRecord> improved = std::nullopt;   ///< none: commands are the field's
 };
 
 /// The record as one JSON object with sorted keys, as in the plan's file.

@@ -70,6 +70,9 @@ std::vector<std::string> plan_warnings(const Scenario& scenario, const ObstacleM
     const std::string passage = passage_words(cut_off_in(scenario, map, plan), map.frame);
     warnings.push_back(*cut_off_warning(plan, passage));
   }
+  if (scenario.improve && !plan.record.improved) {
+    warnings.push_back("plan.improve: no better commands were found; the plan is as it was.");
+  }
   if (plan.record.contract) {
     if (auto warning = contract_warning(plan, *plan.record.contract)) {
       warnings.push_back(std::move(*warning));

@@ -66,6 +66,7 @@ std::variant<Plan, MissionRefusal> replan(const Plan& plan, const Mission& missi
   if (auto* refusal = std::get_if<MissionRefusal>(&answer)) return std::move(*refusal);
   PlanRecord record = plan.record;
   record.mission = mission;
+  record.improved = {};
   return plan_of_field(std::move(std::get<Field>(answer)), plan.vehicle, std::move(record));
 }
 

@@ -21,6 +21,7 @@
 #include "fairway/run/findings.hpp"
 #include "fairway/run/flight_engine.hpp"
 #include "fairway/run/flight_summary.hpp"
+#include "fairway/run/improvement.hpp"
 #include "fairway/run/mission_on_map.hpp"
 #include "fairway/run/only_connected.hpp"
 #include "fairway/run/plan_record.hpp"
@@ -74,6 +75,7 @@ std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& scenario, St
   }
   Plan plan = plan_of_field(std::move(std::get<Field>(answer)), scenario.vehicle,
                             plan_record(scenario, map, mission));
+  if (scenario.improve) plan = improved(plan, scenario.file.string(), {}, clock).plan;
   return Planned{std::move(map), std::move(mission), std::move(plan)};
 }
 

@@ -82,6 +82,7 @@ struct Scenario {
   std::optional<VehicleContract> contract;  ///< [vehicle.contract], complete
   MissionRequest mission;
   FieldOptions plan;
+  bool improve = false;  ///< plan.improve: change commands where verdicts confirm that it helps
   SimulateRequest simulate;
   VerifyRequest verify;
   std::map<std::string, int, std::less<>> lines;  ///< line of every key that was given; 0: below

@@ -176,6 +176,9 @@ std::vector<ScenarioKey> plan_keys() {
           "plan.axis_capture_rad", Range{0.0, 0.1}, FAIRWAY_MEMBER(plan.axis_capture_rad),
           "commands this close to a grid axis are snapped to it, so that vehicles do not weave "
           "along a border in tiny hops between opposing commands; not used with metric \"paper\""),
+      key("plan.improve", "true or false", any_finite, FAIRWAY_MEMBER(improve),
+          "change commands cell by cell where verdicts confirm that more states then arrive; takes "
+          "much longer than the plan itself"),
   };
 }
 
@@ -255,6 +258,7 @@ json effective_values(const Scenario& scenario, std::string_view table) {
   if (table == "plan" && scenario.mission.kind == MissionKind::goal) values.erase("path_field");
   // Records name only what they named before there was a choice, and what was chosen.
   if (table == "plan" && scenario.plan.fallback == FallbackRule::hold) values.erase("fallback");
+  if (table == "plan" && !scenario.improve) values.erase("improve");
   if (table == "mission" && !scenario.mission.hold) {
     values.erase("hold");
     values.erase("hold_radius_m");

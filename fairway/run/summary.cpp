@@ -116,6 +116,9 @@ json plan_summary(const Scenario& scenario, const Plan& plan) {
       {"inputs", json::parse(json_text(plan.record)).value("inputs", json::array())},
       {"options", options},
   };
+  if (plan.record.improved) {
+    summary["improved"] = json::parse(json_text(plan.record))["improved"];
+  }
   return summary;
 }
 
@@ -129,6 +132,14 @@ std::string grid_words(const Plan& plan) {
                   plural(regions.goal, "goal cell"));
   if (plan.record.contract) {
     words += fmt::format(" Its vehicle {}.", contract_words(*plan.record.contract));
+  }
+  if (const auto& improved = plan.record.improved) {
+    words += fmt::format(
+        " The commands of {} were improved: from {} of all states the exact vehicle was then "
+        "proved "
+        "to do what the mission asks, from {} before.",
+        plural(improved->cells_changed, "cell"), percent_text(improved->exact[1]),
+        percent_text(improved->exact[0]));
   }
   return words;
 }
