@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 struct CompareArguments {
   std::vector<fs::path> plans;
   fs::path folder;
-  ReadComparedOptions read;
+  ProveComparedOptions prove;
   CompareOptions compare;
   bool quick = false;
 
@@ -39,7 +39,7 @@ struct CompareArguments {
     const CompareOptions usual;
     if (compare.states != usual.states) words += fmt::format(" --states {}", compare.states);
     if (compare.seed != usual.seed) words += fmt::format(" --seed {}", compare.seed);
-    if (!quick) words += fmt::format(" --time-limit {:g}", read.time_limit_s);
+    if (!quick) words += fmt::format(" --time-limit {:g}", prove.time_limit_s);
     return words + " -o " + folder.string();
   }
 };
@@ -63,8 +63,7 @@ int compare_command(CompareArguments a, const Session& session) {
     require_own_folder(a);
     folder.emplace(a.folder, session.existing(), comparison_file, comparison_files(a.plans.size()));
   }
-  a.read.prove = !a.quick;
-  a.read.seed = a.compare.seed;
+  a.prove.seed = a.compare.seed;
   if (a.quick) {
     a.compare.map_across = 64;
     a.compare.map_headings = 12;
@@ -73,12 +72,12 @@ int compare_command(CompareArguments a, const Session& session) {
   const Progress progress = terminal->progress();
   StageClock clock(progress);
   std::vector<ComparedPlan> plans;
-  for (const fs::path& from : a.plans) {
-    plans.push_back(read_compared_plan(from, a.read, clock));
-    // What does not fit is told before anything more is proved.
-    if (plans.size() > 1) (void)require_alike(plans);
-  }
+  for (const fs::path& from : a.plans) plans.push_back(read_compared_plan(from, clock));
   name_apart(plans);
+  (void)require_alike(plans);  // told before anything is proved
+  for (ComparedPlan& plan : plans) {
+    if (!a.quick) prove_compared_plan(a.prove, clock, plan);
+  }
   const Comparison comparison = compare_plans(plans, a.compare, clock);
   if (folder) {
     clock.begin("writing", unknown_time);
@@ -119,7 +118,7 @@ Action declare_compare(CLI::App& options) {
                   "folder for table, maps, states and the page (default: none is written)")
       ->type_name("DIR");
   options
-      .add_option("--time-limit", a.read.time_limit_s,
+      .add_option("--time-limit", a.prove.time_limit_s,
                   "for each proof that is not there yet, seconds")
       ->check(finite_above(0.0))
       ->type_name("S")

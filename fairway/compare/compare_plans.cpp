@@ -21,6 +21,20 @@ StatesUnderPlan measured(const ComparedPlan& plan, const CommonGround& ground, S
   return states_under(plan, ground, line_around_obstacles(plan.plan));
 }
 
+/// Where others are proved to follow the path, who is only proved to touch it does not do the same.
+void forget_touches(std::span<const ComparedPlan> plans, Comparison& c) {
+  const auto follows = [](const ComparedPlan& p) { return p.contract->follow.has_value(); };
+  if (std::none_of(plans.begin(), plans.end(), follows)) return;
+  for (std::size_t k = 0; k < plans.size(); ++k) {
+    if (follows(plans[k])) continue;
+    for (Verdict& verdict : c.verdicts[1][k]) {
+      if (verdict == Verdict::reach) verdict = Verdict::undecided;
+    }
+    c.warnings.push_back(
+        plans[k].name + ": under the contract nobody is proved to follow, only to touch the path.");
+  }
+}
+
 /// Of states with two verdicts, how many are proved by one plan alone, by both, by none.
 PairDifference difference_of(const Comparison& c, std::size_t second, Knowledge of) {
   const auto& verdicts = c.verdicts[static_cast<std::size_t>(of)];
@@ -95,8 +109,13 @@ Comparison compare_plans(std::span<const ComparedPlan> plans, const CompareOptio
   const auto of_all = [&](const auto& has) { return std::all_of(plans.begin(), plans.end(), has); };
   c.is_proved = of_all([](const ComparedPlan& p) { return p.certificate.has_value(); });
   c.has_contract = of_all([](const ComparedPlan& p) { return p.contract.has_value(); });
-  c.mission_words = mission_words_of(plans[0]);
-  c.contract_words = contract_words_of(plans[0]);
+  c.does[0] = does_of(plans[0], Knowledge::exact);
+  if (c.has_contract) {
+    const auto whole = std::find_if(plans.begin(), plans.end(), [](const ComparedPlan& p) {
+      return p.contract->follow.has_value();
+    });
+    c.does[1] = does_of(whole == plans.end() ? plans[0] : *whole, Knowledge::contract);
+  }
   for (const ComparedPlan& plan : plans) {
     c.names.push_back(plan.name);
     for (const std::string& warning : plan.warnings) {
@@ -114,6 +133,7 @@ Comparison compare_plans(std::span<const ComparedPlan> plans, const CompareOptio
     c.warnings.push_back(
         "Not every plan is proved under a contract: only the exact vehicle is compared.");
   }
+  if (c.has_contract) forget_touches(plans, c);
   fill_table(plans, states, c);
   fill_pairs(plans, options, clock, c);
   return c;

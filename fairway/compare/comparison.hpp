@@ -62,15 +62,22 @@ struct Comparison {
   CommonGround ground;
   std::vector<PlanMeasures> measures;  ///< [plan]
   bool is_proved = false;              ///< of every plan; else its flights were seen
-  bool has_contract = false;           ///< of every plan
-  std::string mission_words;           ///< "reach the goal"
-  std::string contract_words;          ///< "whatever the vehicle does within its contract"
-  Estimate all_succeed;                ///< share of states whose flights succeed under every plan
+  bool has_contract = false;           ///< a contract certificate, of every plan
+  /// [Knowledge] "reach the goal", "join the path and follow it", "reach the goal, whatever the
+  /// vehicle does within its contract"; the second is empty without a contract.
+  std::array<std::string, 2> does;
+  Estimate all_succeed;  ///< share of states whose flights succeed under every plan
   std::vector<ComparedMeasure> table;
   std::vector<PairDifference> pairs;  ///< the first with each other, exact and under the contract
   /// [Knowledge][plan][state]; empty where it is not known of every plan.
   std::array<std::vector<std::vector<Verdict>>, 2> verdicts;
   std::vector<std::string> warnings;
+
+  /// "proved to reach the goal"; "seen to" where it was flown.
+  std::string known_to(Knowledge of) const {
+    const bool proved = of == Knowledge::contract || is_proved;
+    return (proved ? "proved to " : "seen to ") + does[static_cast<std::size_t>(of)];
+  }
 };
 
 }  // namespace fairway

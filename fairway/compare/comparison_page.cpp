@@ -1,7 +1,7 @@
 #include "fairway/compare/comparison_page.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
 #include <string_view>
 #include <vector>
 
@@ -68,9 +68,8 @@ std::string figure_of(const Comparison& c, const PairDifference& d) {
   const std::string& b = c.names[d.second];
   const bool proved = d.of == Knowledge::contract || c.is_proved;
   const char* found = proved ? "proves" : "is seen to keep";
-  const std::string of = d.of == Knowledge::contract ? ", " + c.contract_words : std::string();
-  const std::string title =
-      fmt::format("{} to {}{}", proved ? "Proved" : "Seen", c.mission_words, of);
+  std::string title = c.known_to(d.of);
+  title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
   const Grid& grid = d.map.places.grid;
   const double sample_m = grid.cell_m * d.map.places.cells_per_sample;
   return fmt::format(

@@ -79,13 +79,12 @@ Estimate of_quantile(const QuantileEstimate& q) {
 }
 
 void add_known(Table& table, const Comparison& c, Knowledge of) {
-  const bool exact = of == Knowledge::exact;
-  const std::string key = exact ? "" : "contract_";
-  const std::string found = exact && !c.is_proved ? "seen" : "proved";
-  const std::string does = exact ? c.mission_words : c.mission_words + ", " + c.contract_words;
+  const std::string key = of == Knowledge::exact ? "" : "contract_";
+  const std::string found = of == Knowledge::exact && !c.is_proved ? "seen" : "proved";
   const auto everywhere = [](std::size_t, std::size_t) { return true; };
-  table.group = fmt::format("of all {} states{}", grouped(c.ground.counted),
-                            exact ? "" : ", " + c.contract_words);
+  table.group = of == Knowledge::exact
+                    ? fmt::format("of all {} states", grouped(c.ground.counted))
+                    : fmt::format("of all {} states, to {}", grouped(c.ground.counted), c.does[1]);
   table.add_share({key + "fails", "", found + " to fail", "", -1, {}, {}}, of, fails, everywhere);
   if (found == "proved") {
     table.add_share(
@@ -101,8 +100,7 @@ void add_known(Table& table, const Comparison& c, Knowledge of) {
         {key + "hold", "", found + " to hold for ever", "", 0, {}, {}}, of,
         [](Verdict v) { return v == Verdict::hold; }, everywhere);
   }
-  table.add_share({key + "proved", "", found + " to " + does, "", 1, {}, {}}, of, is_kept,
-                  everywhere);
+  table.add_share({key + "proved", "", c.known_to(of), "", 1, {}, {}}, of, is_kept, everywhere);
 }
 
 void add_known_in_cells(Table& table, std::span<const ComparedPlan> plans, const Comparison& c) {
@@ -110,11 +108,10 @@ void add_known_in_cells(Table& table, std::span<const ComparedPlan> plans, const
     const auto counts = [&, region](std::size_t k, std::size_t i) {
       return is_in(plans[k].plan, c.ground.states[i], region);
     };
-    const std::string found = c.is_proved ? "proved to " : "seen to ";
-    table.add_share({key + "_proved", "", found + c.mission_words, "", 1, {}, {}}, Knowledge::exact,
-                    is_kept, counts);
+    table.add_share({key + "_proved", "", c.known_to(Knowledge::exact), "", 1, {}, {}},
+                    Knowledge::exact, is_kept, counts);
     if (!c.has_contract) return;
-    table.add_share({key + "_contract_proved", "", "proved, " + c.contract_words, "", 1, {}, {}},
+    table.add_share({key + "_contract_proved", "", c.known_to(Knowledge::contract), "", 1, {}, {}},
                     Knowledge::contract, is_kept, counts);
   };
   table.group = "of the states in each plan's own safe-start cells";
@@ -181,16 +178,20 @@ void add_path(Table& table, const Comparison& c) {
 
 }  // namespace
 
-std::string mission_words_of(const ComparedPlan& plan) {
-  return std::string(goal_word(plan.plan)) == "path" ? "touch the path" : "reach the goal";
-}
-
-std::string contract_words_of(const ComparedPlan& plan) {
-  if (!plan.contract) return "";
+std::string does_of(const ComparedPlan& plan, Knowledge of) {
+  const bool path = std::string(goal_word(plan.plan)) == "path";
+  if (of == Knowledge::exact || !plan.contract) {
+    const bool flown = !plan.certificate && is_loop_to_follow(plan.plan);
+    return flown  ? "touch the path and fly on for a lap"
+           : path ? "touch the path"
+                  : "reach the goal";
+  }
   const ContractCertificate& c = *plan.contract;
-  const std::string then = !c.follow ? "" : c.follow->hold ? "and stay there" : "and follow it";
-  if (is_exact(c)) return then;
-  return (then.empty() ? "" : then + ", ") + "whatever the vehicle does within its contract";
+  const std::string does = c.follow && !c.follow->hold ? "join the path and follow it"
+                           : c.follow                  ? "reach the goal and stay there"
+                           : path                      ? "touch the path"
+                                                       : "reach the goal";
+  return does + (is_exact(c) ? "" : ", whatever the vehicle does within its contract");
 }
 
 void fill_table(std::span<const ComparedPlan> plans, std::span<const StatesUnderPlan> states,

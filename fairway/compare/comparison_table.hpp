@@ -15,10 +15,7 @@ namespace fairway {
 void fill_table(std::span<const ComparedPlan> plans, std::span<const StatesUnderPlan> states,
                 Comparison& comparison);
 
-/// "reach the goal", "reach the goal and stay", "touch the path".
-[[nodiscard]] std::string mission_words_of(const ComparedPlan& plan);
-/// Of the states that a contract certificate proves: "whatever the vehicle does within its
-/// contract", "and follow it".
-[[nodiscard]] std::string contract_words_of(const ComparedPlan& plan);
+/// What a plan is to do: Comparison::does.
+[[nodiscard]] std::string does_of(const ComparedPlan& plan, Knowledge of);
 
 }  // namespace fairway

@@ -64,14 +64,10 @@ std::vector<std::string> difference_lines(const Comparison& c) {
   std::vector<std::string> lines;
   for (const PairDifference& d : c.pairs) {
     const bool proved = d.of == Knowledge::contract || c.is_proved;
-    const char* found = proved ? "proved" : "seen";
-    const std::string does =
-        found + (" to " + c.mission_words) +
-        (d.of == Knowledge::contract && !c.contract_words.empty() ? ", " + c.contract_words : "");
     const auto line = [&](std::size_t winner, std::size_t loser, const Estimate& only,
                           const Estimate& failing) {
       lines.push_back(fmt::format("{} of all states are {} under {} but not under {}{}.",
-                                  share(only), does, c.names[winner], c.names[loser],
+                                  share(only), c.known_to(d.of), c.names[winner], c.names[loser],
                                   proved && only.value > 0.0
                                       ? fmt::format("; {} are proved to fail there", share(failing))
                                       : ""));

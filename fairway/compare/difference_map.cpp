@@ -14,8 +14,7 @@ std::vector<Verdict> known_of(const ComparedPlan& plan, Knowledge of,
                               const std::vector<State>& states) {
   if (of == Knowledge::contract) return verdicts_of(*plan.contract, states);
   if (plan.certificate) return verdicts_of(*plan.certificate, states);
-  const LengthBound none{"", [](const State&) { return 0.0; }};
-  return seen_in(measure_flights(plan.plan, states, {}, none), plan.plan, states);
+  return seen_from(states, plan.plan);
 }
 
 }  // namespace
@@ -77,11 +76,7 @@ Picture draw_difference(const Comparison& c, const PairDifference& pair) {
            : panel == 1 ? map.only_second[sample]
                         : map.neither[sample];
   };
-  const char* found = pair.of == Knowledge::exact && !c.is_proved ? "seen" : "proved";
-  const std::string title = fmt::format(
-      "{} to {}{}", found, c.mission_words,
-      pair.of == Knowledge::contract && !c.contract_words.empty() ? ", " + c.contract_words : "");
-  return draw_share_panels(map.places, panels, {.title = title});
+  return draw_share_panels(map.places, panels, {.title = c.known_to(pair.of)});
 }
 
 std::string picture_name(std::size_t plans, std::size_t second, Knowledge of) {

@@ -97,7 +97,7 @@ void look_beside(const fs::path& file, const std::optional<VehicleContract>& con
   }
 }
 
-void prove_exactly(const ReadComparedOptions& options, StageClock& clock, ComparedPlan& found) {
+void prove_exactly(const ProveComparedOptions& options, StageClock& clock, ComparedPlan& found) {
   VerifyLimits limits;
   limits.time_limit_s = options.time_limit_s;
   const CertifyOptions certify = certify_options(limits, options.seed);
@@ -109,7 +109,7 @@ void prove_exactly(const ReadComparedOptions& options, StageClock& clock, Compar
   found.certificate = std::move(made.certificate);
 }
 
-void prove_contract(const VehicleContract& contract, const ReadComparedOptions& options,
+void prove_contract(const VehicleContract& contract, const ProveComparedOptions& options,
                     StageClock& clock, ComparedPlan& found) {
   if (is_wild_everywhere(found.plan, contract)) {
     found.warnings.push_back(
@@ -138,22 +138,22 @@ void prove_contract(const VehicleContract& contract, const ReadComparedOptions& 
 
 }  // namespace
 
-ComparedPlan read_compared_plan(const fs::path& from, const ReadComparedOptions& options,
-                                StageClock& clock) {
+ComparedPlan read_compared_plan(const fs::path& from, StageClock& clock) {
   ComparedPlan found;
   found.from = from;
   const fs::path file = plan_file_of(from);
   clock.begin("reading " + from.string(), unknown_time);
   found.plan = file.empty() ? plan_of_scenario(from, clock) : read_plan(file);
-  if (!options.prove) {
-    found.proofs.push_back("None: its states were flown, which proves nothing.");
-    return found;
-  }
-  const std::optional<VehicleContract> contract = contract_to_prove(found.plan, the_goal);
-  if (!file.empty()) look_beside(file, contract, found);
-  if (!found.certificate) prove_exactly(options, clock, found);
-  if (contract && !found.contract) prove_contract(*contract, options, clock, found);
   return found;
+}
+
+void prove_compared_plan(const ProveComparedOptions& options, StageClock& clock,
+                         ComparedPlan& plan) {
+  const fs::path file = plan_file_of(plan.from);
+  const std::optional<VehicleContract> contract = contract_to_prove(plan.plan, the_goal);
+  if (!file.empty()) look_beside(file, contract, plan);
+  if (!plan.certificate) prove_exactly(options, clock, plan);
+  if (contract && !plan.contract) prove_contract(*contract, options, clock, plan);
 }
 
 void name_apart(std::vector<ComparedPlan>& plans) {

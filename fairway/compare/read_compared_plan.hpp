@@ -11,19 +11,20 @@
 
 namespace fairway {
 
-struct ReadComparedOptions {
-  bool prove = true;           ///< false: no certificate is read or made
+/// The plan alone. Throws InputError when nothing of the kind is there, or no plan can be made.
+[[nodiscard]] ComparedPlan read_compared_plan(const std::filesystem::path& from, StageClock& clock);
+
+struct ProveComparedOptions {
   double time_limit_s = 60.0;  ///< for each proof that has to be made
   std::uint64_t seed = 1;
 };
 
-/// Certificates are those beside the plan: certificate.safetensors,
-/// contract.certificate.safetensors and, of PLAN.safetensors, PLAN.certificate.safetensors, as far
-/// as they are of this plan, its goal and its contract; what lacks is proved. Throws InputError
-/// when nothing of the kind is there, or when no plan can be made or proved.
-[[nodiscard]] ComparedPlan read_compared_plan(const std::filesystem::path& from,
-                                              const ReadComparedOptions& options,
-                                              StageClock& clock);
+/// Adds what is proved of it: certificates beside the plan (certificate.safetensors,
+/// contract.certificate.safetensors and, of PLAN.safetensors, PLAN.certificate.safetensors) as far
+/// as they are of this plan, its goal and its contract; what lacks is proved. Throws InputError for
+/// a damaged certificate, or when the plan cannot be proved.
+void prove_compared_plan(const ProveComparedOptions& options, StageClock& clock,
+                         ComparedPlan& plan);
 
 /// Gives each a name that tells it from the others: the last part of where it is from, or all of
 /// it, with its number if even that is the same.

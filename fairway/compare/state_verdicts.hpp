@@ -24,9 +24,12 @@ constexpr bool is_kept(Verdict verdict) {
 [[nodiscard]] std::vector<Verdict> verdicts_of(const ContractCertificate& certificate,
                                                std::span<const State> states);
 
-/// As the word for it would be if it were proved, [state]: a flight that circles in a holding place
-/// holds, one that goes on along the path it has reached reaches, one that then collides does not.
+/// Of exact flights, as the word for it would be if it were proved, [state]: a flight that circles
+/// in a holding place holds; one that is to follow a loop, and collides after it has touched it,
+/// collides.
 [[nodiscard]] std::vector<Verdict> seen_in(const MeasuredFlights& flown, const Plan& plan,
                                            std::span<const State> states);
+/// The same, flown for nothing else.
+[[nodiscard]] std::vector<Verdict> seen_from(std::span<const State> states, const Plan& plan);
 
 }  // namespace fairway

@@ -46,7 +46,9 @@ void write_comparison(std::span<const ComparedPlan> plans, const Comparison& com
     write(name + ".png", picture.png);
   }
   write(page_file, comparison_page(plans, comparison, command));
-  write(comparison_file, comparison_json(plans, comparison).dump(2) + "\n");
+  write(comparison_file, comparison_json(plans, comparison)
+                                 .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+                             "\n");
 }
 
 }  // namespace fairway

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <utility>
+#include <variant>
 
 #include "fairway/base/parallel.hpp"
 #include "fairway/run/clearance.hpp"
@@ -87,6 +89,12 @@ const CostRate reversals_per_100m{
     hundreds_of_m};
 }  // namespace cost_rate
 
+bool is_loop_to_follow(const Plan& plan) {
+  const auto* path =
+      plan.record.mission ? std::get_if<PathMission>(&*plan.record.mission) : nullptr;
+  return path != nullptr && path->closed && path->accept == PathAccept::follow;
+}
+
 MeasuredFlights measure_flights(const Plan& plan, std::span<const State> states,
                                 std::vector<bool> chosen, const LengthBound& bound,
                                 const std::function<void(std::size_t done)>& progress) {
@@ -102,8 +110,7 @@ MeasuredFlights measure_flights(const Plan& plan, std::span<const State> states,
     meter.emplace(*engine.path(), plan.vehicle.speed_mps, 0.5 * plan.grid.cell_m);
     flown.path.emplace();
   }
-  const bool follows =
-      meter && engine.path()->closed && engine.path()->accept == PathAccept::follow;
+  const bool follows = is_loop_to_follow(plan);
   std::mutex mutex;
   const auto measure = [&](std::size_t i, PathSpreads* spreads) {
     const Flight flight =

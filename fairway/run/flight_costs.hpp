@@ -22,6 +22,9 @@
 
 namespace fairway {
 
+/// Whether the mission is a closed path, to be followed: then to touch it is not enough.
+[[nodiscard]] bool is_loop_to_follow(const Plan& plan);
+
 /// One flight. Flights of a path mission are followed beyond their first path cell for the path's
 /// length.
 struct MeasuredFlight {
