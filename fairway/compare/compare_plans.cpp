@@ -62,7 +62,8 @@ PairDifference difference_of(const Comparison& c, std::size_t second, Knowledge 
 void warn_of_open_states(Comparison& c) {
   constexpr double most_unwarned = 0.02;
   for (std::size_t k = 0; k < c.names.size(); ++k) {
-    const Estimate& open = c.measures[k].exact.all[static_cast<std::size_t>(Verdict::undecided)];
+    const SampledValue& open =
+        c.measures[k].exact.all[static_cast<std::size_t>(Verdict::undecided)];
     if (!(open.value > most_unwarned)) continue;
     c.warnings.push_back(fmt::format(
         "{}: {} of all states are undecided, and count as not proved; they may go either way. "

@@ -53,7 +53,7 @@ const ComparedMeasure& line(const Comparison& c, const std::string& key) {
   throw PreconditionViolation("no such line");
 }
 
-double share(const Estimate& e) { return std::isfinite(e.value) ? e.value : 0.0; }
+double share(const SampledValue& e) { return std::isfinite(e.value) ? e.value : 0.0; }
 
 TEST(ComparePlans, FindsNoDifferenceBetweenAPlanAndItself) {
   const ComparedPlan& plan = wide_and_narrow()[0];
@@ -104,7 +104,7 @@ TEST(ComparePlans, SharesAgreeWithThoseOfTheCertificates) {
     const auto evidence = nlohmann::json::parse(plans[k].certificate->evidence_json);
     for (const Verdict verdict : {Verdict::reach, Verdict::collide, Verdict::undecided}) {
       const auto v = static_cast<std::size_t>(verdict);
-      const auto expect_near = [&](const Estimate& found, const char* member) {
+      const auto expect_near = [&](const SampledValue& found, const char* member) {
         const double told = evidence[member].value(name_of(verdict), 0.0);
         EXPECT_NEAR(share(found), told, 4.0 * found.standard_error + 2e-3)
             << member << ", " << name_of(verdict) << " of " << plans[k].name;

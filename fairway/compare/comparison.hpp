@@ -26,10 +26,10 @@ struct ComparedMeasure {
   std::string key;
   std::string group;  ///< what all lines of the group are a share, or a mean, of
   std::string name;
-  std::string unit;                             ///< "%": values are shares from 0 to 1
-  int better = 0;                               ///< 1: more is better; -1: less; 0: neither
-  std::vector<Estimate> value;                  ///< [plan]
-  std::vector<Estimate> difference_from_first;  ///< [plan]; of the first: 0
+  std::string unit;                                 ///< "%": values are shares from 0 to 1
+  int better = 0;                                   ///< 1: more is better; -1: less; 0: neither
+  std::vector<SampledValue> value;                  ///< [plan]
+  std::vector<SampledValue> difference_from_first;  ///< [plan]; of the first: 0
 };
 
 /// Of each cell, how many of its states only one of two plans brings to the mission, as far as that
@@ -48,12 +48,12 @@ struct PairDifference {
   std::size_t first = 0;  ///< number of the plan
   std::size_t second = 0;
   Knowledge of = Knowledge::exact;
-  Estimate only_first;          ///< proved by the first and not by the second
-  Estimate only_second;         ///< the other way round
-  Estimate only_first_failing;  ///< of all states: and the second is proved to fail there
-  Estimate only_second_failing;
-  Estimate both;
-  Estimate neither;
+  SampledValue only_first;          ///< proved by the first and not by the second
+  SampledValue only_second;         ///< the other way round
+  SampledValue only_first_failing;  ///< of all states: and the second is proved to fail there
+  SampledValue only_second_failing;
+  SampledValue both;
+  SampledValue neither;
   DifferenceMap map;
 };
 
@@ -66,7 +66,7 @@ struct Comparison {
   /// [Knowledge] "reach the goal", "join the path and follow it", "reach the goal, whatever the
   /// vehicle does within its contract"; the second is empty without a contract.
   std::array<std::string, 2> does;
-  Estimate all_succeed;  ///< share of states whose flights succeed under every plan
+  SampledValue all_succeed;  ///< share of states whose flights succeed under every plan
   std::vector<ComparedMeasure> table;
   std::vector<PairDifference> pairs;  ///< the first with each other, exact and under the contract
   /// [Knowledge][plan][state]; empty where it is not known of every plan.

@@ -13,7 +13,7 @@ using nlohmann::json;
 json shares_json(const VerdictShares& shares) {
   json by_name = json::object();
   for (const Verdict verdict : verdicts_in_order) {
-    const Estimate& e = shares[static_cast<std::size_t>(verdict)];
+    const SampledValue& e = shares[static_cast<std::size_t>(verdict)];
     if (is_listed(verdict, e.value > 0.0)) by_name[name_of(verdict)] = estimate_json(e);
   }
   return by_name;
@@ -25,9 +25,9 @@ json shares_json(const ProvedShares& shares) {
           {"buffer", shares_json(shares.buffer)}};
 }
 
-json estimates_json(const std::vector<Estimate>& estimates) {
+json estimates_json(const std::vector<SampledValue>& estimates) {
   json all = json::array();
-  for (const Estimate& e : estimates) {
+  for (const SampledValue& e : estimates) {
     json one = estimate_json(e);
     if (!std::isfinite(e.standard_error)) one["standard_error"] = json();
     all.push_back(std::move(one));

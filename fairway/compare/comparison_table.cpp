@@ -52,7 +52,7 @@ class Table {
   }
 
   /// A line of values without paired errors.
-  void add_values(ComparedMeasure line, const std::function<Estimate(std::size_t)>& value) {
+  void add_values(ComparedMeasure line, const std::function<SampledValue(std::size_t)>& value) {
     for (std::size_t k = 0; k < plans_.size(); ++k) {
       line.value.push_back(value(k));
       const double difference = line.value[k].value - line.value[0].value;
@@ -73,7 +73,7 @@ class Table {
   Comparison& comparison_;
 };
 
-Estimate of_quantile(const QuantileEstimate& q) {
+SampledValue of_quantile(const QuantileEstimate& q) {
   constexpr double widths = 2.0 * 1.959963984540054;
   return {q.value, (q.high - q.low) / widths, q.states};
 }
@@ -157,15 +157,15 @@ void add_path(Table& table, const Comparison& c) {
   }
   table.group = "flown along the path, under each plan from its own states";
   const auto add = [&](const char* key, const char* name, const char* unit, int better,
-                       Estimate PathCosts::*member) {
+                       SampledValue PathCosts::*member) {
     table.add_values({key, "", name, unit, better, {}, {}},
                      [&](std::size_t k) { return (*c.measures[k].costs.path).*member; });
   };
   const auto add_plain = [&](const char* key, const char* name, double PathCosts::*member) {
     table.add_values({key, "", name, "m", -1, {}, {}}, [&](std::size_t k) {
       const PathCosts& path = *c.measures[k].costs.path;
-      return Estimate{path.joined.states == 0 ? unknown : path.*member, unknown,
-                      path.joined.states};
+      return SampledValue{path.joined.states == 0 ? unknown : path.*member, unknown,
+                          path.joined.states};
     });
   };
   add("joined", "join it, of those that touch it", "%", 1, &PathCosts::joined);

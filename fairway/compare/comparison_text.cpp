@@ -16,7 +16,7 @@ constexpr double two_sided_95 = 1.959963984540054;
 int decimals_of(const ComparedMeasure& measure) {
   if (measure.unit == "%") return 1;
   double largest = 0.0;
-  for (const Estimate& e : measure.value) {
+  for (const SampledValue& e : measure.value) {
     if (std::isfinite(e.value)) largest = std::max(largest, std::abs(e.value));
   }
   return largest >= 100.0 ? 0 : largest >= 10.0 ? 1 : 2;
@@ -60,12 +60,12 @@ std::string csv_text(const std::string& text) {
 }  // namespace
 
 std::vector<std::string> difference_lines(const Comparison& c) {
-  const auto share = [](const Estimate& e) { return percent_text(e.value); };
+  const auto share = [](const SampledValue& e) { return percent_text(e.value); };
   std::vector<std::string> lines;
   for (const PairDifference& d : c.pairs) {
     const bool proved = d.of == Knowledge::contract || c.is_proved;
-    const auto line = [&](std::size_t winner, std::size_t loser, const Estimate& only,
-                          const Estimate& failing) {
+    const auto line = [&](std::size_t winner, std::size_t loser, const SampledValue& only,
+                          const SampledValue& failing) {
       lines.push_back(fmt::format("{} of all states are {} under {} but not under {}{}.",
                                   share(only), c.known_to(d.of), c.names[winner], c.names[loser],
                                   proved && only.value > 0.0
@@ -82,7 +82,7 @@ double error_of_shares(const Comparison& c) {
   double largest = 0.0;
   for (const ComparedMeasure& m : c.table) {
     if (m.unit != "%" || m.group != c.table.front().group) continue;
-    for (const Estimate& e : m.value) {
+    for (const SampledValue& e : m.value) {
       if (std::isfinite(e.value)) largest = std::max(largest, two_sided_95 * e.standard_error);
     }
   }
@@ -90,7 +90,7 @@ double error_of_shares(const Comparison& c) {
 }
 
 MeasureText measure_text(const ComparedMeasure& measure, std::size_t plan) {
-  const Estimate& e = measure.value[plan];
+  const SampledValue& e = measure.value[plan];
   MeasureText text;
   const bool is_share = measure.unit == "%";
   const int decimals = decimals_of(measure);
@@ -100,7 +100,7 @@ MeasureText measure_text(const ComparedMeasure& measure, std::size_t plan) {
   }
   text.value =
       is_share ? percent_text(e.value, decimals) : fmt::format("{:.{}f}", e.value, decimals);
-  const Estimate& difference = measure.difference_from_first[plan];
+  const SampledValue& difference = measure.difference_from_first[plan];
   if (plan == 0 || !std::isfinite(difference.value)) return text;
   const double scale = is_share ? 100.0 : 1.0;
   const double by = difference.value * scale;
@@ -151,8 +151,8 @@ std::string comparison_csv(const Comparison& c) {
       "difference_standard_error\n";
   for (const ComparedMeasure& m : c.table) {
     for (std::size_t k = 0; k < c.names.size(); ++k) {
-      const Estimate& e = m.value[k];
-      const Estimate& d = m.difference_from_first[k];
+      const SampledValue& e = m.value[k];
+      const SampledValue& d = m.difference_from_first[k];
       const bool known = std::isfinite(e.value);
       text += fmt::format("{},{},{},{},{},{},{},{},{}\n", m.key, csv_text(m.group),
                           m.unit == "%" ? "1" : m.unit, csv_text(c.names[k]), csv_number(e.value),

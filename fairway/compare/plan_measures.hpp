@@ -11,7 +11,7 @@
 namespace fairway {
 
 /// By Verdict. Measured on sampled states, each answered as a query answers it.
-using VerdictShares = std::array<Estimate, verdict_count>;
+using VerdictShares = std::array<SampledValue, verdict_count>;
 
 struct ProvedShares {
   VerdictShares all{};         ///< of all states: in cells that are neither obstacle nor goal

@@ -37,7 +37,7 @@ double squared(double x) { return x * x; }
 
 }  // namespace
 
-Estimate ratio_of_totals(std::span<const double> part, std::span<const double> whole) {
+SampledValue ratio_of_totals(std::span<const double> part, std::span<const double> whole) {
   const Linearised ratio(part, whole);
   double variance = 0.0;
   for (std::size_t i = 0; i < ratio.residual.size(); i += 2) {
@@ -46,14 +46,14 @@ Estimate ratio_of_totals(std::span<const double> part, std::span<const double> w
   return {ratio.value, std::sqrt(variance), ratio.states};
 }
 
-Estimate difference_of_ratios(std::span<const double> first_part,
-                              std::span<const double> first_whole,
-                              std::span<const double> second_part,
-                              std::span<const double> second_whole) {
+SampledValue difference_of_ratios(std::span<const double> first_part,
+                                  std::span<const double> first_whole,
+                                  std::span<const double> second_part,
+                                  std::span<const double> second_whole) {
   require(first_part.size() == second_part.size(), "ratios to compare are of the same states");
   const Linearised first(first_part, first_whole);
   const Linearised second(second_part, second_whole);
-  Estimate found;
+  SampledValue found;
   found.states = std::min(first.states, second.states);
   if (found.states == 0) return found;
   found.value = second.value - first.value;

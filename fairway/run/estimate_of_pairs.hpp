@@ -15,7 +15,7 @@
 
 namespace fairway {
 
-struct Estimate {
+struct SampledValue {
   double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN: there are no such states
   double standard_error = 0.0;  ///< with a handful of states, itself hardly known
   std::size_t states = 0;       ///< with something in the whole
@@ -23,14 +23,15 @@ struct Estimate {
 
 /// The total of `part` by that of `whole`, [state], states 2 k and 2 k + 1 of one stratum; all
 /// strata are alike in size. `whole` is >= 0.
-[[nodiscard]] Estimate ratio_of_totals(std::span<const double> part, std::span<const double> whole);
+[[nodiscard]] SampledValue ratio_of_totals(std::span<const double> part,
+                                           std::span<const double> whole);
 
 /// The second such ratio less the first, over the same states: where both have the same errors, the
 /// difference is known better than either.
-[[nodiscard]] Estimate difference_of_ratios(std::span<const double> first_part,
-                                            std::span<const double> first_whole,
-                                            std::span<const double> second_part,
-                                            std::span<const double> second_whole);
+[[nodiscard]] SampledValue difference_of_ratios(std::span<const double> first_part,
+                                                std::span<const double> first_whole,
+                                                std::span<const double> second_part,
+                                                std::span<const double> second_whole);
 
 /// A quantile of a sample.
 struct QuantileEstimate {

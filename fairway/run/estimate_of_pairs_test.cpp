@@ -15,17 +15,17 @@ namespace {
 TEST(EstimateOfPairs, IsARatioWithAnErrorFromThePairsAlone) {
   const std::vector<double> part{1.0, 0.0, 1.0, 1.0};
   const std::vector<double> ones(4, 1.0);
-  const Estimate share = ratio_of_totals(part, ones);
+  const SampledValue share = ratio_of_totals(part, ones);
   EXPECT_DOUBLE_EQ(share.value, 0.75);
   EXPECT_DOUBLE_EQ(share.standard_error, 0.25);  // only the first pair differs, by 1 of 4
   EXPECT_EQ(share.states, 4U);
   // What does not count leaves the others' ratio as it is.
   const std::vector<double> some{2.0, 2.0, 0.0, 4.0};
-  const Estimate rate = ratio_of_totals(std::vector<double>{1.0, 3.0, 0.0, 4.0}, some);
+  const SampledValue rate = ratio_of_totals(std::vector<double>{1.0, 3.0, 0.0, 4.0}, some);
   EXPECT_DOUBLE_EQ(rate.value, 1.0);
   EXPECT_EQ(rate.states, 3U);
   EXPECT_DOUBLE_EQ(rate.standard_error, 2.0 / 8.0);  // residuals -1, 1 of a pair; 0, 0
-  const Estimate none = ratio_of_totals(part, std::vector<double>(4, 0.0));
+  const SampledValue none = ratio_of_totals(part, std::vector<double>(4, 0.0));
   EXPECT_TRUE(std::isnan(none.value));
   EXPECT_EQ(none.states, 0U);
   EXPECT_THROW((void)ratio_of_totals(std::vector<double>(3), std::vector<double>(3)),
@@ -39,7 +39,7 @@ TEST(EstimateOfPairs, OfADifferenceKnowsWhatBothHaveInCommon) {
   EXPECT_EQ(difference_of_ratios(first, ones, second, ones).value, 0.0);
   EXPECT_EQ(difference_of_ratios(first, ones, second, ones).standard_error, 0.0);
   for (double& value : second) value += 2.0;
-  const Estimate shifted = difference_of_ratios(first, ones, second, ones);
+  const SampledValue shifted = difference_of_ratios(first, ones, second, ones);
   EXPECT_NEAR(shifted.value, 2.0, 1e-14);
   EXPECT_NEAR(shifted.standard_error, 0.0, 1e-14);
   EXPECT_NEAR(difference_of_ratios(second, ones, first, ones).value, -2.0, 1e-14);
@@ -77,13 +77,13 @@ TEST(EstimateOfPairs, ItsIntervalsHoldTheTruthNineteenTimesOfTwenty) {
     }
     return ratio_of_totals(part, whole);
   };
-  const Estimate truth = measured(400'000, 77);
+  const SampledValue truth = measured(400'000, 77);
   int held = 0;
   double squares = 0.0;
   double variances = 0.0;
   constexpr int draws = 600;
   for (int draw = 0; draw < draws; ++draw) {
-    const Estimate e = measured(200, static_cast<std::uint64_t>(draw));
+    const SampledValue e = measured(200, static_cast<std::uint64_t>(draw));
     const double off = e.value - truth.value;
     held += std::abs(off) <= 1.96 * e.standard_error ? 1 : 0;
     squares += off * off;

@@ -9,6 +9,7 @@
 #include "fairway/base/parallel.hpp"
 #include "fairway/run/clearance.hpp"
 #include "fairway/run/flight_engine.hpp"
+#include "fairway/run/stratified_states.hpp"
 
 namespace fairway {
 namespace {
@@ -36,8 +37,8 @@ RateTotals totals_over(const MeasuredFlights& flown, const Counts& counts, const
 }
 
 template <typename Counts, typename Part, typename Of>
-Estimate estimate_over(const MeasuredFlights& flown, const Counts& counts, const Part& part,
-                       const Of& of) {
+SampledValue estimate_over(const MeasuredFlights& flown, const Counts& counts, const Part& part,
+                           const Of& of) {
   const RateTotals totals = totals_over(
       flown, [&](const MeasuredFlight& f, std::size_t) { return counts(f); }, part, of);
   return ratio_of_totals(totals.part, totals.of);
@@ -191,7 +192,16 @@ FlightCosts flight_costs(const MeasuredFlights& flown) {
   return costs;
 }
 
-json estimate_json(const Estimate& e) {
+FlightCosts costs_over_all_states(const Plan& plan, std::size_t strata, std::uint64_t seed) {
+  std::vector<bool> ground(plan.grid.size());
+  for (std::size_t i = 0; i < ground.size(); ++i) {
+    ground[i] = plan.region[i] == Region::free || plan.region[i] == Region::buffer;
+  }
+  const std::vector<State> states = stratified_states(plan.grid, ground, strata, seed);
+  return flight_costs(measure_flights(plan, states, {}, line_around_obstacles(plan)));
+}
+
+json estimate_json(const SampledValue& e) {
   const bool known = std::isfinite(e.value);
   return {{"value", known ? json(e.value) : json()},
           {"standard_error", known ? json(e.standard_error) : json()},

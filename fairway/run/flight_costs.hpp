@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -80,24 +81,24 @@ struct RateTotals {
                                                 const std::vector<bool>& among = {});
 
 struct PathCosts {
-  Estimate joined;          ///< share of those that touch the path
-  Estimate time_to_join_s;  ///< of those that join
-  Estimate distance_m;      ///< over the time of those that joined, after they did
+  SampledValue joined;          ///< share of those that touch the path
+  SampledValue time_to_join_s;  ///< of those that join
+  SampledValue distance_m;      ///< over the time of those that joined, after they did
   double distance_p95_m = 0.0;
   double distance_worst_m = 0.0;
 };
 
 struct FlightCosts {
-  std::size_t states = 0;                         ///< flown
-  std::array<Estimate, outcome_codes> outcome{};  ///< [Outcome], shares of these
-  Estimate succeeds;                              ///< the same
+  std::size_t states = 0;                             ///< flown
+  std::array<SampledValue, outcome_codes> outcome{};  ///< [Outcome], shares of these
+  SampledValue succeeds;                              ///< the same
   // Of the flights that succeed:
-  Estimate time_s;
-  Estimate length_m;
-  Estimate length_ratio;
+  SampledValue time_s;
+  SampledValue length_m;
+  SampledValue length_ratio;
   std::string shortest_bound;
-  Estimate turned_rad_per_100m;
-  Estimate reversals_per_100m;
+  SampledValue turned_rad_per_100m;
+  SampledValue reversals_per_100m;
   QuantileEstimate clearance_p05_m;  ///< a twentieth of the flights come nearer to an obstacle
   QuantileEstimate clearance_median_m;
   std::optional<PathCosts> path;  ///< of a path mission
@@ -105,8 +106,12 @@ struct FlightCosts {
 
 [[nodiscard]] FlightCosts flight_costs(const MeasuredFlights& flown);
 
+/// Over all states of the plan: those in its free and buffer cells.
+[[nodiscard]] FlightCosts costs_over_all_states(const Plan& plan, std::size_t strata,
+                                                std::uint64_t seed);
+
 /// {"value", "standard_error", "states"}; value null where there is none.
-[[nodiscard]] nlohmann::json estimate_json(const Estimate& estimate);
+[[nodiscard]] nlohmann::json estimate_json(const SampledValue& estimate);
 [[nodiscard]] nlohmann::json flight_costs_json(const FlightCosts& costs);
 
 }  // namespace fairway

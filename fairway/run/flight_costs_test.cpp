@@ -81,7 +81,7 @@ TEST(FlightCosts, OverAllStatesHoldTheTruthOfManyMoreWithinTheirErrors) {
   const FlightCosts truth = costs_of(15'000, 99);
   int held = 0;
   constexpr int draws = 40;
-  const auto holds = [](const Estimate& e, const Estimate& of) {
+  const auto holds = [](const SampledValue& e, const SampledValue& of) {
     return std::abs(e.value - of.value) <= 1.96 * std::hypot(e.standard_error, of.standard_error);
   };
   for (std::uint64_t seed = 0; seed < draws; ++seed) {
