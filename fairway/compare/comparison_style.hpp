@@ -32,14 +32,14 @@ header { padding-top: 1.4rem; }
 .notice { margin-block: 1rem; padding-block: .6rem; border-left: 3px solid var(--warn); background: var(--sheet); }
 .notice ul { padding-left: 1.2rem; }
 section { margin-block: 1.4rem 2.2rem; }
-.lead { list-style: none; font-size: 1.12rem; line-height: 1.4; max-width: 60rem; }
+.lead { list-style: none; font-size: 1.12rem; line-height: 1.4; max-width: 76rem; }
 .lead li { padding-block: .25rem; border-top: 1px solid var(--line); }
 .figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 30rem), 1fr)); gap: 2rem; align-items: start; }
 .beside { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 34rem), 1fr)); column-gap: 2.2rem; align-items: start; }
 .beside > section { min-width: 0; margin-block: 0 2rem; }
 figure { min-width: 0; max-width: 60rem; }
 .map { display: block; width: 100%; max-height: 80vh; background: var(--ground); border: 1px solid var(--line); border-radius: 6px; }
-.key { list-style: none; display: grid; grid-template-columns: repeat(auto-fit, minmax(15rem, 1fr)); gap: .15rem 1.2rem; font-size: .86rem; margin-block: .7rem; }
+.key { list-style: none; display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: .15rem 1.2rem; font-size: .86rem; margin-block: .7rem; }
 .key li { display: flex; gap: .6rem; align-items: baseline; }
 .key i { width: 1.9rem; height: .95rem; flex: none; translate: 0 .12rem; border: 1px solid var(--soft); border-radius: 2px; }
 .same { fill: var(--ground); background: var(--ground); }
@@ -54,7 +54,8 @@ figure { min-width: 0; max-width: 60rem; }
 table { border-collapse: collapse; background: var(--sheet); border: 1px solid var(--line); }
 th, td { padding: .28rem .9rem; text-align: right; white-space: nowrap; }
 thead th { border-bottom: 1px solid var(--line); vertical-align: bottom; overflow-wrap: anywhere; white-space: normal; min-width: 5.5rem; }
-thead th:first-child, tbody th { text-align: left; font-weight: 500; }
+thead th:first-child, tbody th { text-align: left; }
+tbody th { font-weight: 500; }
 tbody tr + tr > * { border-top: 1px solid var(--line); }
 tbody th:first-child { position: sticky; left: 0; background: var(--sheet); white-space: normal; min-width: 9rem; }
 .group th { color: var(--soft); font-size: .86rem; padding-top: .9rem; }
@@ -63,7 +64,8 @@ td small { display: block; color: var(--soft); }
 .plain td { text-align: left; white-space: normal; overflow-wrap: anywhere; min-width: 10rem; }
 .plain thead th { text-align: left; }
 code { font: .86em/1.4 ui-monospace, SFMono-Regular, Menlo, Consolas, monospace; overflow-wrap: anywhere; }
-@media (max-width: 40rem) { th, td { padding-inline: .5rem; } .lead { font-size: 1rem; } }
+.wide + .hint { margin-top: .8rem; }
+@media (max-width: 40rem) { .key { grid-template-columns: 1fr; } th, td { padding-inline: .5rem; } .lead { font-size: 1rem; } }
 @media print { body { font-size: 10pt; } figure, tr { break-inside: avoid; } }
 )css";
 
