@@ -167,7 +167,8 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   const FlightEngine engine(plan);
   const ScenarioFlights flown = fly_scenario(scenario, plan, engine, clock, left.from_pictures());
   write_flights(flown, plan, scenario.file.string(), place);
-  constexpr std::size_t measured_strata = 2000;  // of two states each: a hundredth of a run's time
+  constexpr std::size_t measured_strata =
+      1000;  // of two states each: a hundredth of a proof's time
   const FlightCosts costs = costs_over_all_states(plan, measured_strata, scenario.simulate.seed);
 
   const Verified verified =
