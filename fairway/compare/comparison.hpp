@@ -63,8 +63,8 @@ struct Comparison {
   std::vector<PlanMeasures> measures;  ///< [plan]
   bool is_proved = false;              ///< of every plan; else its flights were seen
   bool has_contract = false;           ///< a contract certificate, of every plan
-  /// [Knowledge] "reach the goal", "join the path and follow it", "reach the goal, whatever the
-  /// vehicle does within its contract"; the second is empty without a contract.
+  /// [Knowledge] "reach the goal", "join the path and follow it", "reach the goal within the
+  /// contract"; the second is empty without one.
   std::array<std::string, 2> does;
   SampledValue all_succeed;  ///< share of states whose flights succeed under every plan
   std::vector<ComparedMeasure> table;

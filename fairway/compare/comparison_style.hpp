@@ -53,7 +53,7 @@ figure { min-width: 0; max-width: 60rem; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; background: var(--sheet); border: 1px solid var(--line); }
 th, td { padding: .28rem .9rem; text-align: right; white-space: nowrap; }
-thead th { border-bottom: 1px solid var(--line); vertical-align: bottom; overflow-wrap: anywhere; white-space: normal; min-width: 5.5rem; }
+thead th { border-bottom: 1px solid var(--line); vertical-align: bottom; overflow-wrap: break-word; white-space: normal; min-width: 5.5rem; }
 thead th:first-child, tbody th { text-align: left; }
 tbody th { font-weight: 500; }
 tbody tr + tr > * { border-top: 1px solid var(--line); }

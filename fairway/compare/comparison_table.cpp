@@ -191,7 +191,7 @@ std::string does_of(const ComparedPlan& plan, Knowledge of) {
                            : c.follow                  ? "reach the goal and stay there"
                            : path                      ? "touch the path"
                                                        : "reach the goal";
-  return does + (is_exact(c) ? "" : ", whatever the vehicle does within its contract");
+  return does + (is_exact(c) ? "" : " within the contract");
 }
 
 void fill_table(std::span<const ComparedPlan> plans, std::span<const StatesUnderPlan> states,

@@ -114,18 +114,19 @@ MeasuredFlights measure_flights(const Plan& plan, std::span<const State> states,
   const bool follows = is_loop_to_follow(plan);
   std::mutex mutex;
   const auto measure = [&](std::size_t i, PathSpreads* spreads) {
+    MeasuredFlight& measured = flown.flights[i];
+    measured.shortest_bound_m = bound.length_m(states[i]);
+    measured.result = engine.fly(states[i], i);
+    // Who is trapped flies for ever, and costs nothing that is told.
+    if (measured.result.outcome != Outcome::reach) return;
     const Flight flight =
         meter ? engine.record(states[i], i, one_lap) : engine.exact()->record(states[i]);
-    MeasuredFlight& measured = flown.flights[i];
-    measured.result = flight.result;
     measured.measures = {flight.turning, flight.onward, {}};
     if (meter && flight.onward.after != After::none) {
       measured.measures.following = meter->measure(flight, spreads);
     }
-    measured.succeeds = flight.result.outcome == Outcome::reach &&
-                        (!follows || flight.onward.after == After::follow);
+    measured.succeeds = !follows || flight.onward.after == After::follow;
     measured.clearance_m = clearance.least_along(flight);
-    measured.shortest_bound_m = bound.length_m(states[i]);
   };
   for (std::size_t first = 0; first < states.size(); first += batch) {
     const std::size_t count = std::min(batch, states.size() - first);

@@ -27,7 +27,7 @@ namespace fairway {
 [[nodiscard]] bool is_loop_to_follow(const Plan& plan);
 
 /// One flight. Flights of a path mission are followed beyond their first path cell for the path's
-/// length.
+/// length. Measured are those that reach; of others all but the result and the bound is 0.
 struct MeasuredFlight {
   FlightResult result;
   FlightMeasures measures;
