@@ -16,9 +16,10 @@
 namespace fairway {
 namespace {
 
-StatesUnderPlan measured(const ComparedPlan& plan, const CommonGround& ground, StageClock& clock) {
+StatesUnderPlan measured(const ComparedPlan& plan, const CommonGround& ground,
+                         const CompareOptions& options, StageClock& clock) {
   clock.begin("flying under " + plan.name, unknown_time);
-  return states_under(plan, ground, line_around_obstacles(plan.plan));
+  return states_under(plan, ground, options.bound(plan.plan));
 }
 
 /// Where others are proved to follow the path, who is only proved to touch it does not do the same.
@@ -122,7 +123,7 @@ Comparison compare_plans(std::span<const ComparedPlan> plans, const CompareOptio
     for (const std::string& warning : plan.warnings) {
       c.warnings.push_back(plan.name + ": " + warning);
     }
-    states.push_back(measured(plan, c.ground, clock));
+    states.push_back(measured(plan, c.ground, options, clock));
     c.measures.push_back(measures_of(plan, c.ground, states.back()));
     c.verdicts[0].push_back(states.back().exact);
     if (c.has_contract) c.verdicts[1].push_back(states.back().contract);
@@ -143,7 +144,7 @@ Comparison compare_plans(std::span<const ComparedPlan> plans, const CompareOptio
 PlanMeasures measure_plan(const ComparedPlan& plan, const CompareOptions& options,
                           StageClock& clock) {
   const CommonGround ground = common_ground({&plan, 1}, options.states / 2, options.seed);
-  return measures_of(plan, ground, measured(plan, ground, clock));
+  return measures_of(plan, ground, measured(plan, ground, options, clock));
 }
 
 }  // namespace fairway

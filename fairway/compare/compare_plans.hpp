@@ -9,9 +9,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "fairway/compare/comparison.hpp"
+#include "fairway/run/shortest_bound.hpp"
 #include "fairway/run/stage_clock.hpp"
 
 namespace fairway {
@@ -21,6 +23,8 @@ struct CompareOptions {
   std::uint64_t seed = 1;
   int map_across = 128;  ///< samples of a difference map along its longer side
   int map_headings = 24;
+  /// What the lengths of flights under a plan are compared with.
+  std::function<LengthBound(const Plan& plan)> bound = line_around_obstacles;
 };
 
 /// Throws InputError as require_alike() does, or when the plans have no state in common. At least

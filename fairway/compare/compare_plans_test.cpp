@@ -15,6 +15,7 @@
 #include "fairway/compare/require_alike.hpp"
 #include "fairway/compare/state_verdicts.hpp"
 #include "fairway/compare/testing/bay_plans.hpp"
+#include "fairway/run/contract_verification.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 
 namespace fairway {
@@ -254,6 +255,59 @@ TEST(ComparePlans, TellsTheWorstFirstAndEveryNumberInItsFiles) {
   for (const ComparedMeasure& m : c.table) {
     EXPECT_THAT(text, HasSubstr(m.name));
     EXPECT_THAT(page, HasSubstr(html_text(m.name)));
+  }
+}
+
+TEST(ComparePlans, OnePlanAloneIsMeasuredAsAmongOthers) {
+  const ComparedPlan& plan = wide_and_narrow()[0];
+  const Progress silent;
+  StageClock clock(silent);
+  CompareOptions options = few_states();
+  const PlanMeasures alone = measure_plan(plan, options, clock);
+  const Comparison c = compared({plan, plan});
+  const auto reach = static_cast<std::size_t>(Verdict::reach);
+  EXPECT_EQ(alone.exact.all[reach].value, c.measures[1].exact.all[reach].value);
+  EXPECT_EQ(alone.costs.time_s.value, c.measures[1].costs.time_s.value);
+  EXPECT_FALSE(alone.contract);
+  options.bound = [](const Plan&) {
+    return LengthBound{"a tenth of a metre", [](const State&) { return 0.1; }};
+  };
+  const PlanMeasures other = measure_plan(plan, options, clock);
+  EXPECT_EQ(other.costs.shortest_bound, "a tenth of a metre");
+  EXPECT_NEAR(other.costs.length_ratio.value, 10.0 * alone.costs.length_m.value, 1e-6);
+}
+
+TEST(ComparePlans, UnderAContractProvesLessAndNothingThatFlightsDeny) {
+  std::vector<ComparedPlan> plans = wide_and_narrow();
+  VehicleContract contract = VehicleContract::of(plans[0].plan.vehicle);
+  contract.command_error_m = 3.0;
+  contract.heading_error_rad = 0.02;
+  for (ComparedPlan& plan : plans) {
+    ContractVerifyOptions options;
+    options.samples = 20'000;
+    options.find_witnesses = false;
+    options.limits.time_limit_s = 60.0;
+    plan.contract =
+        verify_contract(plan.plan, plan.name, {}, contract, options, [](const std::string&) {
+        }).certificate;
+  }
+  const Comparison c = compared(plans);
+  ASSERT_TRUE(c.has_contract);
+  EXPECT_EQ(c.pairs.size(), 2U);
+  EXPECT_EQ(line(c, "contract_proved").name, "proved to reach the goal within the contract");
+  for (std::size_t k = 0; k < plans.size(); ++k) {
+    const auto evidence = nlohmann::json::parse(plans[k].contract->evidence_json);
+    const SampledValue& found =
+        c.measures[k].contract->all[static_cast<std::size_t>(Verdict::reach)];
+    EXPECT_NEAR(found.value, evidence["volume_fraction"]["reach"].get<double>(),
+                5.0 * found.standard_error + 5e-3);
+    EXPECT_LT(found.value, line(c, "proved").value[k].value);
+    EXPECT_GT(found.value, 0.3);
+    const ExactFlights flights(plans[k].plan);  // the exact vehicle keeps the contract
+    for (std::size_t i = 0; i < c.ground.states.size(); i += 5) {
+      if (c.verdicts[1][k][i] != Verdict::reach) continue;
+      EXPECT_EQ(flights.fly(c.ground.states[i]).outcome, Outcome::reach);
+    }
   }
 }
 
