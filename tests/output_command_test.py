@@ -77,6 +77,8 @@ class Output(unittest.TestCase):
                       ["simulate", "p", "--random", "10", "--csv", "-"],
                       ["simulate", "p", "--random", "10", "--geojson", "-"],
                       ["query", "c", *state], ["query", "c", *state, "--json"],
+                      ["compare", "p", "p", "--quick", "--states", "1000"],
+                      ["compare", "p", "p", "--quick", "--states", "1000", "--json"],
                       ["cell", "p", "--cell", "5,5"], ["cell", "p", "--cell", "5,5", "--json"],
                       steer, [*steer, "--json"], ["contract", "--airspeed", "20", "--turn-radius", "50"],
                       ["info", "map.pgm", "--resolution", "1"], ["init", "map.pgm", "--resolution", "1", "-o", "i", "--force"],

@@ -52,6 +52,8 @@ constexpr Command commands[] = {
      declare_steer, true},
     {"contract", "state what the vehicle keeps, from its numbers or its flight logs",
      declare_contract, true},
+    {"compare", "compare plans over all states: what each proves and what its flights cost",
+     declare_compare, true},
     {"view", "serve the interactive page of a run on this machine", declare_view, false},
     {"info", "describe a map (size, free and connected parts, clearance), a plan or a certificate",
      declare_info, true},

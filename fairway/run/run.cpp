@@ -19,6 +19,7 @@
 #include "fairway/run/failing_flights.hpp"
 #include "fairway/run/find_at_risk.hpp"
 #include "fairway/run/findings.hpp"
+#include "fairway/run/flight_costs.hpp"
 #include "fairway/run/flight_engine.hpp"
 #include "fairway/run/flight_summary.hpp"
 #include "fairway/run/improvement.hpp"
@@ -168,6 +169,9 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   const FlightEngine engine(plan);
   const ScenarioFlights flown = fly_scenario(scenario, plan, engine, clock, left.from_pictures());
   write_flights(flown, plan, scenario.file.string(), place);
+  constexpr std::size_t measured_strata =
+      1000;  // of two states each: a hundredth of a proof's time
+  const FlightCosts costs = costs_over_all_states(plan, measured_strata, scenario.simulate.seed);
 
   const Verified verified =
       verify_and_check(plan, scenario, region, flown, place, clock, left.from_pictures());
@@ -208,6 +212,7 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   result.summary["findings"] = findings_json(found);
   result.summary["warnings"] = result.warnings;
   add_flights(result.summary, flown, scenario.simulate.seed);
+  result.summary["measures"] = flight_costs_json(costs);
   result.summary["verify"] = json_of(verified);
   result.summary["products"] = product_digests(place);
   write_page(plan, mission, flown, verified, under_contract,
