@@ -46,7 +46,8 @@ ContractReply ContractQueries::proved(const State& state) const {
       contract_answer(certificate.grid, parts_->parts, certificate.verdicts,
                       certificate.least_speed_mps(), state.position_m, state.heading.rad());
   ContractReply reply;
-  reply.verdict = answer.verdict;
+  reply.verdict =
+      certificate.flow().told(answer.verdict, certificate.grid.cell_of(state.position_m));
   reply.follows =
       certificate.follow && !certificate.follow->hold && answer.verdict == Verdict::reach;
   reply.time_bound_s = answer.worst_time_s;
@@ -93,7 +94,7 @@ std::vector<ContractLayer> contract_layers(const ContractCertificate& certificat
     layer.heading = heading;
     for (const ContractReply& reply :
          ask(certificate, states_asked_at(certificate.grid, heading))) {
-      layer.code.push_back(reply.witness ? at_risk_code : static_cast<std::uint8_t>(reply.verdict));
+      layer.code.push_back(reply.code());
     }
   }
   return layers;

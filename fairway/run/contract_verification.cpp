@@ -110,6 +110,7 @@ ContractCertificate question(const Plan& plan, const RegionOfInterest& region,
   c.region_of_interest = region;
   c.heading_rad = plan.heading_rad;
   c.region = plan.region;
+  c.holding = holding_cells(plan);
   c.kind = cell_kinds(plan.grid, plan.region, region);
   c.plan = plan_digests(plan);
   c.frame = plan.record.frame;

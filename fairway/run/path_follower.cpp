@@ -75,11 +75,13 @@ RegionOfInterest region_of(const Plan& plan, const PathLocator& path) {
   return region;
 }
 
-/// Nothing is claimed where no way leads to the path: nobody who follows comes there.
+/// Of a path nothing is claimed where no way leads to it: nobody who follows comes there. Who is
+/// cut off from a goal may hold there.
 Parts parts_of(const Plan& plan, const std::vector<CellKind>& kind,
                const ContractCertificate& question) {
   const Flow flow{plan.grid, plan.vehicle, plan.heading_rad.data(), kind.data()};
   Parts parts(flow, over_ground(question.contract), question.parts_per_cell);
+  if (hold_of(plan) != nullptr) return parts;
   const std::vector<bool> usable = usable_cells(plan);
   for (std::size_t i = 0; i < usable.size(); ++i) {
     if (!usable[i]) parts.claim_nothing(plan.grid.cell_at(i));
