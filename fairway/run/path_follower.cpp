@@ -115,7 +115,7 @@ bool PathFollower::is_asked(const Plan& plan, const RegionOfInterest& region) {
 }
 
 PathFollower::PathFollower(const Plan& plan, const ContractCertificate& question,
-                           const std::function<bool()>& go_on)
+                           const InclusionLimits& limits)
     : path_(*line_of(plan)),
       kind_(cell_kinds(plan.grid, plan.region, region_of(plan, path_))),
       parts_(parts_of(plan, kind_, question)),
@@ -123,7 +123,7 @@ PathFollower::PathFollower(const Plan& plan, const ContractCertificate& question
       speed_mps_(over_ground(question.contract).speed_mps),
       prover_(parts_, tube_, [&] {
         FollowOptions options;
-        options.limits.go_on = go_on;
+        options.limits = limits;
         options.laps = hold_of(plan) == nullptr;
         return options;
       }()) {
@@ -135,17 +135,23 @@ bool PathFollower::find_core() {
   return found_.has_value();
 }
 
-bool PathFollower::join(const std::function<void(const InclusionLevel&)>& progress) {
-  return prover_.join(progress);
+bool PathFollower::join(const std::function<void(const InclusionLevel&)>& progress,
+                        const ContractVerdicts* earlier) {
+  return prover_.join(progress, earlier);
 }
 
-void PathFollower::fill(ContractCertificate& c) const {
+void PathFollower::fill_question(ContractCertificate& c) const {
   c.kind = kind_;
   c.region_of_interest.kind = RegionOfInterest::Kind::cells;
   c.region_of_interest.cells.assign(kind_.size(), 0);
   for (std::size_t i = 0; i < kind_.size(); ++i) {
     if (kind_[i] == CellKind::target) c.region_of_interest.cells[i] = 1;
   }
+  c.follow.emplace().path = path_.path();
+}
+
+void PathFollower::fill(ContractCertificate& c) const {
+  fill_question(c);
   auto [verdicts, proof] = prover_.proved(speed_mps_.least);
   c.verdicts = std::move(verdicts);
   c.follow = std::move(proof);
