@@ -64,7 +64,9 @@ class ContractQueries {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Reply [i] belongs to state [i].
+/// Reply [i] belongs to state [i]. Without a search no state is told to be at risk.
+[[nodiscard]] std::vector<ContractReply> ask(const ContractQueries& queries,
+                                             std::span<const State> states, bool search = true);
 [[nodiscard]] std::vector<ContractReply> ask(const ContractCertificate& certificate,
                                              std::span<const State> states);
 

@@ -162,19 +162,20 @@ void PathFollower::fill(ContractCertificate& c) const {
       HoldDisc{*goal_m_, rounding * (farthest_m(path_.path(), *goal_m_) + found_->tube_m)};
 }
 
-nlohmann::json following_json(const Following& f, const FollowProof& proof) {
+nlohmann::json following_json(const FollowProof& proof) {
+  const TubeStretch widest = widest_of(proof.tube);
   nlohmann::json profile = nlohmann::json::array();
   const double length_m = PathLocator(proof.path).length_m();
-  const double stretch_m = length_m / static_cast<double>(f.tube.size());
-  for (std::size_t k = 0; k < f.tube.size(); ++k) {
+  const double stretch_m = length_m / static_cast<double>(proof.tube.size());
+  for (std::size_t k = 0; k < proof.tube.size(); ++k) {
     profile.push_back({{"station_m", static_cast<double>(k) * stretch_m},
-                       {"distance_m", f.tube[k].distance_m},
-                       {"heading_rad", f.tube[k].off_rad}});
+                       {"distance_m", proof.tube[k].distance_m},
+                       {"heading_rad", proof.tube[k].off_rad}});
   }
-  nlohmann::json found = {{"tube_m", f.tube_m},
-                          {"tube_heading_rad", f.off_rad},
+  nlohmann::json found = {{"tube_m", widest.distance_m},
+                          {"tube_heading_rad", widest.off_rad},
                           {"length_m", length_m},
-                          {"lap_time_s", {f.lap_least_s, f.lap_most_s}},
+                          {"lap_time_s", {proof.stages.lap_least_s, proof.stages.lap_most_s}},
                           {"profile", std::move(profile)}};
   if (proof.hold) found["hold_radius_m"] = proof.hold->radius_m;
   return found;
@@ -188,17 +189,19 @@ std::string lap_words(const FollowProof& proof) {
                      most_s);
 }
 
-std::vector<Finding> findings(const Following& f, const FollowProof& proof) {
+std::vector<Finding> findings(const FollowProof& proof) {
   if (proof.hold) {
     return {{"", "",
              fmt::format("who reaches the goal is within {:g} m of it for ever",
                          rounded_up(proof.hold->radius_m, 3))}};
   }
+  const TubeStretch widest = widest_of(proof.tube);
   return {
       {"", "",
        fmt::format("who follows is within {:g} m of the path and heads within {:.0f} degrees "
                    "of it; {}",
-                   rounded_up(f.tube_m, 3), std::ceil(f.off_rad * 180.0 / pi), lap_words(proof))}};
+                   rounded_up(static_cast<double>(widest.distance_m), 3),
+                   std::ceil(static_cast<double>(widest.off_rad) * 180.0 / pi), lap_words(proof))}};
 }
 
 }  // namespace fairway

@@ -69,12 +69,12 @@ inline bool is_exact(const ContractCertificate& c) { return c.contract == nearly
 [[nodiscard]] std::vector<bool> usable_cells(const Plan& plan);
 
 /// The object "follow" of summary.json (docs/formats.md).
-[[nodiscard]] nlohmann::json following_json(const Following& found, const FollowProof& proof);
+[[nodiscard]] nlohmann::json following_json(const FollowProof& proof);
 
 /// "a lap takes 145 to 453 s", "it takes at most 20 s to its end": bounds, rounded outwards.
 [[nodiscard]] std::string lap_words(const FollowProof& proof);
 
 /// How near, and how fast round.
-[[nodiscard]] std::vector<Finding> findings(const Following& found, const FollowProof& proof);
+[[nodiscard]] std::vector<Finding> findings(const FollowProof& proof);
 
 }  // namespace fairway

@@ -161,7 +161,7 @@ std::optional<std::string> limit_warning(const ProvedUnderContract& proved) {
 }
 
 json json_of(const ProvedUnderContract& proved) {
-  json summary = contract_verification_json(proved.verification);
+  json summary = contract_verification_json(proved.verification.certificate);
   summary["checked"] = proved.checked;
   return summary;
 }
