@@ -13,11 +13,10 @@ namespace fairway_check {
 namespace {
 
 void take_arrays(const TensorFile& file, Certificate& c) {
-  const bool holds = file.tensors.contains("holding");
-  require(file.tensors.size() == (holds ? 10U : 9U), "does not have the arrays of a certificate",
-          unreadable);
+  require(file.tensors.size() == (file.tensors.contains("holding") ? 10U : 9U),
+          "does not have the arrays of a certificate", unreadable);
   take_plan_arrays(file, c.geometry, c.loop, c.region);
-  if (holds) require_holding(file, c.region);
+  c.holding = holding_of(file, c.region);
   require(c.geometry.cell_m < c.geometry.turn_radius_m,
           "geometry: the cells are not smaller than the turning radius");
   c.first = values<std::uint32_t>(file, "section_first", "U32", {4 * c.loop.kind.size() + 1});

@@ -14,6 +14,7 @@ namespace fairway_check {
 struct Certificate {
   Geometry geometry;
   std::vector<std::int8_t> region;    ///< [iy][ix]
+  std::vector<std::uint8_t> holding;  ///< [iy][ix], where trapped is called hold; or empty
   std::vector<std::uint32_t> first;   ///< [4 cells + 1]
   std::vector<std::uint32_t> begin;   ///< [leaves]
   std::vector<std::uint32_t> rank;    ///< [leaves]

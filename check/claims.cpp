@@ -17,8 +17,12 @@ namespace {
 enum Portion { all_cells, free_cells, buffer_cells };
 constexpr const char* portion_name[3]{"volume_fraction", "volume_fraction_free",
                                       "volume_fraction_buffer"};
-/// Shares of the volume by portion and verdict.
-using Shares = std::array<std::array<double, verdict_count>, 3>;
+/// What shares tell apart: verdicts, and `hold`, which is trapped by another name where the plan
+/// holds.
+constexpr std::size_t hold = verdict_count;
+constexpr std::size_t word_count = verdict_count + 1;
+/// Shares of the volume by portion and word.
+using Shares = std::array<std::array<double, word_count>, 3>;
 
 /// Too few for a meaningful share; no certificate is measured with fewer.
 constexpr double least_samples = 1000.0;
@@ -30,22 +34,23 @@ struct Claims {
 };
 
 /// Who reaches the core follows the path, or has reached the goal, where it stays.
-const char* name_in(const nlohmann::json& record, std::size_t verdict) {
+const char* name_in(const nlohmann::json& record, std::size_t word) {
+  if (word == hold) return "hold";
   const bool follows = record.contains("follow") && !record["follow"].contains("hold");
-  return verdict == reach && follows ? "follow" : verdict_name[verdict];
+  return word == reach && follows ? "follow" : verdict_name[word];
 }
 
 Claims claims_of(const nlohmann::json& record) {
   Claims claims{.samples = record.at("samples"), .worst_time_s = record.at("worst_time_s")};
   for (std::size_t p = 0; p < claims.shares.size(); ++p) {
     double sum = 0.0;
-    for (std::size_t v = 0; v < verdict_count; ++v) {
-      const nlohmann::json& named = record.at(portion_name[p]);
-      // `hold` is trapped by another name, in cells from which the mission is out of reach.
-      const double held = v == trapped ? named.value("hold", 0.0) : 0.0;
-      require(held >= 0.0, "volume_fraction: negative share");
-      sum += claims.shares[p][v] = named.at(name_in(record, v)).get<double>() + held;
-      require(claims.shares[p][v] >= 0.0, "volume_fraction: negative share");
+    const nlohmann::json& named = record.at(portion_name[p]);
+    for (std::size_t v = 0; v < word_count; ++v) {
+      // Only a plan that holds has a share that does.
+      const double share =
+          v == hold ? named.value("hold", 0.0) : named.at(name_in(record, v)).get<double>();
+      require(share >= 0.0, "volume_fraction: negative share");
+      sum += claims.shares[p][v] = share;
     }
     require(sum == 0.0 || std::abs(sum - 1.0) < 1e-9,
             "volume_fraction: the shares do not sum to 1");
@@ -63,8 +68,9 @@ struct Measured {
   double slower_than_claimed = 0.0;  // states that reach, with a bound above worst_time_s
 };
 
-Measured measure(const Loop& loop, const std::vector<std::int8_t>& region, std::size_t samples,
-                 double worst_time_s, const TellState& tell) {
+Measured measure(const ClaimedCells& of, std::size_t samples, double worst_time_s,
+                 const TellState& tell) {
+  const auto& [loop, region, holding] = of;
   std::vector<std::size_t> cells;
   for (std::size_t i = 0; i < loop.kind.size(); ++i) {
     if (loop.kind[i] == ordinary) cells.push_back(i);
@@ -77,10 +83,12 @@ Measured measure(const Loop& loop, const std::vector<std::int8_t>& region, std::
     const double x = unit() - 0.5;
     const double y = unit() - 0.5;
     const Told told = tell(cell, x, y, std::numbers::pi * (2.0 * unit() - 1.0));
+    const bool holds = told.verdict == trapped && !holding.empty() && holding[cell] != 0;
+    const std::size_t word = holds ? hold : static_cast<std::size_t>(told.verdict);
     m.slower_than_claimed += told.verdict == reach && told.worst_s > worst_time_s ? 1.0 : 0.0;
     for (const Portion portion : {all_cells, region[cell] == 0 ? free_cells : buffer_cells}) {
       m.states[portion] += 1.0;
-      m.shares[portion][told.verdict] += 1.0;
+      m.shares[portion][word] += 1.0;
     }
   }
   for (std::size_t p = 0; p < m.shares.size(); ++p) {
@@ -91,21 +99,21 @@ Measured measure(const Loop& loop, const std::vector<std::int8_t>& region, std::
 
 }  // namespace
 
-std::string defect_of_claims(const nlohmann::json& record, const Loop& loop,
-                             const std::vector<std::int8_t>& region, std::size_t samples,
-                             bool may_prove_more, const TellState& tell,
+std::string defect_of_claims(const nlohmann::json& record, const ClaimedCells& of,
+                             std::size_t samples, bool may_prove_more, const TellState& tell,
                              nlohmann::ordered_json& report) {
   const Claims claims = claims_of(record);
-  const Measured m = measure(loop, region, samples, claims.worst_time_s, tell);
+  const Measured m = measure(of, samples, claims.worst_time_s, tell);
   report["samples"] = m.states[all_cells];
-  for (std::size_t v = 0; v < verdict_count; ++v) {
+  for (std::size_t v = 0; v < word_count; ++v) {
+    if (v == hold && of.holding.empty()) continue;
     report["measured_fraction"][name_in(record, v)] = m.shares[all_cells][v];
   }
   for (std::size_t p = 0; p < m.shares.size(); ++p) {
     const double here = m.states[p];
     const double there = claims.samples * here / std::max(1.0, m.states[all_cells]);
     if (here < 100.0) continue;
-    for (std::size_t v = 0; v < verdict_count; ++v) {
+    for (std::size_t v = 0; v < word_count; ++v) {
       const double claimed = claims.shares[p][v];
       const double found = m.shares[p][v];
       const double both = (claimed * there + found * here) / (there + here);

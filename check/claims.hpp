@@ -1,6 +1,7 @@
 // Compares the volumes a certificate claims with sampled states. No verdict depends on this.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -17,6 +18,13 @@ struct Told {
   double worst_s;  ///< no state takes longer
 };
 
+/// The cells that shares are of.
+struct ClaimedCells {
+  const Loop& loop;
+  const std::vector<std::int8_t>& region;
+  const std::vector<std::uint8_t>& holding;
+};
+
 /// Of the state at (x, y), in cells from the centre of an ordinary cell.
 using TellState = std::function<Told(std::size_t cell, double x, double y, double heading_rad)>;
 
@@ -25,9 +33,8 @@ using TellState = std::function<Told(std::size_t cell, double x, double y, doubl
 /// findings go into `report`. Throws Defect 1, or nlohmann::json::exception, for impossible
 /// claims.
 /// `may_prove_more`: claims of less than is measured here are no defect.
-std::string defect_of_claims(const nlohmann::json& record, const Loop& loop,
-                             const std::vector<std::int8_t>& region, std::size_t samples,
-                             bool may_prove_more, const TellState& tell,
+std::string defect_of_claims(const nlohmann::json& record, const ClaimedCells& of,
+                             std::size_t samples, bool may_prove_more, const TellState& tell,
                              nlohmann::ordered_json& report);
 
 }  // namespace fairway_check

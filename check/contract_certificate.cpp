@@ -22,9 +22,11 @@ double almost_wild(const Contract& contract) {
 
 void take_arrays(const TensorFile& file, ContractCertificate& c) {
   const bool follows = file.record.contains("follow");
-  require(file.tensors.size() == (follows ? 17 : 10),
+  const std::size_t holding = file.tensors.contains("holding") ? 1 : 0;
+  require(file.tensors.size() == (follows ? 17U : 10U) + holding,
           "does not have the arrays of a contract certificate", unreadable);
   take_plan_arrays(file, c.geometry, c.loop, c.region);
+  c.holding = holding_of(file, c.region);
   const nlohmann::json& k = file.record.at("parts_per_cell");
   require(k.is_number_unsigned() && k >= 1U && k <= 16U, "parts_per_cell: expected 1 to 16");
   c.parts.per_cell = k.get<int>();

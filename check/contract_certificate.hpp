@@ -19,6 +19,7 @@ struct ContractCertificate {
   Geometry geometry{};
   Loop loop;                             ///< without radius and directions
   std::vector<std::int8_t> region;       ///< [iy][ix]
+  std::vector<std::uint8_t> holding;     ///< [iy][ix], where trapped is called hold; or empty
   std::vector<std::uint32_t> first;      ///< [4 parts + 1]: of section 4 part + side
   std::vector<std::uint32_t> begin;      ///< [leaves]
   std::vector<std::uint32_t> group;      ///< [leaves]

@@ -251,7 +251,7 @@ std::string judge_contract(const std::string& path, const std::string& plan, std
   if (wrong.empty() && c.follow) wrong = laps.defect(c);
   if (!wrong.empty() || !c.record.contains("volume_fraction")) return wrong;
   return defect_of_claims(
-      c.record, c.loop, c.region, samples, true,
+      c.record, {c.loop, c.region, c.holding}, samples, true,
       [&c](std::size_t cell, double x, double y, double heading_rad) {
         return told_of_state(c, cell, x, y, heading_rad);
       },

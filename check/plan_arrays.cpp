@@ -44,6 +44,20 @@ bool lies_within(double low, double cell_m, double from, double to, bool claimed
   return std::abs(least) > 0x1p-49 * (std::abs(low) + cell_m) ? least > 0.0 : claimed;
 }
 
+/// To hold is claimed where the plan's mission is out of reach, if the plan has holding places.
+void require_holding(const TensorFile& file, const TensorFile& plan) {
+  if (!file.tensors.contains("holding")) return;
+  const std::vector<std::uint64_t>& grid = file.tensors.at("region").shape;
+  const auto holding = values<std::uint8_t>(file, "holding", "U8", grid);
+  const auto cost = values<float>(plan, "cost_m", "F32", grid);
+  const auto region = values<std::int8_t>(plan, "region", "I8", grid);
+  bool same = plan.record.contains("holding_places") && !plan.record["holding_places"].empty();
+  for (std::size_t i = 0; i < holding.size(); ++i) {
+    same = same && holding[i] == (region[i] != 1 && !std::isfinite(cost[i]) ? 1 : 0);
+  }
+  require(same, "holding: is not where the plan holds");
+}
+
 }  // namespace
 
 void take_plan_arrays(const TensorFile& file, Geometry& geometry, Loop& loop,
@@ -63,12 +77,15 @@ void take_plan_arrays(const TensorFile& file, Geometry& geometry, Loop& loop,
   require_geometry(geometry);
 }
 
-void require_holding(const TensorFile& file, const std::vector<std::int8_t>& region) {
-  const auto holding = values<std::uint8_t>(file, "holding", "U8", file.tensors.at("region").shape);
+std::vector<std::uint8_t> holding_of(const TensorFile& file,
+                                     const std::vector<std::int8_t>& region) {
+  if (!file.tensors.contains("holding")) return {};
+  auto holding = values<std::uint8_t>(file, "holding", "U8", file.tensors.at("region").shape);
   for (std::size_t i = 0; i < holding.size(); ++i) {
     const bool may = region[i] == 0 || region[i] == -1;
     require(holding[i] <= (may ? 1 : 0), "holding: expected 0, or 1 in a free or a buffer cell");
   }
+  return holding;
 }
 
 void require_digests(const TensorFile& file) {
@@ -97,6 +114,7 @@ void require_plan(const TensorFile& file, const Geometry& g, const std::string& 
          p.at("vehicle").at("turn_radius_m") == g.turn_radius_m &&
          p.at("vehicle").at("speed_mps") == g.speed_mps;
   require(same, "is not the certificate of the plan " + plan_path);
+  require_holding(file, plan);
 }
 
 void require_cells(const Geometry& geometry, const Loop& loop,

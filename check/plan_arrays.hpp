@@ -45,11 +45,13 @@ void take_plan_arrays(const TensorFile& file, Geometry& geometry, Loop& loop,
 /// Digests of the arrays in the file.
 void require_digests(const TensorFile& file);
 
-/// Requires that it belongs to this plan: arrays, vehicle, grid and frame.
+/// Requires that it belongs to this plan: arrays, vehicle, grid and frame, and where it holds.
 void require_plan(const TensorFile& file, const Geometry& g, const std::string& plan_path);
 
-/// The array "holding", which only names what trapped states do.
-void require_holding(const TensorFile& file, const std::vector<std::int8_t>& region);
+/// The array "holding", which only names what trapped states do: they hold. Empty when there is
+/// none.
+std::vector<std::uint8_t> holding_of(const TensorFile& file,
+                                     const std::vector<std::int8_t>& region);
 
 /// Commands, regions and kinds that can be, targets where the record says. `interest`: "goal",
 /// "obstacle", a rectangle, or "cells": those that cell_kind calls targets.

@@ -129,7 +129,7 @@ std::string judge(const std::string& path, const std::string& plan, std::size_t 
   std::string wrong = defect_of_leaves(c, failing_leaves(c), why, report);
   if (!wrong.empty()) return wrong;
   return defect_of_claims(
-      c.record, c.loop, c.region, samples, false,
+      c.record, {c.loop, c.region, c.holding}, samples, false,
       [&c](std::size_t cell, double x, double y, double heading_rad) {
         return told_of_state(c, cell, x, y, heading_rad);
       },

@@ -105,7 +105,7 @@ struct ContractCertificate::Opened {
 Status ContractCertificate::Opened::take(const void* bytes, std::size_t size) {
   FileArrays arrays;
   if (const Status status = arrays.open(bytes, size); status != Status::ok) return status;
-  const int more = arrays.count() - arrays_in_file;
+  const int more = arrays.count() - arrays_in_file - (arrays.holds() ? 1 : 0);
   if ((more != 0 && more != arrays_to_follow) || arrays.find("group_heading_rad") == nullptr) {
     return Status::not_certificate;
   }
@@ -160,7 +160,7 @@ Answer ContractCertificate::query(double x_m, double y_m, double heading_rad) co
   try {
     const ContractAnswer found =
         opened_->cache->answer(opened_->flow.grid, {x_m, y_m}, heading_rad);
-    answer.verdict = found.verdict;
+    answer.verdict = opened_->flow.told(found.verdict, opened_->flow.grid.cell_of({x_m, y_m}));
     if (found.verdict == Verdict::reach) answer.time_bound_s = found.worst_time_s;
   } catch (const std::exception&) {  // no memory
   }

@@ -83,6 +83,8 @@ class FileArrays {
 
   int count() const noexcept { return header_.size(); }
   const HeaderEntry* find(const char* name) const noexcept { return header_.find(name); }
+  /// Whether it says where the plan holds: an array more.
+  bool holds() const noexcept { return find("holding") != nullptr; }
 
   /// An array's bytes; null when it is missing or not as expected.
   template <typename... Shape>
@@ -117,7 +119,11 @@ class FileArrays {
     for (std::size_t c = 0; c < flow.grid.size(); ++c) {
       if (static_cast<std::uint8_t>(flow.kind[c]) > 2) return Status::misfit;
     }
-    return Status::ok;
+    flow.holding = nullptr;
+    if (!holds()) return Status::ok;
+    const char* holding = place("holding", "U8", 1, ny, nx);
+    flow.holding = reinterpret_cast<const std::uint8_t*>(holding);
+    return holding != nullptr ? Status::ok : Status::misfit;
   }
 
  private:
@@ -135,8 +141,7 @@ class Certificate {
     FileArrays arrays;
     if (const Status status = arrays.open(bytes, size); status != Status::ok) return status;
     const HeaderEntry* verdict = arrays.find("leaf_verdict");
-    const bool holds = arrays.find("holding") != nullptr;
-    if (arrays.count() != (holds ? 10 : 9) || verdict == nullptr || verdict->sizes != 1) {
+    if (arrays.count() != (arrays.holds() ? 10 : 9) || verdict == nullptr || verdict->sizes != 1) {
       return Status::not_certificate;
     }
     if (const Status status = arrays.take_flow(flow_); status != Status::ok) return status;
@@ -152,11 +157,6 @@ class Certificate {
          {first, begin, time, verdicts, arrays.place("leaf_rank", "U32", 4, leaves),
           arrays.place("region", "I8", 1, ny, nx)}) {
       if (array == nullptr) return Status::misfit;
-    }
-    if (holds) {
-      const char* holding = arrays.place("holding", "U8", 1, ny, nx);
-      if (holding == nullptr) return Status::misfit;
-      flow_.holding = reinterpret_cast<const std::uint8_t*>(holding);
     }
     sections_.first = reinterpret_cast<const std::uint32_t*>(first);
     sections_.begin = reinterpret_cast<const std::uint32_t*>(begin);

@@ -13,6 +13,7 @@
 #include <pybind11/stl/filesystem.h>
 #include <nlohmann/json.hpp>
 
+#include "bind_grid.hpp"
 #include "bind_region.hpp"
 #include "binding.hpp"
 #include "fairway/bitmap/bitmap_file.hpp"
@@ -137,10 +138,12 @@ void bind_bitmap(py::module_& m) {
            "Not a verdict.",
            codes);
 
-  py::class_<HeldBitmap, std::shared_ptr<HeldBitmap>>(
+  py::class_<HeldBitmap, std::shared_ptr<HeldBitmap>> bitmap(
       m, "Bitmap",
       "Paper 2's backward reachable set of a plan, on samples of every border: a picture that can "
-      "be queried, not a proof. See docs/verification.md.")
+      "be queried, not a proof. See docs/verification.md.");
+  add_grid(bitmap, [](const HeldBitmap& held) { return held.bitmap.grid(); });
+  bitmap
       .def("query", &query, "states"_a,
            R"(Looks up states in the samples, in about a tenth of a microsecond each.
 
@@ -173,24 +176,6 @@ from east) and place (the middles of equal pieces, upwards or to the right): 1 r
           },
           "Its full record, a dict (docs/formats.md): the estimated share that reaches, "
           "options, digests of the plan.")
-      .def_property_readonly(
-          "shape",
-          [](const HeldBitmap& held) {
-            return py::make_tuple(held.bitmap.grid().ny, held.bitmap.grid().nx);
-          },
-          "(ny, nx).")
-      .def_property_readonly(
-          "cell_m", [](const HeldBitmap& held) { return held.bitmap.grid().cell_m; },
-          "Side of a cell, metres.")
-      .def_property_readonly(
-          "origin_m",
-          [](const HeldBitmap& held) {
-            return py::make_tuple(held.bitmap.grid().x0_m, held.bitmap.grid().y0_m);
-          },
-          "(x, y) of the lower left corner, metres.")
-      .def_property_readonly(
-          "extent_m", [](const HeldBitmap& held) { return extent_of(held.bitmap.grid()); },
-          "(x low, x high, y low, y high), metres: matplotlib's `extent`, with origin=\"lower\".")
       .def("picture", &picture, py::kw_only(), "headings"_a = ReachabilityMapOptions{}.headings,
            "title"_a = "",
            "A Picture with one panel for each of `headings` headings: paper 2's reachability map, "

@@ -15,8 +15,12 @@
 #include <pybind11/stl/filesystem.h>
 #include <nlohmann/json.hpp>
 
+#include "bind_grid.hpp"
 #include "binding.hpp"
+#include "fairway/base/file_kind.hpp"
+#include "fairway/base/mapped_file.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/certificate/contract_certificate_file.hpp"
 #include "fairway/exchange/plan_rasters.hpp"
 #include "fairway/report/draw_verdicts.hpp"
 #include "fairway/run/ask_certificate.hpp"
@@ -144,12 +148,20 @@ py::object check(const std::filesystem::path& path, const py::object& plan) {
 void bind_certificate(py::module_& m) {
   std::vector<std::pair<const char*, int>> codes;
   for (int v = 0; v < verdict_count; ++v) codes.emplace_back(name_of(static_cast<Verdict>(v)), v);
-  add_enum(m, "Verdict", "What is proved about a state, as returned by Certificate.query.", codes);
+  codes.emplace_back("at_risk", at_risk_code);
+  add_enum(m, "Verdict",
+           "What is proved about a state, as returned by Certificate.query. AT_RISK, of a "
+           "ContractCertificate alone: some behaviour within the contract fails, and is known.",
+           codes);
 
-  py::class_<HeldCertificate, std::shared_ptr<HeldCertificate>>(
+  py::class_<HeldCertificate, std::shared_ptr<HeldCertificate>> certificate(
       m, "Certificate",
       "What was proved about a plan: a verdict for every place and heading. docs/trust.md explains "
-      "why it can be trusted; fairway.check proves it again with a separate program.")
+      "why it can be trusted; fairway.check proves it again with a separate program.");
+  add_command(certificate);
+  add_degrees(certificate);
+  add_grid(certificate, [](const HeldCertificate& held) { return held.certificate.grid; });
+  certificate
       .def("query", &query, "states"_a,
            R"(Looks up the proved verdicts of states, in about a microsecond each.
 
@@ -157,26 +169,6 @@ states  float64 [n, 3]: x_m, y_m, heading_rad
 
 Returns (verdict int8 [n], time_bound_s float64 [n]): codes of Verdict; a bound in seconds
 for states that reach, else +inf.)")
-      .def(
-          "command",
-          [](const HeldCertificate& held, double x_m, double y_m, double heading_rad) {
-            const Certificate& c = held.certificate;
-            return tuple_of(
-                bang_bang(c.grid, c.vehicle, c.heading_rad.data(), x_m, y_m, heading_rad));
-          },
-          "x_m"_a, "y_m"_a, "heading_rad"_a, command_words)
-      .def(
-          "states_from_deg",
-          [](const HeldCertificate& held, const py::object& rows) {
-            return states_from_degrees(held.certificate.frame.value_or(Frame{}), rows);
-          },
-          "states_deg"_a, "As Plan.states_from_deg.")
-      .def(
-          "states_to_deg",
-          [](const HeldCertificate& held, const py::object& rows) {
-            return degrees_from_states(held.certificate.frame.value_or(Frame{}), rows);
-          },
-          "states"_a, "As Plan.states_to_deg.")
       .def("verdict_map", &verdict_map, "heading_rad"_a,
            R"(The verdict of a vehicle near every cell's middle, for one heading.
 
@@ -205,24 +197,6 @@ states last. Fly them with Plan.fly to see why they fail.)")
       .def_property_readonly(
           "leaves", [](const HeldCertificate& held) { return held.certificate.sections.leaves(); },
           "Number of leaves of the proof.")
-      .def_property_readonly(
-          "shape",
-          [](const HeldCertificate& held) {
-            return py::make_tuple(held.certificate.grid.ny, held.certificate.grid.nx);
-          },
-          "(ny, nx).")
-      .def_property_readonly(
-          "cell_m", [](const HeldCertificate& held) { return held.certificate.grid.cell_m; },
-          "Side of a cell, metres.")
-      .def_property_readonly(
-          "origin_m",
-          [](const HeldCertificate& held) {
-            return py::make_tuple(held.certificate.grid.x0_m, held.certificate.grid.y0_m);
-          },
-          "(x, y) of the lower left corner, metres.")
-      .def_property_readonly(
-          "extent_m", [](const HeldCertificate& held) { return extent_of(held.certificate.grid); },
-          "(x low, x high, y low, y high), metres: matplotlib's `extent`, with origin=\"lower\".")
       .def("picture", &picture, py::kw_only(), "headings"_a = VerdictMapOptions{}.headings,
            "title"_a = "",
            "A Picture of the verdicts, with one panel for each of `headings` headings.")
@@ -253,13 +227,23 @@ states last. Fly them with Plan.fly to see why they fail.)")
 
   m.def(
       "load_certificate",
-      [](const std::filesystem::path& path) {
-        const py::gil_scoped_release unlocked;
-        return std::make_shared<HeldCertificate>(HeldCertificate{read_certificate(path)});
+      [](const std::filesystem::path& path) -> py::object {
+        std::shared_ptr<HeldCertificate> exact;
+        std::shared_ptr<HeldContractCertificate> under_contract;
+        {
+          const py::gil_scoped_release unlocked;
+          if (kind_of_bytes(MappedFile(path).bytes()) == FileKind::contract_certificate) {
+            under_contract =
+                std::make_shared<HeldContractCertificate>(read_contract_certificate(path));
+          } else {
+            exact = std::make_shared<HeldCertificate>(HeldCertificate{read_certificate(path)});
+          }
+        }
+        return exact ? py::cast(exact) : py::cast(under_contract);
       },
       "path"_a,
-      "Reads a certificate file and checks its digests, not its proof; see check(). Raises "
-      "InputError (a ValueError).");
+      "Reads a certificate file of either kind and checks its digests, not its proof; see check(). "
+      "Returns a Certificate or a ContractCertificate. Raises InputError (a ValueError).");
 
   m.def("check", &check, "path"_a, "plan"_a = py::none(),
         R"(Proves a certificate file again with the separate program fairway-check.

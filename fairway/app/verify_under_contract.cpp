@@ -7,6 +7,7 @@
 #include "fairway/base/file_kind.hpp"
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/certificate/contract_certificate_file.hpp"
+#include "fairway/run/contract_asked.hpp"
 #include "fairway/run/contract_failure_pictures.hpp"
 #include "fairway/run/contract_failures.hpp"
 #include "fairway/run/contract_file.hpp"
@@ -52,54 +53,35 @@ void write_failures(const VerifyTask& task, const ContractCertificate& certifica
 
 std::optional<ContractAsked> contract_asked(const VerifyTask& task) {
   const VerifyArguments& a = task.arguments;
-  const Plan& plan = task.plan;
-  if (!a.method.empty() && a.method != "contract") {
-    if (a.method == "certified" && !a.resume.empty() &&
-        is_kind(a.resume, FileKind::contract_certificate)) {
+  ContractAsked asked;
+  if (!a.resume.empty() && is_kind(a.resume, FileKind::contract_certificate)) {
+    if (a.method == "certified") {
       throw InputError(a.resume.string(),
                        "is a contract certificate: to continue it, leave out --method certified");
     }
-    return std::nullopt;
+    asked.earlier = EarlierContractProof{read_contract_certificate(a.resume), a.resume.string()};
   }
-  std::optional<EarlierContractProof> earlier;
-  if (!a.resume.empty() && is_kind(a.resume, FileKind::contract_certificate)) {
-    earlier = EarlierContractProof{read_contract_certificate(a.resume), a.resume.string()};
-  }
-  // Without a method asked for, a path is followed, by the exact vehicle if there is no contract.
-  std::optional<VehicleContract> contract = a.method.empty() && a.resume.empty()
-                                                ? contract_to_prove(plan, task.region)
-                                                : plan.record.contract;
-  if (!a.contract.empty()) contract = read_contract(a.contract, plan.vehicle);
-  if (!contract && earlier) contract = earlier->certificate.contract;
-  if (!contract && a.method == "contract") {
-    throw InputError(a.plan.string(),
-                     "carries no contract: name one with --contract FILE.toml, or plan from a "
-                     "scenario with [vehicle.contract]");
-  }
+  ProofRequest request{a.method, {}, !a.resume.empty(), asked.earlier ? &*asked.earlier : nullptr};
+  if (!a.contract.empty()) request.contract = read_contract(a.contract, task.plan.vehicle);
+  const auto contract = fairway::contract_asked(task.plan, a.plan.string(), task.region, request);
   if (!contract) return std::nullopt;
-  if (!a.resume.empty() && !earlier) {
-    if (is_kind(a.resume, FileKind::certificate)) {
-      throw InputError(a.resume.string(),
-                       "is a certificate of the exact vehicle, which no proof under a contract "
-                       "can continue: add --method certified to continue it");
-    }
-    earlier = EarlierContractProof{read_contract_certificate(a.resume), a.resume.string()};
+  asked.contract = *contract;
+  if (a.resume.empty() || asked.earlier) return asked;
+  if (is_kind(a.resume, FileKind::certificate)) {
+    throw InputError(a.resume.string(),
+                     "is a certificate of the exact vehicle, which no proof under a contract "
+                     "can continue: add --method certified to continue it");
   }
-  return ContractAsked{*contract, std::move(earlier)};
+  asked.earlier = EarlierContractProof{read_contract_certificate(a.resume), a.resume.string()};
+  return asked;
 }
 
 VerifyOutcome verify_under_contract(const VerifyTask& task, const ContractAsked& asked) {
   const VerifyArguments& a = task.arguments;
-  std::optional<std::string> warning = contract_warning(task.plan, asked.contract);
-  if (warning && is_wild_everywhere(task.plan, asked.contract)) {
-    throw InputError(a.plan.string(), "nothing was proved: " + *warning);
-  }
-  ContractVerifyOptions options = options_of(a);
-  options.or_touch = asked.contract != nearly_exact(task.plan.vehicle);
-  const ContractVerification made = verify_contract(
-      task.plan, a.plan.string(), task.region, asked.contract, options,
+  const ContractVerification made = verify_asked(
+      task.plan, a.plan.string(), task.region, asked.contract, options_of(a),
       begin_verifying_contract(task.clock, a.limits), asked.earlier ? &*asked.earlier : nullptr);
-  if (made.no_tube && !options.or_touch) {  // what the exact prover can say
+  if (is_for_exact_verdicts(made)) {
     VerifyOutcome outcome = verify_exactly(task);
     outcome.findings.insert(outcome.findings.begin(), no_tube_finding());
     return outcome;
@@ -108,13 +90,17 @@ VerifyOutcome verify_under_contract(const VerifyTask& task, const ContractAsked&
   write_contract_certificate(made.certificate, a.output, task.session.existing());
   write_failures(task, made.certificate);
   task.clock.end();
-  VerifyOutcome outcome{
-      contract_verification_json(made), findings(task.plan, made), {}, contract_notes(made) + "\n"};
+  VerifyOutcome outcome{contract_verification_json(made.certificate),
+                        findings(task.plan, made),
+                        {},
+                        contract_notes(made) + "\n"};
   if (made.resumed) {
     outcome.summary["resumed"] = resumed_json(*made.resumed);
     outcome.notes += resumed_words(*made.resumed) + "\n";
   }
-  if (warning) outcome.warnings.push_back(std::move(*warning));
+  if (auto wide = contract_warning(task.plan, asked.contract)) {
+    outcome.warnings.push_back(std::move(*wide));
+  }
   if (auto limit = limit_warning(made)) outcome.warnings.push_back(std::move(*limit));
   return outcome;
 }

@@ -1,6 +1,5 @@
 #include "fairway/certificate/certificate_file.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -32,21 +31,6 @@ std::vector<Tensor> tensors_of(const Certificate& c, const Geometry& geometry) {
   return tensors;
 }
 
-/// Where the plan holds; a plan that holds nowhere leaves it out.
-void take_holding(const Safetensors& file, const std::string& where, Certificate& c) {
-  const auto is_it = [](const Tensor& tensor) { return tensor.name == "holding"; };
-  if (std::none_of(file.tensors.begin(), file.tensors.end(), is_it)) return;
-  const std::vector<std::uint64_t> cells{static_cast<std::uint64_t>(c.grid.ny),
-                                         static_cast<std::uint64_t>(c.grid.nx)};
-  c.holding = array_of<std::uint8_t>(file, "holding", "U8", cells, where);
-  for (std::size_t i = 0; i < c.holding.size(); ++i) {
-    const bool may = c.region[i] != Region::obstacle && c.region[i] != Region::goal;
-    if (c.holding[i] > (may ? 1 : 0)) {
-      throw InputError(where + ": \"holding\"", "expected 0, or 1 in a free or a buffer cell");
-    }
-  }
-}
-
 void take_sections(const Safetensors& file, const std::string& where, Certificate& c) {
   SectionVerdicts& s = c.sections;
   s.first = array_of<std::uint32_t>(file, "section_first", "U32", {4 * c.grid.size() + 1}, where);
@@ -69,9 +53,7 @@ Certificate certificate_of_bytes(std::span<const std::byte> bytes, const std::st
   take_plan_arrays(file, where, c);
   take_holding(file, where, c);
   take_sections(file, where, c);
-  const CertificateFormat format{this_format.name, this_format.method, this_format.noun,
-                                 this_format.arrays + (c.holding.empty() ? 0 : 1)};
-  take_record(file, format, where, std::move(record), {}, c);
+  take_record(file, this_format, where, std::move(record), {}, c);
   return c;
 }
 

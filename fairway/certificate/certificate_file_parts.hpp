@@ -3,6 +3,7 @@
 // certificate is a part of the other.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
@@ -83,6 +84,22 @@ void take_plan_arrays(const Safetensors& file, const std::string& where, Certifi
   c.kind = std::move(plan.kind);
 }
 
+/// Where the plan holds; a plan that holds nowhere leaves it out.
+template <typename Certificate>
+void take_holding(const Safetensors& file, const std::string& where, Certificate& c) {
+  const auto is_it = [](const Tensor& tensor) { return tensor.name == "holding"; };
+  if (std::none_of(file.tensors.begin(), file.tensors.end(), is_it)) return;
+  const std::vector<std::uint64_t> cells{static_cast<std::uint64_t>(c.grid.ny),
+                                         static_cast<std::uint64_t>(c.grid.nx)};
+  c.holding = array_of<std::uint8_t>(file, "holding", "U8", cells, where);
+  for (std::size_t i = 0; i < c.holding.size(); ++i) {
+    const bool may = c.region[i] != Region::obstacle && c.region[i] != Region::goal;
+    if (c.holding[i] > (may ? 1 : 0)) {
+      throw InputError(where + ": \"holding\"", "expected 0, or 1 in a free or a buffer cell");
+    }
+  }
+}
+
 /// The region of interest, the plan and the frame, once digests and cells are right; what is left
 /// of the record, without the keys of its own that `c` holds, is evidence.
 template <typename Certificate>
@@ -92,7 +109,8 @@ void take_record(const Safetensors& file, const CertificateFormat& format, const
   const std::string place = where + ": fairway";
   c.region_of_interest = region_of_interest_of(member(record, "region_of_interest", place), c.kind,
                                                place + ".region_of_interest");
-  if (file.tensors.size() != format.arrays + more_arrays) {
+  const std::size_t holding = c.holding.empty() ? 0 : 1;
+  if (file.tensors.size() != format.arrays + holding + more_arrays) {
     throw InputError(where, std::string("has arrays that do not belong in a ") + format.noun);
   }
   const nlohmann::json found = digests_of(file.tensors);

@@ -6,6 +6,7 @@
 // the plan's cells (parts()).
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +34,9 @@ struct ContractCertificate {
   std::vector<float> heading_rad;  ///< [iy][ix]
   std::vector<Region> region;      ///< [iy][ix]
   std::vector<CellKind> kind;      ///< [iy][ix]
+  /// [iy][ix], 1 out of the mission's reach, where the plan holds (holding_cells); empty: nowhere.
+  /// A state that is proved `trapped` is told to `hold` there.
+  std::vector<std::uint8_t> holding;
   ContractVerdicts verdicts;
   /// That a path is followed: verdict reach of a leaf then says that its behaviours join the core.
   std::optional<FollowProof> follow;
@@ -41,7 +45,10 @@ struct ContractCertificate {
   /// How it was found and its overall results, one JSON object.
   std::string evidence_json = "{}";
 
-  Flow flow() const { return {grid, vehicle, heading_rad.data(), kind.data()}; }
+  Flow flow() const {
+    return {grid, vehicle, heading_rad.data(), kind.data(),
+            holding.empty() ? nullptr : holding.data()};
+  }
   /// Of the motions over ground that include all that keeps the contract (over_ground). Nothing is
   /// claimed of who comes to the end of an open path without having joined it.
   Parts parts() const;

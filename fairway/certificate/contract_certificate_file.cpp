@@ -40,6 +40,7 @@ std::vector<Tensor> tensors_of(const ContractCertificate& c, const Geometry& geo
       cell_tensor(c, "region", "I8", c.region),
       cell_tensor(c, "cell_kind", "U8", c.kind),
       {"leaf_verdict", "U8", leaves, bytes_of(v.verdict)}};
+  if (!c.holding.empty()) tensors.push_back(cell_tensor(c, "holding", "U8", c.holding));
   if (c.follow) add_tensors(*c.follow, tensors);
   return tensors;
 }
@@ -92,6 +93,7 @@ ContractCertificate certificate_of_bytes(std::span<const std::byte> bytes,
   json record = record_of_file(file, this_format, where);
   ContractCertificate c;
   take_plan_arrays(file, where, c);
+  take_holding(file, where, c);
   take_contract(record, where + ": fairway", c);
   take_verdicts(file, where, c);
   if (record.contains("follow")) {

@@ -55,7 +55,7 @@ class Surveyor {
     const Vec2 place{(cell.ix + offset.x) * per_cell, (cell.iy + offset.y) * per_cell};
     const ContractAnswer answer =
         contract_answer(parts_, verdicts_, speed_mps_, place, heading_rad);
-    const auto verdict = static_cast<std::size_t>(answer.verdict);
+    const auto verdict = static_cast<std::size_t>(flow_.told(answer.verdict, cell));
     tally.usable[verdict] += counts.is_usable ? 1 : 0;
     if (!counts.of_all) return;
     ++(counts.is_free ? tally.free : tally.buffer)[verdict];

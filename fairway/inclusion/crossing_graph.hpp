@@ -121,8 +121,9 @@ class CrossingGraph {
     return leaves_of(link.section, link.lo, link.hi + 1U);
   }
 
-  /// Cuts fresh leaves where those of an earlier proof of the same parts begin, too
-  /// (earlier_leaves.cpp). A hint: nothing of what was proved of them is believed.
+  /// Cuts leaves that are not closed where those of an earlier proof of the same parts begin, too
+  /// (earlier_leaves.cpp); the pieces are fresh. A hint: nothing of what was proved of them is
+  /// believed.
   void begin_as(const ContractVerdicts& earlier);
   /// Flies all fresh leaves, for as long as `go_on` (asked by several threads at once) says so; the
   /// others stay fresh.

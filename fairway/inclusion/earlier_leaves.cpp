@@ -8,10 +8,10 @@ namespace fairway {
 
 void CrossingGraph::begin_as(const ContractVerdicts& earlier) {
   require(earlier.first.size() == first_.size(), "earlier leaves are of the same parts");
-  require(links_.bytes() == 0, "leaves are cut as earlier before they fly");
   constexpr std::uint64_t whole_side = 0x100000000U;
   constexpr auto unit = static_cast<std::uint32_t>(whole_side / side_units);
   std::vector<Leaf> leaf;
+  std::vector<LinkStore::Place> place;
   leaf.reserve(std::max(leaf_.size(), earlier.leaves()));
   for (std::size_t s = 0; s < sections(); ++s) {
     const Id begin = first_[s];
@@ -20,14 +20,17 @@ void CrossingGraph::begin_as(const ContractVerdicts& earlier) {
     std::size_t next = earlier.first[s];
     for (Id id = begin; id < end; ++id) {
       leaf.push_back(leaf_[id]);
-      if (leaf_[id].state == LeafState::idle) continue;
+      place.push_back(place_[id]);
+      const LeafState state = leaf_[id].state;
+      if (state == LeafState::idle || state == LeafState::closed) continue;
       const std::uint32_t until = id + 1 < end ? leaf_[id + 1].begin : side_units;
       for (; next < earlier.first[s + 1] && earlier.begin[next] / unit < until; ++next) {
         const std::uint32_t at = earlier.begin[next] / unit;
         if (at <= leaf.back().begin) continue;
-        Leaf rest = leaf_[id];
-        rest.begin = at;
-        leaf.push_back(rest);
+        leaf.back() = {.begin = leaf.back().begin};
+        place.back() = {};
+        leaf.push_back({.begin = at});
+        place.emplace_back();
       }
     }
     first_[s] = new_first;  // read no more: ends are taken before
@@ -35,7 +38,8 @@ void CrossingGraph::begin_as(const ContractVerdicts& earlier) {
   first_.back() = static_cast<Id>(leaf.size());
   require(leaf.size() < ~Id{0}, "a plan has fewer than 2^32 leaves");
   leaf_ = std::move(leaf);
-  place_.assign(leaf_.size(), {});
+  place_ = std::move(place);
+  links_.keep(place_);
 }
 
 }  // namespace fairway

@@ -27,6 +27,7 @@
 //      within off_rad of the path's tangents at the points nearest to the part's places.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -51,6 +52,15 @@ struct TubeStretch {
   float distance_m = 0.0F;  ///< from the path, at most
   float off_rad = 0.0F;     ///< from the tangent, at most
 };
+
+/// The largest distance and the largest angle.
+inline TubeStretch widest_of(const std::vector<TubeStretch>& tube) {
+  TubeStretch widest;
+  for (const TubeStretch& s : tube) {
+    widest = {std::max(widest.distance_m, s.distance_m), std::max(widest.off_rad, s.off_rad)};
+  }
+  return widest;
+}
 
 /// Of a goal mission that holds: the path is a circle there, and who follows it stays in this disc.
 /// It is all that is proved: there is one stage, without laps.

@@ -222,7 +222,8 @@ std::optional<Following> FollowProver::find_core(SizeRange speed_mps) {
   return found;
 }
 
-bool FollowProver::join(const std::function<void(const InclusionLevel&)>& progress) {
+bool FollowProver::join(const std::function<void(const InclusionLevel&)>& progress,
+                        const ContractVerdicts* earlier) {
   CrossingGraph start = graph_;
   for (Id id = 0; id < start.leaves(); ++id) {
     Leaf& leaf = start.leaf(id);
@@ -233,6 +234,7 @@ bool FollowProver::join(const std::function<void(const InclusionLevel&)>& progre
       leaf.gave_up = true;
     }
   }
+  if (earlier != nullptr) start.begin_as(*earlier);  // leaves of the core stay whole
   InclusionLimits limits = options_.limits;
   limits.flight.tube = nullptr;
   joining_parts_.emplace(parts_);

@@ -48,8 +48,10 @@ class FollowProver {
 
   /// None: no behaviour is proved to stay within the tube and to go round.
   std::optional<Following> find_core(SizeRange speed_mps);
-  /// After find_core has found one: false when a limit stopped it.
-  bool join(const std::function<void(const InclusionLevel&)>& progress);
+  /// After find_core has found one: false when a limit stopped it. `earlier`: a proof of the same
+  /// parts, to go on cutting where it ended; nothing of it is believed.
+  bool join(const std::function<void(const InclusionLevel&)>& progress,
+            const ContractVerdicts* earlier = nullptr);
 
   const InclusionProver& joining() const { return *joining_; }
   /// Of states that have not joined yet: nothing is claimed of those that come to the end of an

@@ -83,10 +83,10 @@ VehicleContract some_contract(Random& random, const Vehicle& vehicle) {
 }
 
 struct Proof {
-  Proof(const Lap& lap, const VehicleContract& contract)
+  Proof(const Lap& lap, const VehicleContract& contract, const FollowOptions& options = {})
       : parts(lap.flow(), contract, 2),
         tube(parts, lap.grid, lap.path, 40.0),
-        prover(parts, tube, {}),
+        prover(parts, tube, options),
         found(prover.find_core(contract.speed_mps)) {}
 
   Parts parts;
@@ -203,6 +203,49 @@ TEST(FollowProver, APathWithALoopBesideItselfIsNotSaidToBeGoneRound) {
     lap.path = PathLocator(path);
     lap.obey_path(60.0);
     EXPECT_FALSE(Proof(lap, VehicleContract::of(lap.vehicle)).found) << loop_m;
+  }
+}
+
+TEST(FollowProver, GoesOnFromAnEarlierProofWhereverThatWasInterrupted) {
+  Random random(17);
+  const Lap lap(random);
+  const VehicleContract contract = some_contract(random, lap.vehicle);
+  const double speed_mps = contract.speed_mps.least;
+  Proof whole(lap, contract);
+  ASSERT_TRUE(whole.found && whole.prover.join([](const InclusionLevel&) {}));
+  const auto decided = [](const ContractVerdicts& v) {
+    return std::count_if(v.verdict.begin(), v.verdict.end(), [](auto one) { return one != 0; });
+  };
+  const auto proved_whole = whole.prover.proved(speed_mps);
+  for (const int rounds : {1, 2, 4}) {
+    int round = 0;
+    FollowOptions options;
+    options.limits.go_on = [&] { return round < rounds; };
+    Proof part(lap, contract, options);
+    ASSERT_TRUE(part.found);
+    ASSERT_FALSE(part.prover.join([&](const InclusionLevel&) { ++round; }));
+    const auto earlier = part.prover.proved(speed_mps);
+    Proof on(lap, contract);
+    ASSERT_TRUE(on.found && on.prover.join([](const InclusionLevel&) {}, &earlier.verdicts));
+    const auto now = on.prover.proved(speed_mps);
+    EXPECT_LT(decided(earlier.verdicts), decided(proved_whole.verdicts));
+    EXPECT_GT(decided(now.verdicts), 95 * decided(proved_whole.verdicts) / 100);
+    // The core is that of every proof, and what joined it joins it again.
+    EXPECT_EQ(on.found->core, whole.found->core);
+    EXPECT_EQ(now.proof.tube.size(), proved_whole.proof.tube.size());
+    std::size_t core = 0;
+    for (const auto stage : now.proof.leaf_stage) core += stage != 0 ? 1 : 0;
+    EXPECT_EQ(core, whole.found->core);
+    for (std::size_t s = 0; s + 1 < earlier.verdicts.first.size(); ++s) {
+      for (std::size_t k = earlier.verdicts.first[s]; k < earlier.verdicts.first[s + 1]; ++k) {
+        if (earlier.verdicts.verdict[k] == 0) continue;
+        const auto at = std::upper_bound(now.verdicts.begin.begin() + now.verdicts.first[s],
+                                         now.verdicts.begin.begin() + now.verdicts.first[s + 1],
+                                         earlier.verdicts.begin[k]) -
+                        now.verdicts.begin.begin() - 1;
+        ASSERT_EQ(now.verdicts.verdict[static_cast<std::size_t>(at)], earlier.verdicts.verdict[k]);
+      }
+    }
   }
 }
 

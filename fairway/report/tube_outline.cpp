@@ -14,29 +14,31 @@ namespace {
 
 constexpr double most_across = 1500.0;
 
-/// How far within the tube places are.
+/// How far within the tube places are; of those farther from the path than `limit_m` only that they
+/// are outside.
 class Depth {
  public:
-  explicit Depth(const FollowProof& proof) : path_(proof.path), tube_(proof.tube) {}
+  Depth(const FollowProof& proof, double limit_m)
+      : path_(proof.path), tube_(proof.tube), limit_m_(limit_m) {}
 
   double at(Vec2 place_m) const {
-    const PathPoint nearest = path_.nearest(place_m);
-    const double share = nearest.along_m / path_.length_m();
+    const auto nearest = path_.nearest_within(place_m, limit_m_);
+    if (!nearest) return -limit_m_;
+    const double share = nearest->along_m / path_.length_m();
     const auto stretch = static_cast<std::size_t>(share * static_cast<double>(tube_.size()));
-    return tube_[std::min(stretch, tube_.size() - 1)].distance_m - nearest.distance_m;
+    return tube_[std::min(stretch, tube_.size() - 1)].distance_m - nearest->distance_m;
   }
 
  private:
   PathLocator path_;
   const std::vector<TubeStretch>& tube_;
+  double limit_m_;
 };
 
 }  // namespace
 
 double widest_m(const FollowProof& proof) {
-  float widest = 0.0F;
-  for (const TubeStretch& stretch : proof.tube) widest = std::max(widest, stretch.distance_m);
-  return static_cast<double>(widest);
+  return static_cast<double>(widest_of(proof.tube).distance_m);
 }
 
 std::vector<std::vector<Vec2>> tube_outline(const FollowProof& proof, double step_m) {
@@ -58,7 +60,7 @@ std::vector<std::vector<Vec2>> tube_outline(const FollowProof& proof, double ste
   const int nx = places(corner.x, high.x);
   const int ny = places(corner.y, high.y);
   const auto place_m = [&](Vec2 p) { return corner + step * p; };
-  const Depth depth(proof);
+  const Depth depth(proof, wide_m + 3.0 * step);  // lines pass between neighbours
   const auto width = static_cast<std::size_t>(nx);
   std::vector<float> value(width * static_cast<std::size_t>(ny));
   for_ranges(value.size(), 4096, [&](std::size_t begin, std::size_t end) {

@@ -46,7 +46,8 @@ ContractReply ContractQueries::proved(const State& state) const {
       contract_answer(certificate.grid, parts_->parts, certificate.verdicts,
                       certificate.least_speed_mps(), state.position_m, state.heading.rad());
   ContractReply reply;
-  reply.verdict = answer.verdict;
+  reply.verdict =
+      certificate.flow().told(answer.verdict, certificate.grid.cell_of(state.position_m));
   reply.follows =
       certificate.follow && !certificate.follow->hold && answer.verdict == Verdict::reach;
   reply.time_bound_s = answer.worst_time_s;
@@ -68,18 +69,22 @@ ExplainedBehaviour ContractQueries::explained(const BehaviourFlight& flight) con
 
 std::vector<ContractReply> ask(const ContractCertificate& certificate,
                                std::span<const State> states) {
-  const ContractQueries queries(certificate);
+  return ask(ContractQueries(certificate), states);
+}
+
+std::vector<ContractReply> ask(const ContractQueries& queries, std::span<const State> states,
+                               bool search) {
   std::vector<ContractReply> replies(states.size());
   for_ranges(states.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) replies[i] = queries.proved(states[i]);
   });
   const auto is_open = [](const ContractReply& r) { return r.verdict == Verdict::undecided; };
-  if (std::none_of(replies.begin(), replies.end(), is_open)) return replies;
+  if (!search || std::none_of(replies.begin(), replies.end(), is_open)) return replies;
   queries.prepare_searches();
   for_ranges(states.size(), 4, [&](std::size_t begin, std::size_t end) {
-    WitnessSearch search = queries.search();
+    WitnessSearch witnesses = queries.search();
     for (std::size_t i = begin; i < end; ++i) {
-      if (is_open(replies[i])) replies[i].witness = search.find(states[i]);
+      if (is_open(replies[i])) replies[i].witness = witnesses.find(states[i]);
     }
   });
   return replies;
@@ -93,7 +98,7 @@ std::vector<ContractLayer> contract_layers(const ContractCertificate& certificat
     layer.heading = heading;
     for (const ContractReply& reply :
          ask(certificate, states_asked_at(certificate.grid, heading))) {
-      layer.code.push_back(reply.witness ? at_risk_code : static_cast<std::uint8_t>(reply.verdict));
+      layer.code.push_back(reply.code());
     }
   }
   return layers;

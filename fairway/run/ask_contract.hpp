@@ -30,6 +30,10 @@ struct ContractReply {
   const char* word() const {
     return witness ? "at_risk" : name_of(follows ? Verdict::follow : verdict);
   }
+  /// The same as a number: that of the verdict, or at_risk_code.
+  std::uint8_t code() const {
+    return witness ? at_risk_code : static_cast<std::uint8_t>(follows ? Verdict::follow : verdict);
+  }
 };
 
 /// What questions about one certificate have in common, made once; what searches for witnesses
@@ -60,7 +64,9 @@ class ContractQueries {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Reply [i] belongs to state [i].
+/// Reply [i] belongs to state [i]. Without a search no state is told to be at risk.
+[[nodiscard]] std::vector<ContractReply> ask(const ContractQueries& queries,
+                                             std::span<const State> states, bool search = true);
 [[nodiscard]] std::vector<ContractReply> ask(const ContractCertificate& certificate,
                                              std::span<const State> states);
 

@@ -24,6 +24,7 @@ void count_verdicts(const ContractCertificate& certificate, std::uint64_t seed, 
   constexpr int states = 8;
   map.states_per_sample = states;
   const Grid& grid = certificate.grid;
+  const Flow flow = certificate.flow();
   const Parts parts = certificate.parts();
   const double per_cell = certificate.parts_per_cell;
   for_ranges(map.samples(), 4, [&](std::size_t begin, std::size_t end) {
@@ -37,7 +38,7 @@ void count_verdicts(const ContractCertificate& certificate, std::uint64_t seed, 
         const double heading_rad = -pi + two_pi * (k + random.unit()) / states;
         const ContractAnswer answer = contract_answer(
             parts, certificate.verdicts, certificate.least_speed_mps(), place, heading_rad);
-        ++map.count[i][static_cast<std::size_t>(answer.verdict)];
+        ++map.count[i][static_cast<std::size_t>(flow.told(answer.verdict, {cell.ix, cell.iy}))];
       }
     }
   });

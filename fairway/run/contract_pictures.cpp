@@ -52,9 +52,10 @@ VerdictMap contract_verdict_map(const ContractCertificate& certificate, int most
       const Vec2 place{(at_m.x - grid.x0_m) / parts.part_m(),
                        (at_m.y - grid.y0_m) / parts.part_m()};
       for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
-        map.verdict[h * map.samples() + i] =
+        map.verdict[h * map.samples() + i] = flow.told(
             contract_answer(parts, certificate.verdicts, speed_mps, place, map.heading_rad[h])
-                .verdict;
+                .verdict,
+            {cell.ix, cell.iy});
       }
     }
   });

@@ -69,6 +69,13 @@ bool is_all(const ContractVerdicts& v, std::size_t section, std::uint32_t begin,
 
 std::string difference(const ContractCertificate& earlier, const ContractCertificate& now) {
   if (std::string of_plan = plan_difference(earlier, now); !of_plan.empty()) return of_plan;
+  if (earlier.follow.has_value() != now.follow.has_value()) {
+    return earlier.follow ? "proves that a path is followed, which is not asked now"
+                          : "does not prove that the path is followed, as is asked now";
+  }
+  if (earlier.follow && earlier.follow->path.vertices_m != now.follow->path.vertices_m) {
+    return "is of following another line";
+  }
   if (earlier.kind != now.kind) return "is about another region of interest (--region)";
   if (earlier.contract != now.contract) {
     return "is of another contract: " + contract_difference(earlier.contract, now.contract);

@@ -6,6 +6,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/run/contract_verification.hpp"
+#include "fairway/verify/testing/plans_along_paths.hpp"
 #include "fairway/verify/testing/plans_to_verify.hpp"
 
 namespace fairway {
@@ -76,6 +77,32 @@ TEST(ContractResume, ProvesAllAgainAndSaysSo) {
     ASSERT_TRUE(made.resumed);
     EXPECT_EQ(made.resumed->dropped, 0U);
     EXPECT_EQ(made.resumed->from, "earlier");
+  }
+}
+
+TEST(ContractResume, AProofOfFollowingGoesOnAsSuch) {
+  const auto followed = [](const Plan& plan, const EarlierContractProof* earlier) {
+    ContractVerifyOptions options;
+    options.samples = 1000;
+    options.find_witnesses = false;
+    return verify_contract(
+        plan, "the plan", {}, contract_to_follow(), options, [](const std::string&) {}, earlier);
+  };
+  for (const bool closed : {true, false}) {
+    Plan plan =
+        closed ? plan_along(ellipse_to_follow(), 32, 30) : plan_along(line_to_follow(), 30, 15);
+    EarlierContractProof earlier{followed(plan, nullptr).certificate, "earlier"};
+    ASSERT_TRUE(earlier.certificate.follow);
+    const ContractVerification made = followed(plan, &earlier);
+    ASSERT_TRUE(made.resumed && made.following);
+    EXPECT_GT(made.resumed->decided, 1000U);
+    EXPECT_EQ(made.resumed->dropped, 0U);
+    EXPECT_EQ(made.certificate.follow->leaf_stage.size(), made.certificate.verdicts.leaves());
+    earlier.certificate.follow->path.vertices_m[1].x += 0.5;
+    EXPECT_NE(difference(earlier.certificate, made.certificate).find("another line"),
+              std::string::npos);
+    std::get<PathMission>(*plan.record.mission).accept = PathAccept::touch;
+    EXPECT_THROW(static_cast<void>(followed(plan, &earlier)), InputError);
   }
 }
 

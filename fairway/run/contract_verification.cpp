@@ -110,6 +110,7 @@ ContractCertificate question(const Plan& plan, const RegionOfInterest& region,
   c.region_of_interest = region;
   c.heading_rad = plan.heading_rad;
   c.region = plan.region;
+  c.holding = holding_cells(plan);
   c.kind = cell_kinds(plan.grid, plan.region, region);
   c.plan = plan_digests(plan);
   c.frame = plan.record.frame;
@@ -160,7 +161,6 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
   c = question(plan, region, contract, parts_asked);
   if (PathFollower::is_asked(plan, region) && parts_asked == 0)
     c.parts_per_cell = parts_to_follow(plan);
-  if (earlier != nullptr) require_same_proof(*earlier, c);
   // Where most states are undecided, a search in each takes too long.
   const bool search = options.find_witnesses && wild_share(plan, contract) <= most_wild_unwarned;
 
@@ -171,6 +171,8 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
   limits.memory_bytes =
       static_cast<std::size_t>(options.limits.memory_limit_mb.value_or(0.0) * 1e6);
   limits.go_on = [&] { return watch.is_within(search ? share_of_the_proof * limit_s : limit_s); };
+  const ContractVerdicts* earlier_verdicts =
+      earlier != nullptr ? &earlier->certificate.verdicts : nullptr;
   if (earlier != nullptr) {
     // One finer than before, down to the finest that leaves are cut to.
     constexpr int finest = std::bit_width(side_units) - 1;
@@ -191,27 +193,41 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
     progress("measuring shares of states");
     measure(plan, parts, prover, options, undecided, made);
   };
-  if (PathFollower::is_asked(plan, region) && earlier == nullptr) {
+  // An earlier proof that a path is touched goes on as such.
+  std::optional<PathFollower> follower;
+  if (PathFollower::is_asked(plan, region) && (earlier == nullptr || earlier->certificate.follow)) {
+    follower.emplace(plan, c, limits);
+  }
+  if (earlier != nullptr) {
+    ContractCertificate now = c;
+    if (follower) follower->fill_question(now);
+    require_same_proof(*earlier, now);
+  }
+  if (follower) {
     progress("proving that the path is followed");
-    PathFollower follower(plan, c, limits.go_on);
-    made.no_tube = !follower.find_core();
+    made.no_tube = !follower->find_core();
     if (!made.no_tube) {
-      made.stopped_by_limit = !follower.join(note);
-      follower.fill(c);
-      made.following = follower.found();
-      survey_with(follower.parts(), follower.prover());
+      made.stopped_by_limit = !follower->join(note, earlier_verdicts);
+      follower->fill(c);
+      made.following = follower->found();
+      survey_with(follower->parts(), follower->prover());
     }
+  }
+  if (made.no_tube && earlier != nullptr) {
+    throw InputError(earlier->where,
+                     "its tube was not proved again within the limit of time; cannot resume from "
+                     "it");
   }
   if (made.no_tube && !options.or_touch) return made;
   if (!made.following) {
     const Parts parts = c.parts();
     InclusionProver prover(parts, limits);
-    if (earlier != nullptr) prover.start_from(earlier->certificate.verdicts);
+    if (earlier_verdicts != nullptr) prover.start_from(*earlier_verdicts);
     made.stopped_by_limit = !prover.run(note);
     c.verdicts = prover.verdicts(c.least_speed_mps());
-    if (earlier != nullptr) made.resumed = taken_over(*earlier, c.verdicts, in_time);
     survey_with(parts, prover);
   }
+  if (earlier != nullptr) made.resumed = taken_over(*earlier, c.verdicts, in_time);
   if (search) {
     progress("searching for behaviours that fail");
     const std::vector<State> states = undecided.in_random_order(options.seed);

@@ -65,7 +65,7 @@ struct ContractVerification {
 [[nodiscard]] int usual_parts_per_cell(const VehicleContract& contract, double cell_m);
 
 /// summary.json of verify, under a contract (docs/formats.md).
-[[nodiscard]] nlohmann::json contract_verification_json(const ContractVerification& made);
+[[nodiscard]] nlohmann::json contract_verification_json(const ContractCertificate& certificate);
 
 /// The first line says how many of all states reach, whatever the vehicle does within the contract.
 [[nodiscard]] std::vector<Finding> findings(const Plan& plan, const ContractVerification& made);

@@ -36,13 +36,12 @@ const char* reason_of(Trouble why) {
   return "some behaviours may end otherwise than others";
 }
 
-json contract_verification_json(const ContractVerification& made) {
-  const ContractCertificate& c = made.certificate;
+json contract_verification_json(const ContractCertificate& c) {
   json summary = json::parse(record_text(c));
   summary["method"] = "contract";
   summary["cells"] = {c.grid.nx, c.grid.ny};
   summary["leaves"] = c.verdicts.leaves();
-  if (made.following) summary["follow"] = following_json(*made.following, *c.follow);
+  if (c.follow) summary["follow"] = following_json(*c.follow);
   return summary;
 }
 
@@ -89,7 +88,7 @@ std::vector<Finding> findings(const Plan& plan, const ContractVerification& made
     const double usable = share_of(s.usable, Verdict::reach);
     found.push_back({percent_text(usable, decimals_of_sample(s.usable_samples)),
                      "states that the mission can use", proved});
-    for (Finding& finding : findings(*made.following, *made.certificate.follow)) {
+    for (Finding& finding : findings(*made.certificate.follow)) {
       found.push_back(std::move(finding));
     }
   }

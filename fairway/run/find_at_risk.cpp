@@ -23,6 +23,21 @@ std::vector<std::size_t> shuffled(std::vector<std::size_t> states) {
   return states;
 }
 
+/// Whether some part of the cell has leaves.
+bool claims_something(const ContractCertificate& c, Cell cell) {
+  if (!c.follow) return true;
+  const int k = c.parts_per_cell;
+  for (int iy = cell.iy * k; iy < (cell.iy + 1) * k; ++iy) {
+    for (int ix = cell.ix * k; ix < (cell.ix + 1) * k; ++ix) {
+      const std::size_t part =
+          static_cast<std::size_t>(iy) * static_cast<std::size_t>(c.grid.nx * k) +
+          static_cast<std::size_t>(ix);
+      if (c.verdicts.first[4 * part] < c.verdicts.first[4 * part + 4]) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 PageWitnesses find_at_risk(const ContractCertificate& certificate, const VerdictMap& map,
@@ -32,7 +47,8 @@ PageWitnesses find_at_risk(const ContractCertificate& certificate, const Verdict
   std::vector<std::size_t> open;
   for (std::size_t k = 0; k < map.verdict.size(); ++k) {
     const bool is_state = map.kind[k % map.samples()] == CellKind::ordinary;
-    if (is_state && map.verdict[k] == Verdict::undecided) open.push_back(k);
+    if (!is_state || map.verdict[k] != Verdict::undecided) continue;
+    if (claims_something(certificate, map.cell_of_sample(k % map.samples()))) open.push_back(k);
   }
   if (open.empty()) return found;
   if (open.size() > options.most_searches) {

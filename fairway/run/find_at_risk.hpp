@@ -15,7 +15,8 @@ struct AtRiskOptions {
   std::size_t longest_steps = 2000;  ///< of one that is kept
 };
 
-/// Searches in every undecided state of `map`, as a query does. Where that is more than the options
+/// Searches in every undecided state of `map`, as a query does; of a path, where a way leads to it:
+/// elsewhere nothing is claimed. Where that is more than the options
 /// allow, in states spread evenly over them; and so are the witnesses that are kept. Depends on the
 /// arguments alone.
 [[nodiscard]] PageWitnesses find_at_risk(const ContractCertificate& certificate,

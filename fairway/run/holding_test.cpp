@@ -11,16 +11,24 @@
 #include "fairway/base/heading.hpp"
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/base/random.hpp"
+#include "fairway/behaviour/behaviour_choices.hpp"
+#include "fairway/behaviour/behaviour_pilot.hpp"
 #include "fairway/certificate/certificate_file.hpp"
+#include "fairway/certificate/contract_certificate_file.hpp"
+#include "fairway/contract_runtime.hpp"
 #include "fairway/field/compute_field.hpp"
 #include "fairway/field/holding_circle.hpp"
 #include "fairway/plan/plan_of_field.hpp"
 #include "fairway/run/ask_certificate.hpp"
+#include "fairway/run/ask_contract.hpp"
+#include "fairway/run/contract_verification.hpp"
 #include "fairway/run/verification.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 
 namespace fairway {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr Vehicle vehicle{10.0, 20.0};
 
@@ -55,8 +63,7 @@ State random_state(Random& random, const Grid& grid, Cell low, Cell high) {
 /// The file tells what the certificate tells.
 void expect_same_on_board(const Certificate& certificate, const std::vector<State>& states,
                           const std::vector<runtime::Answer>& told) {
-  const std::filesystem::path file =
-      std::filesystem::path(::testing::TempDir()) / "holding.cert.safetensors";
+  const fs::path file = fs::path(::testing::TempDir()) / "holding.cert.safetensors";
   write_certificate(certificate, file, Existing::replace);
   EXPECT_EQ(read_certificate(file).holding, certificate.holding);
   const MappedFile mapped(file);
@@ -117,6 +124,58 @@ TEST(Holding, ProvedStatesCircleForEverInTheHoldingPlaceAndOthersAreNotToldTo) {
     EXPECT_EQ(without.outcome.volume.all[static_cast<std::size_t>(Verdict::hold)], 0.0);
     EXPECT_TRUE(without.certificate.holding.empty());
   }
+}
+
+TEST(Holding, UnderAContractWhoIsTrappedWhereThePlanHoldsHolds) {
+  constexpr double cell_m = 8.0;
+  constexpr int side = 15;
+  const ObstacleMap map = two_rooms(side, cell_m);
+  const GoalMission mission{map.grid.center({22, side + 24}), {}};
+  VehicleContract contract = VehicleContract::of(vehicle);
+  contract.command_error_m = 1.0;
+  contract.heading_error_rad = 0.01;
+  contract.turn_radius_m = {19.5, 20.5};
+  ContractVerifyOptions options;
+  options.samples = 20000;
+  options.find_witnesses = false;
+  const auto verdict_share = [&](const Plan& plan, Verdict verdict) {
+    const auto made = verify_contract(plan, "plan", {}, contract, options, [](const auto&) {});
+    return made.survey.shares.all[static_cast<std::size_t>(verdict)];
+  };
+  const Plan plan = plan_of(map, mission, FallbackRule::hold);
+  EXPECT_GT(verdict_share(plan, Verdict::hold), 0.02);
+  EXPECT_EQ(verdict_share(plan, Verdict::trapped), 0.0);
+  EXPECT_EQ(verdict_share(plan_of(map, mission, FallbackRule::none), Verdict::hold), 0.0);
+
+  const ContractCertificate certificate =
+      verify_contract(plan, "plan", {}, contract, options, [](const auto&) {}).certificate;
+  const fs::path file = fs::path(::testing::TempDir()) / "holding.contract.safetensors";
+  write_contract_certificate(certificate, file, Existing::replace);
+  EXPECT_EQ(read_contract_certificate(file).holding, certificate.holding);
+  const MappedFile mapped(file);
+  runtime::ContractCertificate on_board;
+  ASSERT_EQ(on_board.open(mapped.bytes().data(), mapped.bytes().size()), runtime::Status::ok);
+
+  // No behaviour from a state that is told to hold ever meets an end.
+  const ContractQueries queries(certificate);
+  const BehaviourChoices choices(certificate.flow(), contract);
+  const BehaviourPilot pilot(choices);
+  Random random(7);
+  int holding = 0;
+  for (int k = 0; k < 200; ++k) {
+    const State start = random_state(random, plan.grid, {1, 1}, {side + 1, side + 1});
+    const Verdict told = queries.proved(start).verdict;
+    ASSERT_NE(told, Verdict::trapped);
+    const auto aboard =
+        on_board.query(start.position_m.x, start.position_m.y, start.heading.rad()).verdict;
+    ASSERT_TRUE(aboard == told || aboard == Verdict::undecided);
+    if (told != Verdict::hold) continue;
+    ++holding;
+    for (const Adversary adversary : {Adversary::random, Adversary::greedy, Adversary::circling}) {
+      ASSERT_EQ(pilot.fly(start, adversary, random.bits()).outcome, Outcome::trapped);
+    }
+  }
+  EXPECT_GT(holding, 100);
 }
 
 TEST(Holding, WhoReachedAGoalToHoldAtStaysNearItForEver) {

@@ -75,11 +75,13 @@ RegionOfInterest region_of(const Plan& plan, const PathLocator& path) {
   return region;
 }
 
-/// Nothing is claimed where no way leads to the path: nobody who follows comes there.
+/// Of a path nothing is claimed where no way leads to it: nobody who follows comes there. Who is
+/// cut off from a goal may hold there.
 Parts parts_of(const Plan& plan, const std::vector<CellKind>& kind,
                const ContractCertificate& question) {
   const Flow flow{plan.grid, plan.vehicle, plan.heading_rad.data(), kind.data()};
   Parts parts(flow, over_ground(question.contract), question.parts_per_cell);
+  if (hold_of(plan) != nullptr) return parts;
   const std::vector<bool> usable = usable_cells(plan);
   for (std::size_t i = 0; i < usable.size(); ++i) {
     if (!usable[i]) parts.claim_nothing(plan.grid.cell_at(i));
@@ -113,7 +115,7 @@ bool PathFollower::is_asked(const Plan& plan, const RegionOfInterest& region) {
 }
 
 PathFollower::PathFollower(const Plan& plan, const ContractCertificate& question,
-                           const std::function<bool()>& go_on)
+                           const InclusionLimits& limits)
     : path_(*line_of(plan)),
       kind_(cell_kinds(plan.grid, plan.region, region_of(plan, path_))),
       parts_(parts_of(plan, kind_, question)),
@@ -121,7 +123,7 @@ PathFollower::PathFollower(const Plan& plan, const ContractCertificate& question
       speed_mps_(over_ground(question.contract).speed_mps),
       prover_(parts_, tube_, [&] {
         FollowOptions options;
-        options.limits.go_on = go_on;
+        options.limits = limits;
         options.laps = hold_of(plan) == nullptr;
         return options;
       }()) {
@@ -133,17 +135,23 @@ bool PathFollower::find_core() {
   return found_.has_value();
 }
 
-bool PathFollower::join(const std::function<void(const InclusionLevel&)>& progress) {
-  return prover_.join(progress);
+bool PathFollower::join(const std::function<void(const InclusionLevel&)>& progress,
+                        const ContractVerdicts* earlier) {
+  return prover_.join(progress, earlier);
 }
 
-void PathFollower::fill(ContractCertificate& c) const {
+void PathFollower::fill_question(ContractCertificate& c) const {
   c.kind = kind_;
   c.region_of_interest.kind = RegionOfInterest::Kind::cells;
   c.region_of_interest.cells.assign(kind_.size(), 0);
   for (std::size_t i = 0; i < kind_.size(); ++i) {
     if (kind_[i] == CellKind::target) c.region_of_interest.cells[i] = 1;
   }
+  c.follow.emplace().path = path_.path();
+}
+
+void PathFollower::fill(ContractCertificate& c) const {
+  fill_question(c);
   auto [verdicts, proof] = prover_.proved(speed_mps_.least);
   c.verdicts = std::move(verdicts);
   c.follow = std::move(proof);
@@ -154,19 +162,20 @@ void PathFollower::fill(ContractCertificate& c) const {
       HoldDisc{*goal_m_, rounding * (farthest_m(path_.path(), *goal_m_) + found_->tube_m)};
 }
 
-nlohmann::json following_json(const Following& f, const FollowProof& proof) {
+nlohmann::json following_json(const FollowProof& proof) {
+  const TubeStretch widest = widest_of(proof.tube);
   nlohmann::json profile = nlohmann::json::array();
   const double length_m = PathLocator(proof.path).length_m();
-  const double stretch_m = length_m / static_cast<double>(f.tube.size());
-  for (std::size_t k = 0; k < f.tube.size(); ++k) {
+  const double stretch_m = length_m / static_cast<double>(proof.tube.size());
+  for (std::size_t k = 0; k < proof.tube.size(); ++k) {
     profile.push_back({{"station_m", static_cast<double>(k) * stretch_m},
-                       {"distance_m", f.tube[k].distance_m},
-                       {"heading_rad", f.tube[k].off_rad}});
+                       {"distance_m", proof.tube[k].distance_m},
+                       {"heading_rad", proof.tube[k].off_rad}});
   }
-  nlohmann::json found = {{"tube_m", f.tube_m},
-                          {"tube_heading_rad", f.off_rad},
+  nlohmann::json found = {{"tube_m", widest.distance_m},
+                          {"tube_heading_rad", widest.off_rad},
                           {"length_m", length_m},
-                          {"lap_time_s", {f.lap_least_s, f.lap_most_s}},
+                          {"lap_time_s", {proof.stages.lap_least_s, proof.stages.lap_most_s}},
                           {"profile", std::move(profile)}};
   if (proof.hold) found["hold_radius_m"] = proof.hold->radius_m;
   return found;
@@ -180,17 +189,19 @@ std::string lap_words(const FollowProof& proof) {
                      most_s);
 }
 
-std::vector<Finding> findings(const Following& f, const FollowProof& proof) {
+std::vector<Finding> findings(const FollowProof& proof) {
   if (proof.hold) {
     return {{"", "",
              fmt::format("who reaches the goal is within {:g} m of it for ever",
                          rounded_up(proof.hold->radius_m, 3))}};
   }
+  const TubeStretch widest = widest_of(proof.tube);
   return {
       {"", "",
        fmt::format("who follows is within {:g} m of the path and heads within {:.0f} degrees "
                    "of it; {}",
-                   rounded_up(f.tube_m, 3), std::ceil(f.off_rad * 180.0 / pi), lap_words(proof))}};
+                   rounded_up(static_cast<double>(widest.distance_m), 3),
+                   std::ceil(static_cast<double>(widest.off_rad) * 180.0 / pi), lap_words(proof))}};
 }
 
 }  // namespace fairway

@@ -25,18 +25,21 @@ class PathFollower {
 
   /// `question`: of nothing yet (contract_certificate.hpp).
   PathFollower(const Plan& plan, const ContractCertificate& question,
-               const std::function<bool()>& go_on);
+               const InclusionLimits& limits);
   PathFollower(const PathFollower&) = delete;
   PathFollower& operator=(const PathFollower&) = delete;
 
   /// False: no tube can be proved that is never left.
   bool find_core();
-  /// False: a limit stopped it.
-  bool join(const std::function<void(const InclusionLevel&)>& progress);
+  /// False: a limit stopped it. `earlier`: FollowProver::join.
+  bool join(const std::function<void(const InclusionLevel&)>& progress,
+            const ContractVerdicts* earlier = nullptr);
 
   const Following& found() const { return *found_; }
   const Parts& parts() const { return prover_.joining_parts(); }
   const InclusionProver& prover() const { return prover_.joining(); }
+  /// What the certificate is about: the line, and the cells that end flights.
+  void fill_question(ContractCertificate& certificate) const;
   /// Makes it a certificate of following.
   void fill(ContractCertificate& certificate) const;
 
@@ -66,12 +69,12 @@ inline bool is_exact(const ContractCertificate& c) { return c.contract == nearly
 [[nodiscard]] std::vector<bool> usable_cells(const Plan& plan);
 
 /// The object "follow" of summary.json (docs/formats.md).
-[[nodiscard]] nlohmann::json following_json(const Following& found, const FollowProof& proof);
+[[nodiscard]] nlohmann::json following_json(const FollowProof& proof);
 
 /// "a lap takes 145 to 453 s", "it takes at most 20 s to its end": bounds, rounded outwards.
 [[nodiscard]] std::string lap_words(const FollowProof& proof);
 
 /// How near, and how fast round.
-[[nodiscard]] std::vector<Finding> findings(const Following& found, const FollowProof& proof);
+[[nodiscard]] std::vector<Finding> findings(const FollowProof& proof);
 
 }  // namespace fairway

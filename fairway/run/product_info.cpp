@@ -67,14 +67,13 @@ class Description {
                               : fmt::format("the cells wholly inside {} m", asked.dump()));
   }
   void follow(const FollowProof& proof) {
-    float tube_m = 0.0F;
-    for (const TubeStretch& s : proof.tube) tube_m = std::max(tube_m, s.distance_m);
     if (proof.hold) {
       line("to hold at", fmt::format("({:g}, {:g}), within {:g} m for ever", proof.hold->goal_m.x,
                                      proof.hold->goal_m.y, rounded_up(proof.hold->radius_m, 3)));
       info_.report["hold_radius_m"] = proof.hold->radius_m;
       return;
     }
+    const float tube_m = widest_of(proof.tube).distance_m;
     line("to be followed",
          fmt::format("a{} path, within {:g} m; {}", proof.path.closed ? " closed" : "n open",
                      rounded_up(static_cast<double>(tube_m), 3), lap_words(proof)));

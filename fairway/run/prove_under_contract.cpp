@@ -108,6 +108,9 @@ std::vector<Finding> findings(const Plan& plan, const ProvedUnderContract& prove
        : made.following ? "are proved to join the path and to follow it"
                         : proved_to_reach(goal_of(plan, proved))) +
           within);
+  if (const double holding = share_of(s.all, Verdict::hold); holding > 0.0) {
+    add(holding, "are proved to hold" + (exact ? "" : "," + within));
+  }
   double failing = 0.0;
   for (const Verdict verdict : verdicts_in_order) {
     if (fails(verdict)) failing += share_of(s.all, verdict);
@@ -158,7 +161,7 @@ std::optional<std::string> limit_warning(const ProvedUnderContract& proved) {
 }
 
 json json_of(const ProvedUnderContract& proved) {
-  json summary = contract_verification_json(proved.verification);
+  json summary = contract_verification_json(proved.verification.certificate);
   summary["checked"] = proved.checked;
   return summary;
 }

@@ -17,12 +17,12 @@
 namespace fairway {
 namespace {
 
-/// Every cell up to 512 across, and headings 5 degrees apart; on the largest plans 10 degrees,
+/// Every cell up to 512 across, and headings 5 degrees apart; on the largest plans 15 degrees,
 /// so that sampling takes seconds (a microsecond a state and core) and the page stays small.
 VerdictMapOptions sampling_of(const Grid& grid) {
   VerdictMapOptions options;
   options.most_across = 512;
-  options.headings = std::max(grid.nx, grid.ny) <= 512 ? 72 : 36;
+  options.headings = page_headings(grid);
   options.states_per_sample = 0;
   return options;
 }
@@ -53,6 +53,8 @@ std::vector<PageFlights> flights_of(const std::vector<FailingFlights>& failing,
 }
 
 }  // namespace
+
+int page_headings(const Grid& grid) { return std::max(grid.nx, grid.ny) <= 512 ? 72 : 24; }
 
 std::string write_report_page(const Plan& plan, const Mission& mission,
                               const ScenarioFlights& flown, const ReportPage& page,

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "fairway/base/grid.hpp"
 #include "fairway/certificate/certificate.hpp"
 #include "fairway/inclusion/follow_proof.hpp"
 #include "fairway/plan/plan.hpp"
@@ -30,6 +31,9 @@ struct ReportPage {
   const FollowProof* follow = nullptr;            ///< that contract_verdicts are of following
   bool exact_contract = false;                    ///< page.hpp
 };
+
+/// At how many headings the page has the exact vehicle's verdicts; it has others at some of these.
+[[nodiscard]] int page_headings(const Grid& grid);
 
 /// Writes `folder`/report.html. Empty when it did; else why this build has no page, one sentence
 /// without its full stop, and nothing is written.

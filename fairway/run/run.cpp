@@ -189,9 +189,8 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   std::optional<PageWitnesses> witnesses;
   if (under_contract) {
     clock.begin("sampling verdicts under the contract", left.page_s);
-    constexpr int most_headings = 72;  // those of the exact vehicle on the page
     const ContractVerification& made = under_contract->verification;
-    contract_map = contract_verdict_map(made.certificate, most_headings);
+    contract_map = contract_verdict_map(made.certificate, page_headings(plan.grid));
     if (made.searched) witnesses = find_at_risk(made.certificate, *contract_map);
     write_contract_pictures(*contract_map, witnesses ? &witnesses->at_risk : nullptr, title, place);
   }

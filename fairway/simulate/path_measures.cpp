@@ -42,13 +42,14 @@ PathFollowing PathMeter::measure(const Flight& flight, PathSpreads* spreads) con
   const bool closed = locator_.path().closed;
   const double length_m = locator_.length_m();
   std::size_t steps = 0;
+  std::size_t piece = 0;  // from one step to the next it changes little
   std::size_t on_path = 0;
   double progress_m = 0.0;
   double last_along_m = 0.0;
   in_even_steps(flight, speed_mps_, step_s_, [&](double time_s, const State& state) {
-    const bool is_on = locator_.on_path(state);
+    const PathPoint nearest = locator_.nearest(state.position_m, piece);
+    const bool is_on = locator_.on_path(state, piece);
     if (!is_on && steps == 0) return true;
-    const PathPoint nearest = locator_.nearest(state.position_m);
     if (steps > 0 && !closed && nearest.along_m >= length_m) return false;
     if (steps == 0) {
       found.joined_s = time_s;

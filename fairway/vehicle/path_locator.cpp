@@ -44,21 +44,22 @@ PathLocator::Box PathLocator::box_over(std::size_t node, std::size_t first, std:
   return boxes_[node] = box;
 }
 
+void PathLocator::look(Vec2 point, std::size_t piece, Found& found) const {
+  const PathPiece& at = pieces_[piece];
+  const double t_m = std::clamp(dot(point - at.from, at.tangent()), 0.0, at.length_m);
+  const Vec2 q = at.at(t_m);
+  const double distance_m = norm(point - q);
+  const PathPoint& best = found.nearest;
+  if (distance_m < best.distance_m || (distance_m == best.distance_m && piece < found.piece)) {
+    found = {{q, Heading::of(at.to - at.from), distance_m, before_m_[piece] + t_m}, piece};
+  }
+}
+
 /// Of the pieces [first, last). Of equally near ones the first, as nearest_on_path has it; boxes
 /// are given a rounding's slack, so that none of them is passed over.
 void PathLocator::search(Vec2 point, std::size_t node, std::size_t first, std::size_t last,
                          Found& found) const {
-  if (last - first == 1) {
-    const PathPiece& piece = pieces_[first];
-    const double t_m = std::clamp(dot(point - piece.from, piece.tangent()), 0.0, piece.length_m);
-    const Vec2 q = piece.at(t_m);
-    const double distance_m = norm(point - q);
-    const PathPoint& best = found.nearest;
-    if (distance_m < best.distance_m || (distance_m == best.distance_m && first < found.piece)) {
-      found = {{q, Heading::of(piece.to - piece.from), distance_m, before_m_[first] + t_m}, first};
-    }
-    return;
-  }
+  if (last - first == 1) return look(point, first, found);
   const auto away_m = [&](std::size_t child) {
     const Box& box = boxes_[child];
     const double dx = outside(point.x, box.low.x, box.high.x);
@@ -90,6 +91,24 @@ PathLocator::Found PathLocator::find(Vec2 point_m) const {
 }
 
 PathPoint PathLocator::nearest(Vec2 point_m) const { return find(point_m).nearest; }
+
+PathPoint PathLocator::nearest(Vec2 point_m, std::size_t& piece) const {
+  Found found{{}, piece};
+  found.nearest.distance_m = std::numeric_limits<double>::infinity();
+  if (pieces_.empty()) return found.nearest;
+  look(point_m, piece, found);
+  search(point_m, 0, 0, pieces_.size(), found);
+  piece = found.piece;
+  return found.nearest;
+}
+
+std::optional<PathPoint> PathLocator::nearest_within(Vec2 point_m, double limit_m) const {
+  Found found{{}, pieces_.size()};
+  found.nearest.distance_m = limit_m;
+  if (!pieces_.empty()) search(point_m, 0, 0, pieces_.size(), found);
+  if (found.piece == pieces_.size()) return {};
+  return found.nearest;
+}
 
 /// The nearest point is a vertex, or an open end.
 PathFrame PathLocator::frame_at_vertex(Vec2 point_m, const Found& found) const {
@@ -150,6 +169,10 @@ bool PathLocator::any_on(const State& state, std::size_t node, std::size_t first
   if (last - first == 1) return on_piece(state, pieces_[first], path_);
   const std::size_t middle = first + (last - first) / 2;
   return any_on(state, 2 * node + 1, first, middle) || any_on(state, 2 * node + 2, middle, last);
+}
+
+bool PathLocator::on_path(const State& state, std::size_t piece) const {
+  return (piece < pieces_.size() && on_piece(state, pieces_[piece], path_)) || on_path(state);
 }
 
 bool PathLocator::on_path(const State& state) const {

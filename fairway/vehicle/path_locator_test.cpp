@@ -28,6 +28,7 @@ TEST(PathLocator, AnswersAsPieceByPiece) {
   for (int i = 0; i < 300; ++i) {
     const PathMission path = random_path(random, 1 + random.below(i % 10 == 0 ? 300 : 12));
     const PathLocator locator(path);
+    std::size_t guess = random.below(locator.size());  // of the point before
     for (int k = 0; k < 60; ++k) {
       State s{{random.uniform(-10.0, 60.0), random.uniform(-10.0, 60.0)},
               Heading::from_rad(random.uniform(-pi, pi))};
@@ -38,6 +39,17 @@ TEST(PathLocator, AnswersAsPieceByPiece) {
       ASSERT_EQ(found.along_m, expected.along_m);
       ASSERT_EQ(found.tangent.rad(), expected.tangent.rad());
       ASSERT_EQ(locator.on_path(s), on_path(s, path));
+      ASSERT_EQ(locator.on_path(s, guess), on_path(s, path));
+      const PathPoint guessed = locator.nearest(s.position_m, guess);
+      ASSERT_LT(guess, locator.size());
+      ASSERT_EQ(guessed.along_m, expected.along_m);
+      ASSERT_EQ(guessed.tangent.rad(), expected.tangent.rad());
+      const double limit_m = expected.distance_m + random.uniform(-1.0, 1.0);
+      const auto within = locator.nearest_within(s.position_m, limit_m);
+      ASSERT_EQ(within.has_value(), expected.distance_m <= limit_m);
+      if (within.has_value()) {
+        ASSERT_EQ(within->along_m, expected.along_m);
+      }
     }
     double length_m = 0.0;
     for_pieces(path, [&](const PathPiece& piece) { length_m += piece.length_m; });
