@@ -24,7 +24,7 @@ struct Ceiling {
   Vehicle vehicle;
   /// Bins of headings: bin k holds those from k to k + 1 times 2 pi / headings.
   int headings = 0;
-  int nodes_per_cell = 0;      ///< along a cell's side
+  int nodes_per_cell = 0;     ///< along a cell's side
   std::vector<float> inside;  ///< share of a cell and bin that some control brings to the mission
   std::vector<float> lost;    ///< share of a cell and bin that none does
   CeilingShare all;           ///< of all states of cells that are neither obstacle nor mission

@@ -66,7 +66,8 @@ class Level {
     const StepStencils steps = steps_of_constant_turns(l_);
     ClaimRounds rounds{l_, steps, false, {}, open_, {}, {}};
     rounds.claims.assign(l_.size(), 0);
-    if (coarse_ != nullptr) add_coarse_claims(*coarse_, coarse_->inside_after_step, l_, rounds.claims);
+    if (coarse_ != nullptr)
+      add_coarse_claims(*coarse_, coarse_->inside_after_step, l_, rounds.claims);
     rounds.least.resize(open_.size());
     rounds.most.resize(open_.size());
     for_open(rounds, [&](std::size_t i, std::uint32_t tile) {
@@ -89,8 +90,8 @@ class Level {
         if (!on_lattice(y, x)) return;
         const StandingClaims::Inside s = standing_.inside(k, y, x);
         const std::size_t at = l_.at(k, y, x);
-        level.inside[at] = std::max({level.inside[at], s.goal, std::min(s.ahead, after[q]),
-                                     rounds.claims[at]});
+        level.inside[at] =
+            std::max({level.inside[at], s.goal, std::min(s.ahead, after[q]), rounds.claims[at]});
       });
     });
     level.inside_after_step = std::move(rounds.claims);
@@ -100,7 +101,8 @@ class Level {
     const StepStencils steps = steps_of_every_control(l_);
     ClaimRounds rounds{l_, steps, true, {}, open_, {}, {}};
     rounds.claims.assign(l_.size(), 0);
-    if (coarse_ != nullptr) add_coarse_claims(*coarse_, coarse_->lost_after_step, l_, rounds.claims);
+    if (coarse_ != nullptr)
+      add_coarse_claims(*coarse_, coarse_->lost_after_step, l_, rounds.claims);
     claim_margin(rounds.claims);
     rounds.least.resize(open_.size());
     rounds.most.resize(open_.size());

@@ -16,7 +16,7 @@ namespace fairway {
 struct CeilingCells {
   int nx = 0;
   int ny = 0;
-  double side = 1.0;                    ///< turn radii
+  double side = 1.0;                   ///< turn radii
   std::vector<std::uint8_t> obstacle;  ///< [iy][ix]
   std::vector<std::uint8_t> goal;      ///< [iy][ix]
 

@@ -87,7 +87,8 @@ struct Widening {
 };
 
 /// One ring.
-FAIRWAY_WIDE_WHERE_POSSIBLE void widen_once(Window& w, Window& scratch, Radius covers, Radius gains) {
+FAIRWAY_WIDE_WHERE_POSSIBLE void widen_once(Window& w, Window& scratch, Radius covers,
+                                            Radius gains) {
   constexpr int size = Window::rows * Window::columns;
   static_assert(size % lanes == 0);
   // The least of three along rows, then along columns.
@@ -154,7 +155,8 @@ class Settling {
     const TilePlace p = place_of(l_, tile);
     const auto& reach = r_.steps.reach[static_cast<std::size_t>(p.k)];
     const int left = std::max(0, p.x0 + reach.left) / tile_columns;
-    const int right = std::min(l_.tiles_x - 1, (p.x0 + tile_columns - 1 + reach.right) / tile_columns);
+    const int right =
+        std::min(l_.tiles_x - 1, (p.x0 + tile_columns - 1 + reach.right) / tile_columns);
     const int low = std::max(0, p.y0 + reach.down) / tile_rows;
     const int high = std::min(l_.tiles_y - 1, (p.y0 + tile_rows - 1 + reach.up) / tile_rows);
     for (int d = -l_.turn_bins; d <= l_.turn_bins; ++d) {
@@ -228,7 +230,8 @@ class Settling {
                   &first_[l_.at(p.k, p.y0 + row - Window::low, p.x0 - Window::left)],
                   Window::columns * sizeof(Radius));
     }
-    for (int ring = 0; ring < rings; ++ring) widen_once(w, scratch, widening_.covers, widening_.gains);
+    for (int ring = 0; ring < rings; ++ring)
+      widen_once(w, scratch, widening_.covers, widening_.gains);
     bool changed = false;
     for (int row = 0; row < tile_rows; ++row) {
       const Radius* wide = w.values + (row + Window::low) * Window::columns + Window::left;

@@ -4,8 +4,8 @@
 //   - some control (rising): a claim is made of states from which one constant turn leads to states
 //     that are claimed already. It begins with what is certain and may stop at any time.
 //   - every control (falling): everything is claimed that is not refuted, and a claim falls where
-//     some control may lead to states that are not claimed. What is left once nothing falls any more
-//     supports itself; before that it is worth nothing.
+//     some control may lead to states that are not claimed. What is left once nothing falls any
+//     more supports itself; before that it is worth nothing.
 #pragma once
 
 #include <array>

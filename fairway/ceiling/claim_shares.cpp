@@ -12,7 +12,8 @@ namespace {
 constexpr int around = 2;  // nodes whose claims are looked up
 constexpr int width = 2 * around + 1;
 
-/// The distances, in units rounded up, from the nodes about a node to the four places of its square.
+/// The distances, in units rounded up, from the nodes about a node to the four places of its
+/// square.
 class Places {
  public:
   explicit Places(const BallLattice& l)
@@ -21,8 +22,7 @@ class Places {
       const double x = place % 2 == 0 ? -0.25 : 0.25;
       const double y = place / 2 == 0 ? -0.25 : 0.25;
       for (int q = 0; q < width * width; ++q) {
-        const double away =
-            std::hypot(q % width - around - x, q / width - around - y) * l.spacing;
+        const double away = std::hypot(q % width - around - x, q / width - around - y) * l.spacing;
         away_[static_cast<std::size_t>(place)][static_cast<std::size_t>(q)] =
             static_cast<int>(std::ceil((away + 1e-9) * units_per_turn_radius));
       }

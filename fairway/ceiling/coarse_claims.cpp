@@ -29,7 +29,8 @@ void add_coarse_claims(const CeilingLevel& coarse, const std::vector<Radius>& cl
         for (int q = 0; q < 16; ++q) {
           const double dx = (cx + q % 4 + 0.5) * c.spacing - (x + 0.5) * l.spacing;
           const double dy = (cy + q / 4 + 0.5) * c.spacing - (y + 0.5) * l.spacing;
-          loses[q] = static_cast<int>(std::ceil((std::hypot(dx, dy) + 1e-9) * units_per_turn_radius));
+          loses[q] =
+              static_cast<int>(std::ceil((std::hypot(dx, dy) + 1e-9) * units_per_turn_radius));
         }
         for (int k = 0; k < c.headings; ++k) {
           int best = 0;
@@ -55,8 +56,8 @@ std::vector<std::uint32_t> open_tiles(const BallLattice& l, const CeilingCells& 
     for (int iy = 0; iy < l.cells_y; ++iy) {
       for (int ix = 0; ix < l.cells_x; ++ix) {
         const std::size_t bin = c.cell_bin(coarse_bin, iy, ix);
-        const std::size_t cell = bin % (static_cast<std::size_t>(l.cells_x) *
-                                        static_cast<std::size_t>(l.cells_y));
+        const std::size_t cell =
+            bin % (static_cast<std::size_t>(l.cells_x) * static_cast<std::size_t>(l.cells_y));
         if (coarse->closed[bin] != 0 || !cells.ordinary(cell)) continue;
         // With what lies a few nodes about it.
         const int low = std::max(0, iy * l.per_cell - tile_rows / 2) / tile_rows;

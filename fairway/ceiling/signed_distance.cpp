@@ -84,8 +84,8 @@ class RowDistances {
 
 Radius in_units(float square) {
   const double limit = farthest_distance * units_per_turn_radius;
-  return static_cast<Radius>(std::lround(std::min(limit, std::sqrt(static_cast<double>(square)) *
-                                                             units_per_turn_radius)));
+  return static_cast<Radius>(
+      std::lround(std::min(limit, std::sqrt(static_cast<double>(square)) * units_per_turn_radius)));
 }
 
 }  // namespace
@@ -114,8 +114,8 @@ SignedDistance signed_distance(const BallLattice& lattice, const std::vector<std
       inside.squares(row - d.margin, to_rest);
       Radius* out = &d.values[static_cast<std::size_t>(row) * to_set.size()];
       for (std::size_t i = 0; i < to_set.size(); ++i) {
-        out[i] = to_set[i] > 0.0F ? in_units(to_set[i])
-                                  : static_cast<Radius>(-in_units(to_rest[i]));
+        out[i] =
+            to_set[i] > 0.0F ? in_units(to_set[i]) : static_cast<Radius>(-in_units(to_rest[i]));
       }
     }
   });

@@ -13,8 +13,9 @@ namespace fairway {
 inline constexpr double farthest_distance = 2.0;
 
 /// Positive outside the set, negative inside it, in units, within one unit of the truth as long as
-/// it is nearer than `farthest_distance`. Fine places are numbered from 0 at the lower left place of
-/// the lattice; `fine` of them, an odd number, lie along each node's square, so that one is the node.
+/// it is nearer than `farthest_distance`. Fine places are numbered from 0 at the lower left place
+/// of the lattice; `fine` of them, an odd number, lie along each node's square, so that one is the
+/// node.
 struct SignedDistance {
   int fine = 1;
   double spacing = 0.0;

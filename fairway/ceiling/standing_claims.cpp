@@ -97,9 +97,11 @@ StandingClaims::Inside StandingClaims::inside(int k, int y, int x) const {
   const int half_step = static_cast<int>(std::ceil(0.5 * l_.step * units_per_turn_radius));
   int ahead = *obstacle - half_step - rounding;
   int around = ahead;
-  // Wide claims need not be sharp.
-  if (ahead < units_per_turn_radius / 2) {
-    ahead = around = widest_claim;
+  // Wide claims need not be sharp; sharp ones stay below them, so that more obstacles never mean
+  // more.
+  constexpr int wide = units_per_turn_radius * 3 / 4;
+  if (ahead < wide) {
+    ahead = around = wide;
     for (const FlownBy& f : flown_[static_cast<std::size_t>(k)]) {
       if (f.time > 0.5 * l_.step + 1e-9) break;
       const int here = kept(obstacles_, obstacle, f, 1) - between_;

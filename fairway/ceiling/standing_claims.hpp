@@ -24,9 +24,9 @@ class StandingClaims {
 
   /// For the claim "cannot reach the mission".
   struct Lost {
-    Radius always = 0;  ///< in an obstacle
-    Radius ahead = 0;   ///< every flight hits an obstacle within half a step, and no goal before
-    Radius behind = 0;  ///< every flight that got here hit one within half a step before
+    Radius always = 0;   ///< in an obstacle
+    Radius ahead = 0;    ///< every flight hits an obstacle within half a step, and no goal before
+    Radius behind = 0;   ///< every flight that got here hit one within half a step before
     Radius no_goal = 0;  ///< no flight meets the goal within a step
   };
   [[nodiscard]] Lost lost(int k, int y, int x) const;

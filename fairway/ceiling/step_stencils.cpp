@@ -33,8 +33,8 @@ Polygon corners(const std::vector<double>& support) {
     const double p = support[i];
     const double q = support[(i + 1) % n];
     const double area = std::sin(b - a);
-    found.push_back({(p * std::sin(b) - q * std::sin(a)) / area,
-                     (q * std::cos(a) - p * std::cos(b)) / area});
+    found.push_back(
+        {(p * std::sin(b) - q * std::sin(a)) / area, (q * std::cos(a) - p * std::cos(b)) / area});
   }
   return found;
 }
