@@ -103,6 +103,7 @@ class Inputs(Files):
                       ("verify", "p", "-o", "d", "--summary", "p"), ("verify", "p", "-o", "d", "--failures", "p"),
                       ("verify", "p", "-o", "c", "--resume", "c"),
                       ("verify", "p", "-o", "d", "--pictures", "pictures"),
+                      ("ceiling", "p", "-o", "p"), ("ceiling", "p", "--picture", "p.svg"),
                       ("draw", "p", "-o", "p.svg"), ("plan", "s.toml", "-o", "q", "--picture", "map.png"),
                       ("export", "p", "-o", "p.tif"), ("export", "c", "-o", "c.tif"),
                       ("cell", "p.svg", "--cell", "5,5", "-o", "p.svg"),

@@ -25,6 +25,7 @@ NOUNS = {
     "certificate": {"certificate.hpp", "contract_certificate.hpp"},
     "cellular": {"border_heading_set.hpp", "cell_sets.hpp"},
     "bitmap": {"border_bitmap.hpp", "bitmap.hpp", "sampled.hpp", "reachability_map.hpp"},
+    "ceiling": {"ceiling.hpp"},
     "report": {"picture.hpp"},
 }
 # Libraries that must stay out of the core, and the folders that may name them.

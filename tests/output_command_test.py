@@ -70,7 +70,7 @@ class Output(unittest.TestCase):
                       ["verify", "p", "-o", "d", "--force", "--volume-samples", "20000"],
                       ["export", "p", "-o", "p.tif", "--force"],
                       ["draw", "p", "-o", "p.svg", "--force"],
-                      ["simulate", "p", *state],
+                      ["simulate", "p", *state], ["ceiling", "p", "--levels", "1"],
                       ["simulate", "p", "--random", "5000", "--json"],
                       ["simulate", "p", "--random", "10", "--outcomes", "-"],
                       ["simulate", "p", "--random", "20000", "--outcomes", "-"],

@@ -34,6 +34,7 @@ Action declare_export(CLI::App& options);
 Action declare_steer(CLI::App& options);
 Action declare_contract(CLI::App& options);
 Action declare_compare(CLI::App& options);
+Action declare_ceiling(CLI::App& options);
 Action declare_view(CLI::App& options);
 Action declare_info(CLI::App& options);
 Action declare_init(CLI::App& options);

@@ -54,6 +54,7 @@ constexpr Command commands[] = {
      declare_contract, true},
     {"compare", "compare plans over all states: what each proves and what its flights cost",
      declare_compare, true},
+    {"ceiling", "bound from which states any control could succeed", declare_ceiling, true},
     {"view", "serve the interactive page of a run on this machine", declare_view, false},
     {"info", "describe a map (size, free and connected parts, clearance), a plan or a certificate",
      declare_info, true},
