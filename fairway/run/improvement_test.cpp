@@ -94,7 +94,7 @@ TEST(Improvement, TwiceTheSameIsTheSame) {
 
 TEST(Improvement, UnderAContractNeitherShareFalls) {
   Plan plan = plan_of(street(true));
-  plan.record.contract = VehicleContract::exact(vehicle);
+  plan.record.contract = VehicleContract::of(vehicle);
   plan.record.contract->command_error_m = 2.0;
   plan.record.contract->heading_error_rad = 0.02;
   plan.record.contract->turn_radius_m = {19.0, 21.0};
