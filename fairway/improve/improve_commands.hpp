@@ -27,7 +27,7 @@ namespace fairway {
 struct ImproveOptions {
   int sweeps = 4;                 ///< over all cells; fewer when nothing changes any more
   int directions = 24;            ///< tried for each cell, evenly spaced
-  std::int64_t least_gain = 8;    ///< starts; smaller gains are not worth a change
+  std::int64_t least_gain = 6;    ///< starts; smaller gains are not worth a change
   std::int64_t tear_price = 2;    ///< starts
   std::int64_t border_price = 1;  ///< starts
   double most_bend_rad = 4.0;     ///< between a changed command and a neighbour's; pi and more: any

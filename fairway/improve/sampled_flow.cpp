@@ -132,45 +132,61 @@ CellState SampledFlow::state_of_start(Id flight) const {
           Direction::of(Heading::from_rad(two_pi * h - pi))};
 }
 
+/// Where a flight begins. False: nowhere, for a node on a side by which its command does not lead.
+bool SampledFlow::take_off(Id flight, const std::vector<Direction>& commands, Airborne& at) const {
+  const std::size_t place = place_of_flight(flight);
+  if (!is_node(flight)) {
+    at = {place, state_of_start(flight), 0};
+    return true;
+  }
+  const Id number = flight % (4 * per_side_);
+  const auto side = static_cast<Side>(number / per_side_);
+  const Direction command = commands[place];
+  if (!(outward(command.unit, side) > 0.0)) return false;
+  const double along = (number % per_side_ + 0.5) / per_side_ * shape_.cell_m;
+  const Vec2 p = is_upright(side) ? Vec2{0.0, along} : Vec2{along, 0.0};
+  at = {place + step(side), {beyond(p, side, shape_.cell_m), command}, 0};
+  return true;
+}
+
+/// Moves on into the next cell by `exit`, or returns where the flight ends.
+SampledFlow::Id SampledFlow::cross(Airborne& at, const CellExit& exit, bool commanded) const {
+  const double d = shape_.cell_m;
+  const std::size_t next = at.place + step(exit.side);
+  const bool aligned = commanded && (exit.path == CellPath::arc_then_straight || exit.turn == 0);
+  if (aligned && kind_[at.place] == CellKind::target) return reaches;
+  const Vec2 p = exit.state.position_m;
+  if (aligned && kind_[next] == CellKind::ordinary) {
+    const double along = (is_upright(exit.side) ? p.y : p.x) / d * per_side_;
+    const Id number = std::min(static_cast<Id>(along), per_side_ - 1);
+    return first_node(at.place) + static_cast<Id>(exit.side) * per_side_ + number;
+  }
+  at = {next, {beyond(p, exit.side, d), exit.state.heading}, at.crossings + 1};
+  return passing;
+}
+
+/// Flies to the end, or to the cell `until`: then it is passing.
+SampledFlow::Id SampledFlow::fly_on(Airborne& at, const std::vector<Direction>& commands,
+                                    std::vector<std::uint32_t>* met, std::size_t until) const {
+  for (;;) {
+    const CellKind kind = kind_[at.place];
+    if (kind == CellKind::target && !reaches_aligned_) return reaches;
+    const bool ends = kind == CellKind::obstacle || kind == CellKind::outside;
+    if (ends || at.crossings >= most_crossings_) return fails;
+    if (at.place == until) return passing;
+    if (met != nullptr) met->push_back(static_cast<std::uint32_t>(at.place));
+    const Direction& command = commands[at.place];
+    const CellExit exit = cross_cell(at.state, command, shape_);
+    const Id end = cross(at, exit, command.unit != Vec2{});
+    if (end != passing) return end;
+  }
+}
+
 SampledFlow::Id SampledFlow::fly(Id flight, const std::vector<Direction>& commands,
                                  std::vector<std::uint32_t>* met) const {
-  const double d = shape_.cell_m;
-  const std::array<std::size_t, 4> steps{1, stride_, std::size_t{0} - 1, std::size_t{0} - stride_};
-  std::size_t place = place_of_flight(flight);
-  CellState state;
-  if (is_node(flight)) {
-    const Id number = flight % (4 * per_side_);
-    const auto side = static_cast<Side>(number / per_side_);
-    const Direction command = commands[place];
-    if (!(outward(command.unit, side) > 0.0)) return nowhere;
-    const double along = (number % per_side_ + 0.5) / per_side_ * d;
-    state = {beyond(is_upright(side) ? Vec2{0.0, along} : Vec2{along, 0.0}, side, d), command};
-    place += steps[static_cast<std::size_t>(side)];
-  } else {
-    state = state_of_start(flight);
-  }
-  for (int crossings = 0;; ++crossings) {
-    const bool is_target = kind_[place] == CellKind::target;
-    if (is_target && !reaches_aligned_) return reaches;
-    if ((kind_[place] != CellKind::ordinary && !is_target) || crossings == most_crossings_)
-      return fails;
-    if (met != nullptr) met->push_back(static_cast<std::uint32_t>(place));
-    const Direction& command = commands[place];
-    const CellExit exit = cross_cell(state, command, shape_);
-    const auto side = static_cast<std::size_t>(exit.side);
-    const std::size_t next = place + steps[side];
-    const bool commanded = command.unit != Vec2{};
-    const bool aligned = commanded && (exit.path == CellPath::arc_then_straight || exit.turn == 0);
-    if (aligned && is_target) return reaches;
-    const Vec2 p = exit.state.position_m;
-    if (aligned && kind_[next] == CellKind::ordinary) {
-      const double along = (is_upright(exit.side) ? p.y : p.x) / d * per_side_;
-      const Id number = std::min(static_cast<Id>(along), per_side_ - 1);
-      return first_node(place) + static_cast<Id>(side) * per_side_ + number;
-    }
-    state = {beyond(p, exit.side, d), exit.state.heading};
-    place = next;
-  }
+  Airborne at;
+  if (!take_off(flight, commands, at)) return nowhere;
+  return fly_on(at, commands, met, 0);
 }
 
 void SampledFlow::remember(Id flight, std::span<const std::uint32_t> met) {
@@ -282,6 +298,7 @@ void SampledFlow::apply(std::span<const CommandChange> changes) {
     command_[place_of(change.cell)] = direction_of(change.heading_rad);
   }
   trial.follow(changes);
+  ++version_;
   std::vector<std::uint32_t> met;
   std::vector<Id> changed;
   for (const Trial::Flown& flown : trial.flown_) {

@@ -16,6 +16,7 @@
 // percentage point.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -28,8 +29,8 @@
 namespace fairway {
 
 struct SampledFlowOptions {
-  int nodes_per_side = 32;   ///< at least 1
-  int starts_per_cell = 96;  ///< at least 1
+  int nodes_per_side = 16;   ///< at least 1
+  int starts_per_cell = 64;  ///< at least 1
   int most_crossings = 500;  ///< of a flight; after as many it circles, which is to fail
   /// Not whoever enters a target cell reaches, but whoever leaves one aligned with its command: of
   /// the cells of a path, whoever flies along it.
@@ -71,6 +72,13 @@ class SampledFlow {
   float heading_rad(std::size_t cell) const { return heading_rad_[cell]; }
   CellKind kind(std::size_t cell) const { return kind_[place_of(cell)]; }
 
+  /// A flight that is about to cross a cell.
+  struct Airborne {
+    std::size_t place = 0;
+    CellState state;
+    int crossings = 0;
+  };
+
   /// Asks what changes would do; one for each thread. Refers to its flow.
   class Trial {
    public:
@@ -82,7 +90,9 @@ class SampledFlow {
    private:
     friend class SampledFlow;
     void fly(std::span<const CommandChange> changes);
-    void fly_one(Id flight);
+    bool is_first(Id flight);
+    void come_to(std::size_t place);
+    void fly_through(std::size_t place);
     void find_values();
     bool value_of(Id end);
     std::int64_t count();
@@ -103,6 +113,16 @@ class SampledFlow {
       std::int8_t value;  // of nodes: reaches 1, fails 0, unknown -1
     };
     std::vector<Flown> flown_;
+    /// A flight as it comes to the cell that is asked about, and where it ends after a turn that
+    /// lasts all through the cell: the same whatever the command, but for its side.
+    struct Coming {
+      Id flight;
+      Airborne at;
+      std::array<Id, 2> end;  // [left, right], passing: not known
+    };
+    std::vector<Coming> coming_;
+    std::size_t coming_to_ = 0;             // place; 0, in the ring: none
+    std::uint64_t version_ = 0;             // of the flow when they came
     std::uint32_t fewest_steps_ = 0;        // of the nodes flown, before the change
     std::vector<Id> turned_;                // nodes whose values change
     std::vector<std::uint32_t> turned_in_;  // by node: the last trial in which it did
@@ -116,16 +136,26 @@ class SampledFlow {
   static constexpr Id reaches = ~Id{0};
   static constexpr Id fails = ~Id{1};
   static constexpr Id nowhere = ~Id{2};  // of a node on a side by which its command does not lead
+  static constexpr Id passing = ~Id{3};  // has not ended yet
   static constexpr std::uint32_t never = ~std::uint32_t{0};
 
   std::size_t place_of(std::size_t cell) const {
     const auto nx = static_cast<std::size_t>(nx_);
     return (cell / nx + 1) * stride_ + cell % nx + 1;
   }
+  std::size_t step(Side side) const {
+    const std::array<std::size_t, 4> steps{1, stride_, std::size_t{0} - 1,
+                                           std::size_t{0} - stride_};
+    return steps[static_cast<std::size_t>(side)];
+  }
   bool is_node(Id id) const { return id < nodes_; }
   std::size_t place_of_flight(Id flight) const;
   Id first_node(std::size_t place) const { return static_cast<Id>(place * 4 * per_side_); }
   Id fly(Id flight, const std::vector<Direction>& commands, std::vector<std::uint32_t>* met) const;
+  bool take_off(Id flight, const std::vector<Direction>& commands, Airborne& at) const;
+  Id fly_on(Airborne& at, const std::vector<Direction>& commands, std::vector<std::uint32_t>* met,
+            std::size_t until) const;
+  Id cross(Airborne& at, const CellExit& exit, bool commanded) const;
   CellState state_of_start(Id flight) const;
   void link(Id node, Id end);
   void unlink(Id node);
@@ -156,6 +186,7 @@ class SampledFlow {
   std::vector<Id> first_before_, next_before_, previous_before_;
   std::vector<std::vector<Id>> meeting_;  // by place: flights that meet it, some no longer
   std::vector<std::uint32_t> tidy_at_;    // by place: length of that list when it is tidied
+  std::uint64_t version_ = 1;             // one more for each change
   std::unique_ptr<Trial> own_trial_;
 };
 

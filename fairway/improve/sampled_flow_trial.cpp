@@ -34,14 +34,17 @@ void SampledFlow::Trial::follow(std::span<const CommandChange> applied) {
   }
 }
 
-void SampledFlow::Trial::fly_one(Id flight) {
-  if (seen_[flight] == trial_) return;
+/// Whether this is the first time in this trial that the flight is met; it is then one of `flown_`,
+/// with its end to be filled in.
+bool SampledFlow::Trial::is_first(Id flight) {
+  if (seen_[flight] == trial_) return false;
   seen_[flight] = trial_;
   if (flow_->is_node(flight)) {
     slot_[flight] = static_cast<std::uint32_t>(flown_.size());
     fewest_steps_ = std::min(fewest_steps_, flow_->steps_[flight]);
   }
-  flown_.push_back({flight, flow_->fly(flight, command_, nullptr), -1});
+  flown_.push_back({flight, nowhere, -1});
+  return true;
 }
 
 /// Flies again all that meets the changed cells, and what starts on their sides.
@@ -50,9 +53,59 @@ void SampledFlow::Trial::fly(std::span<const CommandChange> changes) {
   flown_.clear();
   fewest_steps_ = never;
   for (const CommandChange& change : changes) {
-    const std::size_t place = flow_->place_of(change.cell);
-    for (Id i = 0; i < 4 * flow_->per_side_; ++i) fly_one(flow_->first_node(place) + i);
-    for (const Id flight : flow_->meeting_[place]) fly_one(flight);
+    const Id first = flow_->first_node(flow_->place_of(change.cell));
+    for (Id i = 0; i < 4 * flow_->per_side_; ++i) {
+      if (is_first(first + i)) flown_.back().end = flow_->fly(first + i, command_, nullptr);
+    }
+  }
+  if (changes.size() == 1) {
+    fly_through(flow_->place_of(changes[0].cell));
+    return;
+  }
+  for (const CommandChange& change : changes) {
+    for (const Id flight : flow_->meeting_[flow_->place_of(change.cell)]) {
+      if (is_first(flight)) flown_.back().end = flow_->fly(flight, command_, nullptr);
+    }
+  }
+}
+
+/// Flights that meet the cell, on its border: until there they do not depend on its command.
+void SampledFlow::Trial::come_to(std::size_t place) {
+  if (coming_to_ == place && version_ == flow_->version_) return;
+  coming_to_ = place;
+  version_ = flow_->version_;
+  coming_.clear();
+  const Id first = flow_->first_node(place);
+  for (const Id flight : flow_->meeting_[place]) {
+    if (flight >= first && flight < first + 4 * flow_->per_side_) continue;
+    Coming coming{flight, {}, {passing, passing}};
+    if (!flow_->take_off(flight, flow_->command_, coming.at)) continue;
+    if (flow_->fly_on(coming.at, flow_->command_, nullptr, place) == passing) {
+      coming_.push_back(coming);
+    }
+  }
+}
+
+void SampledFlow::Trial::fly_through(std::size_t place) {
+  come_to(place);
+  const Direction& command = command_[place];
+  for (Coming& coming : coming_) {
+    if (!is_first(coming.flight)) continue;
+    Id& end = flown_.back().end;
+    const CellExit exit = cross_cell(coming.at.state, command, flow_->shape_);
+    Id* known = exit.path == CellPath::arc ? &coming.end[exit.turn > 0 ? 0 : 1] : nullptr;
+    if (known != nullptr && *known != passing) {
+      end = *known;
+      continue;
+    }
+    Airborne at = coming.at;
+    end = flow_->cross(at, exit, true);
+    if (end == passing) end = flow_->fly_on(at, command_, nullptr, place);
+    if (end == passing) {  // comes back, and depends on the command once more
+      end = flow_->fly_on(at, command_, nullptr, 0);
+    } else if (known != nullptr) {
+      *known = end;
+    }
   }
 }
 

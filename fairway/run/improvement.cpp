@@ -65,7 +65,8 @@ class Judge {
     verify.samples = 400000;
     verify.or_touch = false;
     verify.find_witnesses = false;
-    const auto made = verify_contract(plan, where_, {}, contract, verify, {});
+    const auto made =
+        verify_contract(plan, where_, {}, contract, verify, [](const std::string&) {});
     return of_mission(made.survey.shares.all);
   }
   static double of_mission(const std::array<double, verdict_count>& shares) {
