@@ -34,7 +34,9 @@ TurningSummary turning_summary(std::span<const FlightResult> results,
   std::vector<double> turned_rad_per_100m;
   for (std::size_t i = 0; i < measures.size(); ++i) {
     const Turning& turning = measures[i].turning;
-    if (!std::isfinite(results[i].time_s) || !(turning.length_m > 0.0)) continue;
+    const Outcome outcome = results[i].outcome;
+    const bool endless = outcome == Outcome::trapped || outcome == Outcome::hold;
+    if (endless || !(turning.length_m > 0.0)) continue;
     const auto count = static_cast<double>(turning.reversals);
     reversals.push_back(count);
     reversals_per_100m.push_back(100.0 * count / turning.length_m);

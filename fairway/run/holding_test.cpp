@@ -224,7 +224,8 @@ TEST(Holding, FlightsTellWhoHolds) {
   const ObstacleMap map = two_rooms(15, 8.0);
   GoalMission mission{map.grid.center({22, 39}), {}};
   mission.hold = true;
-  const Plan plan = plan_of(map, mission, FallbackRule::hold);
+  Plan plan = plan_of(map, mission, FallbackRule::hold);
+  plan.record.mission = mission;
   const FlightEngine engine(plan);
   ASSERT_TRUE(engine.holds());
   Random random(5);
