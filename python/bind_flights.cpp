@@ -66,6 +66,7 @@ py::dict counts(const Flights& flights) {
   const OutcomeCounts all = count_outcomes(flights.results);
   py::dict by_name;
   for (const Outcome o : outcomes_in_order) {
+    if (!is_listed(o, all.of(o))) continue;
     by_name[name_of(o)] = all.of(o);
   }
   return by_name;

@@ -41,10 +41,10 @@ std::optional<FollowFor> follow_of(const HeldPlan& plan, std::optional<double> l
   if (!(value > 0.0) || value > 1e9) {
     throw py::value_error(fmt::format("{}: is {}, expected above 0 and up to 1e9", name, value));
   }
-  const auto& mission = plan.plan.record.mission;
-  if (!mission || !std::holds_alternative<PathMission>(*mission)) {
-    throw py::value_error(
-        fmt::format("{}: the plan's mission is not a path, and only paths are followed", name));
+  if (plan.exact().path() == nullptr) {
+    throw py::value_error(fmt::format(
+        "{}: the plan's mission is not a path, nor a goal to hold at, and only these are followed",
+        name));
   }
   return FollowFor{.laps = laps.value_or(0.0), .time_s = follow_s.value_or(0.0)};
 }
@@ -151,8 +151,8 @@ void bind_simulate(py::module_& m) {
            R"(Exact flights under the bang-bang law, event by event, without time steps.
 
 states    float64 [n, 3]: x_m, y_m, heading_rad (-7 to 7)
-laps      path missions: after reaching the path, follow it for this many times its length
-follow_s  path missions: the same, for this many seconds
+laps      after reaching the path, or the goal to hold at, follow it for this many times its length
+follow_s  the same, for this many seconds
 
 Returns Flights. Runs on all cores without the GIL; Ctrl-C stops it.)");
   plan.def("fly_sampled", &fly_sampled, "states"_a, py::kw_only(), "law"_a = "bang-bang",

@@ -227,7 +227,39 @@ class Follow(unittest.TestCase):
             text[:begin] + '[mission]\nkind = "goal"\ngoal_m = [200, 150]\n' + text[end:])
         self.expect(0, "plan", "goal.toml", "-o", "goal.safetensors")
         done = self.expect(65, "simulate", "goal.safetensors", "--random", 1, "--laps", 1)
-        self.assertIn("its mission is not a path", done.stderr)
+        self.assertIn("its mission is neither a path nor a goal to hold at", done.stderr)
+
+    def test_after_reaching_a_goal_to_hold_at_it_is_told_who_holds(self):
+        (self.folder / "goal.toml").write_text(
+            '[map]\nfile = "map.pgm"\nresolution_m = 2.0\ncell_m = 8.0\n[vehicle]\nspeed_mps = 10.0\n'
+            'turn_radius_m = 20.0\n[mission]\nkind = "goal"\ngoal_m = [200, 150]\nhold = true\n'
+            '[plan]\nalpha = 0.5\n[simulate]\nrandom = 10\nsample = 200\n[verify]\nundecided_max = 1.0\n')
+        done = self.expect(0, "run", "goal.toml", "-o", "held")
+        summary = json.loads((self.folder / "held/summary.json").read_text())
+        following = summary["random_flights"]["following"]
+        self.assertEqual(sorted(following["after"]), ["collide", "hold", "leave"])
+        self.assertGreater(following["after"]["hold"], 150)
+        self.assertEqual(following["joined"], following["after"]["hold"])
+        self.assertIn("Followed for 5 laps of the circle after they reach the goal", " ".join(done.stdout.split()))
+        with open(self.folder / "held/outcomes.csv") as lines:
+            rows = list(csv.DictReader(lines))
+        self.assertEqual(sum(row["after"] == "hold" for row in rows), following["after"]["hold"])
+        told = self.expect(0, "simulate", "held/plan.safetensors", "--random", 200, "--laps", 5, "--outcomes", "-").stdout
+        self.assertEqual(list(csv.DictReader(told.splitlines())), rows)
+        windy = json.loads(self.expect(0, "--json", "simulate", "held/plan.safetensors", "--random", 20, "--follow", 60,
+                                       "--law", "proportional", "--wind", "1,0").stdout)
+        self.assertGreater(windy["following"]["after"]["hold"], 15)
+
+    def test_the_demonstrations_track_is_proved_to_be_followed(self):
+        scenario = pathlib.Path(__file__).resolve().parent.parent / "demo/track.toml"
+        self.expect(0, "plan", scenario, "-o", "track.plan")
+        self.expect(0, "verify", "track.plan", "--volume-samples", 5000, "-o", "track.cert")
+        told = json.loads((self.folder / "track.summary.json").read_text())
+        self.assertGreater(told["volume_fraction_usable"]["follow"], 0.55)
+        self.assertLess(told["follow"]["tube_m"], 0.5)
+        least_s, most_s = told["follow"]["lap_time_s"]
+        self.assertTrue(19.0 < least_s < told["follow"]["length_m"] / 3.0 < most_s < 32.0)
+        self.expect(0, "check", "track.cert", "--plan", "track.plan")
 
 
 if __name__ == "__main__":

@@ -62,13 +62,15 @@ void declare_outputs(CLI::App& options, SimulateArguments& a) {
 
 void declare_following(CLI::App& options, SimulateArguments& a) {
   options
-      .add_option("--laps", a.laps,
-                  "path missions: after reaching the path, follow it for N times its length")
+      .add_option(
+          "--laps", a.laps,
+          "after reaching the path, or the goal to hold at, follow it for N times its length, or N "
+          "times round the circle")
       ->type_name("N")
       ->check(finite_above(0.0));
   options
       .add_option("--follow", a.follow_s,
-                  "path missions: after reaching the path, follow it for S seconds")
+                  "after reaching the path, or the goal to hold at, follow it for S seconds")
       ->type_name("S")
       ->check(finite_above(0.0));
 }
@@ -214,8 +216,8 @@ void declare(CLI::App& options, SimulateArguments& a) {
   options.footer(
       "Prints a summary of the outcomes unless one of the outputs goes to stdout.\n"
       "If the plan's goal has a heading, exact flights that reach it continue with a last leg to\n"
-      "that heading. Flights of a path mission end where they reach the path, unless --laps or\n"
-      "--follow is given; what happens afterwards is then reported separately.\n"
+      "that heading. Flights of a path mission, or to a goal to hold at, end where they reach it,\n"
+      "unless --laps or --follow is given; what happens afterwards is then reported separately.\n"
       "With --contract, each start is flown by many behaviours of vehicles that keep the "
       "contract;\n"
       "one that fails is proved to be within it where the summary says so. Its wind is taken as\n"

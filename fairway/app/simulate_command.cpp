@@ -61,7 +61,8 @@ ManyFlights flights_asked_for(const SimulateArguments& arguments, const Plan& pl
   const FlightEngine engine(plan, arguments.sampled_options());
   if (options.follow && engine.path() == nullptr) {
     throw InputError(arguments.plan.string(),
-                     "its mission is not a path, as --laps and --follow require");
+                     "its mission is neither a path nor a goal to hold at, as --laps and --follow "
+                     "require");
   }
   return fly_many(engine, starts, options);
 }

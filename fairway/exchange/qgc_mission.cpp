@@ -76,6 +76,7 @@ std::vector<std::string> mission_warnings(std::span<const Flight> flights) {
         warnings.push_back("the flight leaves the map" + after(r.time_s) +
                            ", and the mission leads there too.");
         break;
+      case Outcome::hold:
       case Outcome::trapped:
         warnings.push_back(
             "the flight never reaches the goal; the mission, which ends, does not either.");

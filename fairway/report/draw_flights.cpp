@@ -21,7 +21,8 @@ constexpr double start_dot_pt = 2.4;
 constexpr double start_tick_pt = 9.0;
 
 /// Rare outcomes are drawn last and strongest, so that they stand out among many flights.
-constexpr std::array as_drawn{Outcome::reach, Outcome::leave, Outcome::collide, Outcome::trapped};
+constexpr std::array as_drawn{Outcome::reach, Outcome::hold, Outcome::leave, Outcome::collide,
+                              Outcome::trapped};
 
 /// One style with all flights that share it.
 struct Bundle {

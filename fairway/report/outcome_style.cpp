@@ -14,6 +14,8 @@ OutcomeStyle style_of(Outcome outcome) {
       return {{color_of_oklch(0.50, 0.17, 340.0), 1.3, {6.0, 1.5, 1.5, 1.5}},
               {0x86, 0x16, 0x6f},
               {8.0, 2.5, 2.0, 2.5}};
+    case Outcome::hold:
+      return {{color_of_oklch(0.55, 0.10, 200.0), 1.1, {3.0, 1.5}}, {0x0f, 0x6b, 0x78}, {5.0, 2.5}};
   }
   return {};
 }

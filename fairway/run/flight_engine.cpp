@@ -1,6 +1,7 @@
 #include "fairway/run/flight_engine.hpp"
 
 #include "fairway/base/error.hpp"
+#include "fairway/field/holding_circle.hpp"
 #include "fairway/vehicle/path_geometry.hpp"
 
 namespace fairway {
@@ -21,6 +22,17 @@ FollowLimit limit_of(const FollowFor& follow, const PathMission& path, double sp
   return {.length_m = length_m, .time_s = 10.0 * length_m / speed_mps};
 }
 
+/// On which the vehicle stays at its goal; on it within the room that the plan kept for it.
+std::optional<PathMission> circle_of(const Plan& plan) {
+  const auto* goal =
+      plan.record.mission ? std::get_if<GoalMission>(&*plan.record.mission) : nullptr;
+  if (goal == nullptr || !goal->hold || goal->goal_heading_rad) return {};
+  const HoldingPlace place = holding_place_at(plan.grid, goal->goal_m, plan.vehicle);
+  PathMission circle = path_of(place);
+  circle.delta_position_m = holding_room_m(plan.grid, plan.vehicle) - place.radius_m;
+  return circle;
+}
+
 }  // namespace
 
 std::vector<std::pair<const char*, ControlLaw>> sampled_laws(double gain_per_s) {
@@ -39,18 +51,36 @@ std::optional<SampledOptions> options_of_law(std::string_view name, double gain_
 }
 
 FlightEngine::FlightEngine(const Plan& plan, const std::optional<SampledOptions>& sampled)
-    : plan_(plan), flights_(flights_of(plan, sampled)) {
+    : plan_(plan),
+      holding_(holding_cells(plan)),
+      circle_(circle_of(plan)),
+      flights_(flights_of(plan, sampled)) {
   const auto goal = goal_pose_of(plan);
   if (!sampled && goal) legs_.emplace(plan, *goal);
 }
 
 const PathMission* FlightEngine::path() const {
+  if (circle_) return &*circle_;
   return plan_.record.mission ? std::get_if<PathMission>(&*plan_.record.mission) : nullptr;
 }
 
+FlightResult FlightEngine::told(FlightResult result, const State& start) const {
+  const Cell cell = plan_.grid.cell_of(start.position_m);
+  const bool holds =
+      !holding_.empty() && plan_.grid.contains(cell) && holding_[plan_.grid.index(cell)] != 0;
+  if (holds && result.outcome == Outcome::trapped) result.outcome = Outcome::hold;
+  return result;
+}
+
+Flight FlightEngine::told(Flight flight) const {
+  flight.result = told(flight.result, flight.start);
+  if (circle_ && flight.onward.after == After::follow) flight.onward.after = After::hold;
+  return flight;
+}
+
 FlightResult FlightEngine::fly(const State& start, std::size_t index) const {
-  if (const ExactFlights* flights = exact()) return flights->fly(start);
-  return std::get<SampledFlights>(flights_).fly(start, index);
+  if (const ExactFlights* flights = exact()) return told(flights->fly(start), start);
+  return told(std::get<SampledFlights>(flights_).fly(start, index), start);
 }
 
 Flight FlightEngine::record(const State& start, std::size_t index,
@@ -59,18 +89,18 @@ Flight FlightEngine::record(const State& start, std::size_t index,
   const auto* sampled = std::get_if<SampledFlights>(&flights_);
   if (follow && path() != nullptr) {
     const FollowLimit limit = limit_of(*follow, *path(), plan_.vehicle.speed_mps);
-    return flights != nullptr ? flights->follow_on(start, limit)
-                              : sampled->follow_on(start, index, limit).flight;
+    return told(flights != nullptr ? flights->follow_on(start, limit)
+                                   : sampled->follow_on(start, index, limit).flight);
   }
-  if (flights == nullptr) return sampled->record(start, index).flight;
-  Flight flight = flights->record(start);
+  if (flights == nullptr) return told(sampled->record(start, index).flight);
+  Flight flight = told(flights->record(start));
   if (legs_) flight.final_leg = legs_->leg_of(flight);
   return flight;
 }
 
 Flight FlightEngine::measure(const State& start, std::size_t index) const {
-  if (const ExactFlights* flights = exact()) return flights->measure(start);
-  return std::get<SampledFlights>(flights_).measure(start, index);
+  if (const ExactFlights* flights = exact()) return told(flights->measure(start));
+  return told(std::get<SampledFlights>(flights_).measure(start, index));
 }
 
 }  // namespace fairway

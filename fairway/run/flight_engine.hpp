@@ -5,6 +5,7 @@
 //      index, which picks the random draws. Several threads may ask at once.
 //   2. Exact flights that reach continue to the goal's pose if the goal has a heading. Sampled ones
 //      do not: what a disturbed vehicle does in the goal is not known from its entry.
+//   3. Who is trapped where the plan holds (holding_cells) is told to hold.
 // Cost: that of the flights, and 25 bytes a cell for exact ones while the object lives.
 #pragma once
 
@@ -34,13 +35,15 @@ inline constexpr const char* exact_law = "exact";
 [[nodiscard]] std::optional<SampledOptions> options_of_law(std::string_view name, double gain_per_s,
                                                            SampledOptions options);
 
-/// For how long flights of path missions are followed beyond their first goal cell: one of the two
-/// is > 0, finite, and holds.
+/// For how long flights of path missions, and of goals to hold at, are followed beyond their first
+/// goal cell: one of the two is > 0, finite, and counts.
 struct FollowFor {
-  double laps = 0.0;  ///< times the path's length, over the ground
+  double laps = 0.0;  ///< times the length of the path, or of the circle, over the ground
   double time_s = 0.0;
 };
 inline constexpr FollowFor one_lap{.laps = 1.0};
+/// About a goal: it may have to turn round first.
+inline constexpr FollowFor five_laps{.laps = 5.0};
 
 class FlightEngine {
  public:
@@ -54,7 +57,7 @@ class FlightEngine {
 
   [[nodiscard]] FlightResult fly(const State& start, std::size_t index) const;
 
-  /// With its pieces and its last leg; along the path, where the plan's mission is one and `follow`
+  /// With its pieces and its last leg; along the path, where there is one and `follow`
   /// says for how long. The result is still that of `fly`. Following by laps ends after ten
   /// times the time they take in calm air, wherever the wind has held the vehicle.
   [[nodiscard]] Flight record(const State& start, std::size_t index,
@@ -63,8 +66,10 @@ class FlightEngine {
   /// Result and turning alone.
   [[nodiscard]] Flight measure(const State& start, std::size_t index) const;
 
-  /// The path of the plan's mission; null when it has none.
+  /// The path of the plan's mission, or the circle about the goal that it holds at; else null.
   const PathMission* path() const;
+  /// Whether that is a circle about a goal.
+  bool holds() const { return circle_.has_value(); }
   const Plan& plan() const { return plan_; }
 
   /// Null under a sampled law.
@@ -73,7 +78,12 @@ class FlightEngine {
   const std::optional<FinalLegs>& legs() const { return legs_; }
 
  private:
+  FlightResult told(FlightResult result, const State& start) const;
+  Flight told(Flight flight) const;
+
   const Plan& plan_;
+  std::vector<std::uint8_t> holding_;  // holding_cells
+  std::optional<PathMission> circle_;
   std::variant<ExactFlights, SampledFlights> flights_;
   std::optional<FinalLegs> legs_;
 };

@@ -53,7 +53,8 @@ ManyFlights fly_many(const FlightEngine& engine, std::span<const State> starts,
   flown.recorded.resize(std::min(options.tracks, starts.size()));
   const PathMission* path = engine.path();
   if (path != nullptr && options.follow) {
-    flown.followed = {*options.follow, path->delta_position_m, path->delta_heading_rad, {}};
+    flown.followed = {
+        *options.follow, path->delta_position_m, path->delta_heading_rad, {}, engine.holds()};
   }
   const auto follow = flown.followed ? options.follow : std::nullopt;
   Measuring measuring(engine, options, flown);

@@ -23,7 +23,8 @@ namespace fairway {
 
 struct FlyOptions {
   std::size_t tracks = 0;  ///< the first so many flights are recorded, with their last legs
-  /// Flights of a path mission are followed for so long, all of them, recorded or not.
+  /// Flights of a path mission, or about a goal to hold at, are followed for so long, all of them,
+  /// recorded or not.
   std::optional<FollowFor> follow = {};
   bool measure = false;         ///< turning of all flights, and how those followed keep to the path
   std::size_t pool_from = 0;    ///< the first start whose steps along the path are pooled
@@ -40,6 +41,7 @@ struct Followed {
   double delta_position_m = 0.0;  ///< of the mission (paper 1, Eq. 5)
   double delta_heading_rad = 0.0;
   PathSpreads spreads;  ///< of the pooled flights, when measured
+  bool holds = false;   ///< about a goal, on a circle
 };
 
 struct ManyFlights {

@@ -19,8 +19,9 @@ json share_or_null(std::size_t part, std::size_t whole) {
   return whole == 0 ? json() : json(static_cast<double>(part) / static_cast<double>(whole));
 }
 
-std::string words_of(const FollowFor& followed) {
-  return followed.time_s > 0.0 ? plural(followed.time_s, "second") : plural(followed.laps, "lap");
+std::string words_of(const FollowFor& followed, bool holds) {
+  if (followed.time_s > 0.0) return plural(followed.time_s, "second");
+  return plural(followed.laps, "lap") + (holds ? " of the circle" : "");
 }
 
 }  // namespace
@@ -33,7 +34,9 @@ TurningSummary turning_summary(std::span<const FlightResult> results,
   std::vector<double> turned_rad_per_100m;
   for (std::size_t i = 0; i < measures.size(); ++i) {
     const Turning& turning = measures[i].turning;
-    if (results[i].outcome == Outcome::trapped || !(turning.length_m > 0.0)) continue;
+    const Outcome outcome = results[i].outcome;
+    const bool endless = outcome == Outcome::trapped || outcome == Outcome::hold;
+    if (endless || !(turning.length_m > 0.0)) continue;
     const auto count = static_cast<double>(turning.reversals);
     reversals.push_back(count);
     reversals_per_100m.push_back(100.0 * count / turning.length_m);
@@ -50,6 +53,7 @@ std::optional<FollowingSummary> following_summary(const ManyFlights& flown,
   if (!flown.followed || flown.measures.empty()) return {};
   FollowingSummary found;
   found.how = flown.followed->how;
+  found.holds = flown.followed->holds;
   found.delta_position_m = flown.followed->delta_position_m;
   found.delta_heading_rad = flown.followed->delta_heading_rad;
   std::vector<double> join_s;
@@ -104,7 +108,10 @@ json following_json(const std::optional<FollowingSummary>& following) {
           {"delta_position_m", f.delta_position_m},
           {"delta_heading_rad", f.delta_heading_rad},
           {"reach", f.reach},
-          {"after", {{"follow", follow}, {"collide", f.collide_after}, {"leave", f.leave_after}}},
+          {"after",
+           {{f.holds ? "hold" : "follow", follow},
+            {"collide", f.collide_after},
+            {"leave", f.leave_after}}},
           {"collide_share_of_reach", share_or_null(f.collide_after, f.reach)},
           {"joined", f.joined},
           {"time_to_join_s", spread_json(f.time_to_join_s)},
@@ -116,19 +123,20 @@ json following_json(const std::optional<FollowingSummary>& following) {
 std::string following_words(const std::optional<FollowingSummary>& following) {
   if (!following || following->reach == 0) return "";
   const FollowingSummary& f = *following;
+  const char* line = f.holds ? "circle" : "path";
   std::string words = fmt::format(
-      "Followed for {} after they reach the path, {} of these {} collide and {} leave the map.",
-      words_of(f.how), f.collide_after, f.reach, f.leave_after);
+      "Followed for {} after they reach the {}, {} of these {} collide and {} leave the map.",
+      words_of(f.how, f.holds), f.holds ? "goal" : "path", f.collide_after, f.reach, f.leave_after);
   if (f.joined == 0) {
-    return words + fmt::format(" None ever gets onto the path (within {:g} m and {:g} rad).",
+    return words + fmt::format(" None ever gets onto the {} (within {:g} m and {:g} rad).", line,
                                f.delta_position_m, f.delta_heading_rad);
   }
   return words +
          fmt::format(
-             " {} join the path (within {:g} m and {:g} rad), after {:.0f} s on average and {:.0f} "
+             " {} join the {} (within {:g} m and {:g} rad), after {:.0f} s on average and {:.0f} "
              "s at worst, and stay on it for {:.0f} % of the time afterwards: {:.1f} m from it on "
              "average, at most {:.1f} m for 95 % of the time, {:.1f} m at worst.",
-             f.joined, f.delta_position_m, f.delta_heading_rad, f.time_to_join_s.mean,
+             f.joined, line, f.delta_position_m, f.delta_heading_rad, f.time_to_join_s.mean,
              f.time_to_join_s.worst, std::floor(100.0 * f.on_path_share), f.distance_m.mean,
              f.distance_m.p95, f.distance_m.worst);
 }

@@ -24,9 +24,10 @@ struct TurningSummary {
 [[nodiscard]] TurningSummary turning_summary(std::span<const FlightResult> results,
                                              std::span<const FlightMeasures> measures);
 
-/// Of the flights of a path mission, all but `reach` of them left out.
+/// Of the flights of a path mission, or about a goal to hold at, all but `reach` of them left out.
 struct FollowingSummary {
   FollowFor how;                  ///< for how long beyond the first goal cell
+  bool holds = false;             ///< about a goal, on a circle
   double delta_position_m = 0.0;  ///< of the mission (paper 1, Eq. 5)
   double delta_heading_rad = 0.0;
   std::size_t reach = 0;

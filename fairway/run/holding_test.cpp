@@ -22,6 +22,7 @@
 #include "fairway/run/ask_certificate.hpp"
 #include "fairway/run/ask_contract.hpp"
 #include "fairway/run/contract_verification.hpp"
+#include "fairway/run/flight_engine.hpp"
 #include "fairway/run/verification.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 
@@ -217,6 +218,37 @@ TEST(Holding, WhoReachedAGoalToHoldAtStaysNearItForEver) {
     const HoldingPlace place = holding_place_at(plan.grid, goal, vehicle);
     EXPECT_LT(farthest_late_m, norm(place.center_m - goal) + holding_room_m(plan.grid, vehicle));
   }
+}
+
+TEST(Holding, FlightsTellWhoHolds) {
+  const ObstacleMap map = two_rooms(15, 8.0);
+  GoalMission mission{map.grid.center({22, 39}), {}};
+  mission.hold = true;
+  Plan plan = plan_of(map, mission, FallbackRule::hold);
+  plan.record.mission = mission;
+  const FlightEngine engine(plan);
+  ASSERT_TRUE(engine.holds());
+  Random random(5);
+  std::size_t held = 0;
+  std::size_t waiting = 0;
+  for (int k = 0; k < 300; ++k) {
+    const bool below = k % 3 == 0;  // in the room that is closed
+    const State start = below ? random_state(random, plan.grid, {1, 1}, {16, 16})
+                              : random_state(random, plan.grid, {1, 17}, {45, 61});
+    const Flight flight = engine.record(start, 0, five_laps);
+    EXPECT_EQ(flight.result.outcome, engine.fly(start, 0).outcome);
+    ASSERT_NE(flight.result.outcome, Outcome::trapped);
+    if (flight.result.outcome == Outcome::reach) {
+      EXPECT_NE(flight.onward.after, After::follow);
+      held += flight.onward.after == After::hold ? 1 : 0;
+    } else {
+      EXPECT_EQ(flight.onward.after, After::none);
+    }
+    EXPECT_TRUE(below || flight.result.outcome != Outcome::hold);
+    waiting += flight.result.outcome == Outcome::hold ? 1 : 0;
+  }
+  EXPECT_GT(held, 100U);
+  EXPECT_GT(waiting, 50U);
 }
 
 // Without it vehicles circle past the goal on a continuum of closed curves, which no proof by

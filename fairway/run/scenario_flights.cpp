@@ -48,7 +48,7 @@ ScenarioFlights fly_scenario(const Scenario& scenario, const Plan& plan, const F
 
   FlyOptions options;
   options.tracks = given + asked.random;
-  options.follow = one_lap;
+  options.follow = engine.holds() ? five_laps : one_lap;
   options.measure = true;
   options.pool_from = given;
   options.count_legs = true;

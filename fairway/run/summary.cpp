@@ -25,10 +25,10 @@ double share(std::size_t part, std::size_t whole) {
 
 /// "66 collide", "1 gets trapped".
 std::string counted(Outcome outcome, std::size_t n) {
-  static constexpr std::array<const char*, outcome_codes> one{"", "reaches", "collides",
-                                                              "leaves the map", "gets trapped"};
-  static constexpr std::array<const char*, outcome_codes> many{"", "reach", "collide",
-                                                               "leave the map", "get trapped"};
+  static constexpr std::array<const char*, outcome_codes> one{
+      "", "reaches", "collides", "leaves the map", "gets trapped", "", "holds"};
+  static constexpr std::array<const char*, outcome_codes> many{
+      "", "reach", "collide", "leave the map", "get trapped", "", "hold"};
   return grouped(n) + " " + (n == 1 ? one : many)[static_cast<std::size_t>(outcome)];
 }
 
@@ -65,6 +65,7 @@ json outcome_json(const OutcomeCounts& counts) {
   const std::size_t all = counts.total();
   json report = {{"count", all}};
   for (const Outcome outcome : outcomes_in_order) {
+    if (!is_listed(outcome, counts.of(outcome))) continue;
     report["outcomes"][name_of(outcome)] = counts.of(outcome);
     report["share"][name_of(outcome)] = all == 0 ? json() : json(counts.share(outcome));
   }
@@ -79,7 +80,8 @@ std::string outcome_words(const OutcomeCounts& counts) {
   std::string words = fmt::format("{} ({}; 95 % interval {})", counted(Outcome::reach, reach),
                                   share.share, share.interval);
   for (const Outcome outcome : outcomes_in_order) {
-    if (outcome != Outcome::reach) words += ", " + counted(outcome, counts.of(outcome));
+    const bool listed = is_listed(outcome, counts.of(outcome));
+    if (outcome != Outcome::reach && listed) words += ", " + counted(outcome, counts.of(outcome));
   }
   return words;
 }
@@ -87,7 +89,8 @@ std::string outcome_words(const OutcomeCounts& counts) {
 std::string failure_words(const OutcomeCounts& counts) {
   std::string words;
   for (const Outcome outcome : outcomes_in_order) {
-    if (outcome == Outcome::reach || counts.of(outcome) == 0) continue;
+    const bool fails = outcome != Outcome::reach && outcome != Outcome::hold;
+    if (!fails || counts.of(outcome) == 0) continue;
     words += (words.empty() ? "" : ", ") + counted(outcome, counts.of(outcome));
   }
   return words;

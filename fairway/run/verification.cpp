@@ -28,7 +28,7 @@ constexpr bool outcomes_have_the_numbers_of_their_verdicts() {
     const auto verdict = static_cast<Verdict>(outcome);
     if (std::string_view(name_of(outcome)) != name_of(verdict)) return false;
   }
-  return static_cast<int>(outcome_codes) <= stored_verdict_count;
+  return static_cast<int>(outcome_codes) <= verdict_count;
 }
 static_assert(outcomes_have_the_numbers_of_their_verdicts());
 

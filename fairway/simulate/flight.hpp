@@ -15,13 +15,19 @@ namespace fairway {
 
 /// What ends a flight, by what comes first (docs/model.md). Each has the number of its Verdict, so
 /// that outcomes and verdicts can be compared (run/verification.cpp asserts it); none has 0.
-enum class Outcome : std::uint8_t { reach = 1, collide = 2, leave = 3, trapped = 4 };
+/// `hold` is trapped by another name, from where the mission is out of reach and the plan holds.
+enum class Outcome : std::uint8_t { reach = 1, collide = 2, leave = 3, trapped = 4, hold = 6 };
 
-inline constexpr std::array outcomes_in_order{Outcome::reach, Outcome::collide, Outcome::leave,
-                                              Outcome::trapped};
+inline constexpr std::array outcomes_in_order{Outcome::reach, Outcome::hold, Outcome::collide,
+                                              Outcome::leave, Outcome::trapped};
+/// Not every plan has flights that hold: lists have them only where some flight does.
+constexpr bool is_listed(Outcome outcome, std::size_t count) {
+  return count > 0 || outcome != Outcome::hold;
+}
 
-/// Arrays that are indexed by an outcome's number have this size; [0] belongs to none.
-inline constexpr std::size_t outcome_codes = 5;
+/// Arrays that are indexed by an outcome's number have this size; [0] and [5] belong to
+/// none.
+inline constexpr std::size_t outcome_codes = 7;
 
 /// The name used in files and on screen.
 constexpr const char* name_of(Outcome outcome) {
@@ -34,28 +40,33 @@ constexpr const char* name_of(Outcome outcome) {
       return "leave";
     case Outcome::trapped:
       return "trapped";
+    case Outcome::hold:
+      return "hold";
   }
   return "";
 }
 
-/// Time and length are to the event that ends the flight; +inf when trapped.
+/// Time and length are to the event that ends the flight; +inf when trapped or holding.
 struct FlightResult {
   Outcome outcome = Outcome::trapped;
   double time_s = 0.0;
   double length_m = 0.0;
 };
 
-/// How a flight went on that was followed beyond its first goal cell, as those of path missions can
-/// be. Not part of the flight's result: an outcome is reach once a goal cell is entered.
+/// How a flight went on that was followed beyond its first goal cell, as those of path missions and
+/// about a goal to hold at can be. Not part of the flight's result: an outcome is reach once a goal
+/// cell is entered.
 enum class After : std::uint8_t {
   none,     ///< not followed, or the flight does not reach
   follow,   ///< flew on for as long as it was followed
   collide,  ///< touched an obstacle cell
-  leave     ///< left the grid
+  leave,    ///< left the grid
+  hold      ///< as follow, about a goal to hold at
 };
 
 /// Where each of `After` but none, in this order, is counted or written.
-inline constexpr std::array afters_in_order{After::follow, After::collide, After::leave};
+inline constexpr std::array afters_in_order{After::follow, After::hold, After::collide,
+                                            After::leave};
 
 /// The name used in files and on screen; empty for none.
 constexpr const char* name_of(After after) {
@@ -64,6 +75,8 @@ constexpr const char* name_of(After after) {
       return "";
     case After::follow:
       return "follow";
+    case After::hold:
+      return "hold";
     case After::collide:
       return "collide";
     case After::leave:

@@ -35,12 +35,14 @@ class Outcome(IntEnum):
     COLLIDE = 2
     LEAVE = 3
     TRAPPED = 4
+    HOLD = 6
 
 class After(IntEnum):
     NONE = 0
     FOLLOW = 1
     COLLIDE = 2
     LEAVE = 3
+    HOLD = 4
 
 class Verdict(IntEnum):
     UNDECIDED = 0
@@ -215,7 +217,7 @@ class Trajectory:
     @property
     def curvature_per_m(self) -> NDArray[np.float64]: ...
     @property
-    def outcome(self) -> Literal["reach", "collide", "leave", "trapped"]: ...
+    def outcome(self) -> Literal["reach", "collide", "leave", "trapped", "hold"]: ...
     @property
     def time_to_end_s(self) -> float: ...
     def __len__(self) -> int: ...

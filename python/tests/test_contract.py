@@ -142,6 +142,9 @@ def test_a_goal_is_held(tmp_path):
     verdict, bound_s = held.query(starts, search=False)
     reach = verdict == fairway.Verdict.REACH
     assert reach.mean() > 0.5 and np.all(np.isfinite(bound_s[reach]))
+    flights = plan.fly(starts[reach], laps=5)
+    assert np.all(flights.after == fairway.After.HOLD) and np.all(flights.laps > 3)
+    assert flights.summary["following"]["after"] == {"hold": reach.sum(), "collide": 0, "leave": 0}
 
 
 def test_what_is_resumed_goes_on(small_plan, contract, kept, certificate, followed, tour):

@@ -83,11 +83,14 @@ export interface ShownFlight { record: FlightRecord; line: Line; track: Track; l
 
 export function lineOf(record: PageRecord, outcome: string): Line { return record.styles.outcome[outcome] ?? record.styles.outcome.reach; }
 
+/** Whether a followed flight ends badly. */
+function ends(after: FlightRecord["after"]): after is "collide" | "leave" { return after === "collide" || after === "leave"; }
+
 /** The outcome by which a flight is drawn: a followed one that ends badly looks like its end. */
-function drawnOutcome({ outcome, after }: FlightRecord): string { return after && after !== "follow" ? after : outcome; }
+function drawnOutcome({ outcome, after }: FlightRecord): string { return ends(after) ? after : outcome; }
 
 /** "reach", or "reach, then collide" for a followed flight that ends badly. */
-export function outcomeWords({ outcome, after }: FlightRecord): string { return after && after !== "follow" ? `${outcome}, then ${after}` : outcome; }
+export function outcomeWords({ outcome, after }: FlightRecord): string { return ends(after) ? `${outcome}, then ${after}` : outcome; }
 
 export function flightsOf(record: PageRecord, pieces: Record<"x_m" | "y_m" | "heading_rad" | "length_m" | "curvature_per_m", Numbers>): ShownFlight[] {
   const { x0_m, y0_m } = record.grid;

@@ -27,7 +27,7 @@ export interface Finding { share: string; of: string; what: string }
 export interface FlightRecord {
   group: string;
   ground?: "safe_start" | "buffer" | "cut_off";  // of failing ones: where they start
-  after?: "follow" | "collide" | "leave";  // on a path: what a followed flight does after it reaches
+  after?: "follow" | "hold" | "collide" | "leave";  // on a path: what a followed flight does after it reaches
   outcome: string;
   time_s: number | null;
   length_m: number | null;
