@@ -3,11 +3,16 @@
 
 Usage: tuning_study.py FAIRWAY MAPS OUT --vary KEY=VALUE,VALUE... [--set KEY=VALUE]...
                        [--only NAME,NAME...] [--undecided-max F] [--time-limit S]
+                       [--flown | --tried]
 
 MAPS holds the maps, which are not part of Fairway (docs/tuning.md says where they are from). Every
 combination of the values of all --vary is one column. What OUT/proofs.jsonl has already is not
 proved again. All parameters of a plan are given explicitly, so that no figure depends on defaults,
-unless plan.preset is varied.
+unless plan.preset is varied. Proved shares have the undecided ones in brackets.
+
+With --flown nothing is proved: shares are those of 10,000 states flown under each plan, the same for
+all columns, as `fairway tune` evaluates them. --tried, without --vary, tells the shares under the
+five settings that `fairway plan` chooses from, and what it takes.
 """
 import argparse
 import csv
@@ -121,6 +126,27 @@ class Proofs:
                                "-o", certificate]))
         return {"shares": said["volume_fraction"], "cells": said["cells"], "wall_s": time.time() - began}
 
+    def flown(self, name, keys, fixed):
+        """The evaluations of a search that only has to list these choices, by their values."""
+        words = [self.program, "tune", scenario_of(name, self.maps, self.folder), "-o", self.folder / name,
+                 "--quiet", "--force", "--finalists", 1, "--evaluations", 10000, "--set", "verify.undecided_max=1"]
+        for key, value in fixed.items():
+            words += ["--set", f"{key}={value}"]
+        for key, values in keys.items():
+            words += ["--vary", f"{key}={','.join(values)}"]
+        run(words)
+        with (self.folder / name / "evaluations.csv").open() as lines:
+            return {tuple(float(row[key]) for key in keys): 100 * float(row["share"])
+                    for row in csv.DictReader(lines)}
+
+    def tried(self, name):
+        """(alpha, sigma_cells, share) of each setting, and which was taken."""
+        said = json.loads(run([self.program, "plan", scenario_of(name, self.maps, self.folder), "--json", "--quiet",
+                               "--force", "-o", self.folder / "plan.safetensors"]))
+        plan = said["options"]["plan"]
+        return [((one["alpha"], one["sigma_cells"]) == (plan["alpha"], plan["sigma_cells"]), one["flown_share"])
+                for one in said["tried_parameters"]], said["cells"]
+
     def exact_contract(self):
         contract = self.folder / "exact.toml"
         contract.write_text("[vehicle.contract]\n")
@@ -137,6 +163,8 @@ def main():
     parser.add_argument("--only", default=",".join(n for n, m in MAPS.items() if m[0] != "track"))
     parser.add_argument("--undecided-max", type=float, default=0.03)
     parser.add_argument("--time-limit", type=float, default=300.0)
+    parser.add_argument("--flown", action="store_true")
+    parser.add_argument("--tried", action="store_true")
     asked = parser.parse_args()
     fixed = dict(one.split("=", 1) for one in asked.set)
     axes = [[(key, value) for value in values.split(",")]
@@ -148,15 +176,31 @@ def main():
     def row(cells):
         print("| " + " | ".join(cells) + " |", flush=True)
 
+    if asked.tried:
+        row(["map", "kind", "cells", "r / cell", "paper", "light", "wide", "corners", "beside"])
+        row(["---"] * 9)
+        for name in asked.only.split(","):
+            tried, cells = proofs.tried(name)
+            row([name, MAPS[name][0], "{} x {}".format(*cells), f"{MAPS[name][4] / MAPS[name][3]:.3g}",
+                 *("-" if share is None else ("**{:.1f}**" if taken else "{:.1f}").format(100 * share)
+                   for taken, share in tried)])
+        return
     row(["map", "kind", "cells", "r / cell", *(" ".join(c.values()) for c in columns)])
     row(["---"] * (4 + len(columns)))
     shares = [[] for _ in columns]
     for name in asked.only.split(","):
+        if asked.flown:
+            found = proofs.flown(name, {axis[0][0]: [v for _, v in axis] for axis in axes}, fixed)
+            row([name, MAPS[name][0], "", f"{MAPS[name][4] / MAPS[name][3]:.3g}",
+                 *(f"{found[tuple(map(float, c.values()))]:.1f}" for c in columns)])
+            continue
         made = [proofs.of(name, fixed | column) for column in columns]
         for share, one in zip(shares, made):
             share.append(one["shares"].get("follow", one["shares"].get("reach", 0.0)))
         row([name, MAPS[name][0], "{} x {}".format(*made[0]["cells"]), f"{MAPS[name][4] / MAPS[name][3]:.3g}",
              *(f"{100 * share[-1]:.1f} ({100 * one['shares']['undecided']:.1f})" for share, one in zip(shares, made))])
+    if asked.flown:
+        return
     row(["mean", "", "", "", *(f"{100 * sum(s) / len(s):.1f}" for s in shares)])
 
 

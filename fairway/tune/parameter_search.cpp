@@ -160,7 +160,9 @@ const Evaluation* ParameterSearch::find_or_evaluate(const Values& values) {
     const bool is_late = request_.time_limit_s > 0.0 && seconds() >= request_.time_limit_s;
     if (!asked_.empty() && is_late) return nullptr;
     tell();
-    logged = &log_.add(evaluate(tuned_.with(values), values));
+    Scenario scenario = tuned_.with(values);
+    scenario.improve = false;  // takes far longer than an evaluation; finalists have it
+    logged = &log_.add(evaluate(scenario, values));
   }
   asked_.push_back(*logged);
   return &asked_.back();

@@ -34,7 +34,7 @@ goal_m = [60.0, 60.0]
 [plan]
 alpha = 2.0  # wide
 [verify]
-undecided_max = 0.02
+undecided_max = 0.1
 )";
 
 /// A yard with some walls.
