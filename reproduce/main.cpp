@@ -42,7 +42,7 @@ int reproduce(const std::filesystem::path& demo, const std::filesystem::path& ou
   using namespace fairway;
   const std::array<Setting, 2> settings{
       {{"paper", "To the letter of the paper", reproduce::options_to_the_letter()},
-       {"default", "With the defaults (except sigma)", FieldOptions{}}}};
+       {"default", "With the preset \"paper\" (except sigma)", FieldOptions{}}}};
   std::string text;
   nlohmann::json numbers;
   for (const Setting& setting : settings) {

@@ -232,7 +232,7 @@ class Interrupted(Files):
 
 class Help(Files):
     def test_common_options_stand_in_the_help_of_every_command(self):
-        for command in ("run", "plan", "simulate", "verify", "query", "check", "cell", "draw", "export", "steer", "contract", "compare", "view"):
+        for command in ("run", "plan", "simulate", "verify", "query", "check", "cell", "draw", "export", "steer", "tune", "contract", "compare", "view"):
             told = self.expect(0, command, "--help").stdout
             common = told.partition("Common options:\n")[2]
             for option in ("--threads", "--quiet", "--json"):

@@ -38,6 +38,7 @@ OUTSIDE = [
     (re.compile(r"openssl"), {"base"}),
     (re.compile(r"zlib"), {"report"}),
     (re.compile(r"httplib"), {"view"}),
+    (re.compile(r"nlopt"), {"tune"}),
 ]
 # Outside the stages: what a vehicle needs of them.
 RUNTIME = {"fairway/runtime.hpp", "fairway/contract_runtime.hpp"}

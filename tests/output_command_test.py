@@ -81,6 +81,7 @@ class Output(unittest.TestCase):
                       ["compare", "p", "p", "--quick", "--states", "1000", "--json"],
                       ["cell", "p", "--cell", "5,5"], ["cell", "p", "--cell", "5,5", "--json"],
                       steer, [*steer, "--json"], ["contract", "--airspeed", "20", "--turn-radius", "50"],
+                      ["tune", "s.toml", "-o", "t", "--evaluations", "2", "--finalists", "1", "--force"],
                       ["info", "map.pgm", "--resolution", "1"], ["init", "map.pgm", "--resolution", "1", "-o", "i", "--force"],
                       ["--help"], ["verify", "--help"], ["--version"], ["--scenario-keys"]):
             self.lost(words)

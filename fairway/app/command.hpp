@@ -32,6 +32,7 @@ Action declare_draw(CLI::App& options);
 Action declare_cell(CLI::App& options);
 Action declare_export(CLI::App& options);
 Action declare_steer(CLI::App& options);
+Action declare_tune(CLI::App& options);
 Action declare_contract(CLI::App& options);
 Action declare_compare(CLI::App& options);
 Action declare_ceiling(CLI::App& options);

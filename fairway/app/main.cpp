@@ -50,6 +50,7 @@ constexpr Command commands[] = {
      declare_export, true},
     {"steer", "steer to a pose by a shortest path or a control law, ignoring obstacles",
      declare_steer, true},
+    {"tune", "find the parameters with which most states are proved", declare_tune, true},
     {"contract", "state what the vehicle keeps, from its numbers or its flight logs",
      declare_contract, true},
     {"compare", "compare plans over all states: what each proves and what its flights cost",

@@ -1,6 +1,7 @@
 #include "fairway/run/contract_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -154,7 +155,8 @@ TEST(ContractsInScenarios, AreSetFromTheCommandLine) {
 
 TEST(ContractsInScenarios, StandInThePlansRecordAndTheSummaryIfThereAreAny) {
   const Scenario with = scenario_of_text(scenario_with, "s.toml");
-  const Scenario without = scenario_of_text(scenario_without, "s.toml");
+  const std::array papers{ScenarioOverride{"plan.preset", "paper"}};  // as with a contract
+  const Scenario without = scenario_of_text(scenario_without, "s.toml", papers);
   const ObstacleMap map;
   const Mission mission = GoalMission{};
   EXPECT_EQ(plan_record(with, map, mission).contract, contract_with());

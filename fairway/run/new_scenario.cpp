@@ -153,9 +153,8 @@ std::string text_of(const NewScenarioRequest& request, const Candidate& chosen) 
                                    : "Chosen to suit the map: replace it by your vehicle's") +
          mission_table(chosen) +
          "\n[plan]\n"
-         "alpha = 2.0  # buffer width / turning radius; less opens narrower passages, but more "
-         "starts collide\n"
-         "beta = 2.0   # goal radius / turning radius\n"
+         "# alpha = 2.0  # buffer width / turning radius; without it, chosen to suit the map\n"
+         "beta = 2.0  # goal radius / turning radius\n"
          "\n[simulate]\n"
          "# states = [[0.0, 0.0, 1.57]]  # flights to draw: metres, and radians from east\n"
          "random = 100\n"

@@ -57,7 +57,8 @@ RunResult unreachable(const Scenario& scenario, const MissionRefusal& refusal) {
 
 }  // namespace
 
-std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& scenario, StageClock& clock) {
+std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& asked, StageClock& clock) {
+  Scenario scenario = asked;
   clock.begin("reading the map", unknown_time);
   ObstacleMap map = read_map(map_request(scenario));
   Mission mission = mission_on_map(scenario, map);
@@ -66,6 +67,15 @@ std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& scenario, St
   }
   if (scenario.only_connected) keep_only_connected(map, mission, scenario.map.file.string());
 
+  ChosenParameters chosen{scenario.plan, {}};
+  if (scenario.open.alpha || scenario.open.sigma_cells) {
+    clock.begin("choosing parameters", estimate(scenario, map.grid).from_field());
+    chosen = choose_parameters(
+        map, scenario.vehicle, mission,
+        candidate_options(scenario.plan, scenario.open, scenario.vehicle, map.grid.cell_m));
+    scenario.plan = chosen.options;
+    scenario.open = {};
+  }
   clock.begin("computing the field", estimate(scenario, map.grid).from_field());
   FieldOrRefusal answer = compute_field(map, scenario.vehicle, mission, scenario.plan);
   if (auto* refusal = std::get_if<MissionRefusal>(&answer)) {
@@ -77,7 +87,8 @@ std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& scenario, St
   Plan plan = plan_of_field(std::move(std::get<Field>(answer)), scenario.vehicle,
                             plan_record(scenario, map, mission));
   if (scenario.improve) plan = improved(plan, scenario.file.string(), {}, clock).plan;
-  return Planned{std::move(map), std::move(mission), std::move(plan)};
+  return Planned{std::move(map), std::move(mission), std::move(plan), std::move(scenario),
+                 std::move(chosen.tried)};
 }
 
 namespace {
@@ -145,19 +156,19 @@ std::string to_look_at(const fs::path& folder, const json& products) {
 
 }  // namespace
 
-RunResult run(const Scenario& scenario, const fs::path& folder, Existing existing,
+RunResult run(const Scenario& asked, const fs::path& folder, Existing existing,
               const Progress& progress) {
   std::vector<fs::path> places;
   for (const std::string& name : product_names()) places.push_back(folder / name);
-  require_no_inputs(places, inputs_of(scenario));
+  require_no_inputs(places, inputs_of(asked));
   AtomicFolder products(folder, existing, product::summary, product_names());
   const fs::path& place = products.temporary_path();
   StageClock clock(progress);
 
-  auto answer = plan_scenario(scenario, clock);
+  auto answer = plan_scenario(asked, clock);
   if (const auto* refusal = std::get_if<MissionRefusal>(&answer))
-    return unreachable(scenario, *refusal);
-  const auto& [map, mission, plan] = std::get<Planned>(answer);
+    return unreachable(asked, *refusal);
+  const auto& [map, mission, plan, scenario, tried] = std::get<Planned>(answer);
   require_no_inputs(places, inputs_of(map));
   const RegionOfInterest region = region_on_plan(scenario.verify.region, plan);
   const Estimate left = estimate(scenario, map.grid);
@@ -208,6 +219,7 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
     result.summary["contract"]["findings"] = findings_json(under);
   }
   add_overrides(result.summary, scenario);
+  if (!tried.empty()) result.summary["tried_parameters"] = tried_json(tried);
   result.summary["findings"] = findings_json(found);
   result.summary["warnings"] = result.warnings;
   add_flights(result.summary, flown, scenario.simulate.seed);
@@ -229,18 +241,18 @@ RunResult run(const Scenario& scenario, const fs::path& folder, Existing existin
   return result;
 }
 
-RunResult run_plan_only(const Scenario& scenario, const fs::path& file, Existing existing,
+RunResult run_plan_only(const Scenario& asked, const fs::path& file, Existing existing,
                         const Progress& progress, const fs::path& picture) {
   std::vector<fs::path> places{file};
   if (!picture.empty()) places.push_back(picture);
-  require_no_inputs(places, inputs_of(scenario));
+  require_no_inputs(places, inputs_of(asked));
   for (const fs::path& place : places) require_writable_place(place, existing);
   StageClock clock(progress);
 
-  auto answer = plan_scenario(scenario, clock);
+  auto answer = plan_scenario(asked, clock);
   if (const auto* refusal = std::get_if<MissionRefusal>(&answer))
-    return unreachable(scenario, *refusal);
-  const auto& [map, mission, plan] = std::get<Planned>(answer);
+    return unreachable(asked, *refusal);
+  const auto& [map, mission, plan, scenario, tried] = std::get<Planned>(answer);
 
   require_no_inputs(places, inputs_of(map));
   clock.begin("writing the plan", estimate(scenario, map.grid).plan_s);
@@ -253,6 +265,7 @@ RunResult run_plan_only(const Scenario& scenario, const fs::path& file, Existing
 
   RunResult result{false, plan_summary(scenario, plan), {}, plan_warnings(scenario, map, plan)};
   add_overrides(result.summary, scenario);
+  if (!tried.empty()) result.summary["tried_parameters"] = tried_json(tried);
   for (const fs::path& place : places) {
     result.summary["products"][place.filename().string()] = sha256_file(place);
   }

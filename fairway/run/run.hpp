@@ -12,6 +12,7 @@
 #include "fairway/field/field.hpp"
 #include "fairway/map/obstacle_map.hpp"
 #include "fairway/plan/plan.hpp"
+#include "fairway/run/choose_parameters.hpp"
 #include "fairway/run/progress.hpp"
 #include "fairway/run/scenario.hpp"
 #include "fairway/run/stage_clock.hpp"
@@ -23,6 +24,8 @@ struct Planned {
   ObstacleMap map;
   Mission mission;
   Plan plan;
+  Scenario scenario;  ///< as it was asked for, with the parameters that were chosen
+  std::vector<TriedParameters> tried;  ///< from which; empty: nothing was left open
 };
 
 /// map -> field -> plan, in memory: the first steps of every run. A refusal is `unreachable`; any

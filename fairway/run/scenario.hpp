@@ -18,6 +18,7 @@
 #include "fairway/field/field.hpp"
 #include "fairway/map/read_map.hpp"
 #include "fairway/run/bitmap_verification.hpp"
+#include "fairway/run/choose_parameters.hpp"
 #include "fairway/run/region_request.hpp"
 #include "fairway/run/verify_limits.hpp"
 #include "fairway/vehicle/contract.hpp"
@@ -62,6 +63,12 @@ struct SimulateRequest {
   std::uint64_t seed = 1;
 };
 
+/// Where parameters of the plan come from that are not given.
+enum class ParameterPreset {
+  by_map,  ///< "default": some are chosen when the plan is made (choose_parameters.hpp)
+  paper
+};
+
 enum class VerifyMethod { certified, bitmap, none };
 
 /// The [verify] table.
@@ -81,7 +88,9 @@ struct Scenario {
   Vehicle vehicle;
   std::optional<VehicleContract> contract;  ///< [vehicle.contract], complete
   MissionRequest mission;
+  ParameterPreset preset = ParameterPreset::by_map;
   FieldOptions plan;
+  OpenParameters open;  ///< of `plan`: not given, and not yet chosen
   bool improve = false;  ///< plan.improve: change commands where verdicts confirm that it helps
   SimulateRequest simulate;
   VerifyRequest verify;

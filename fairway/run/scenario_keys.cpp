@@ -22,6 +22,14 @@ ScenarioKey required(ScenarioKey made) {
   return made;
 }
 
+/// Not shown while it is open what it will be.
+ScenarioKey unless(bool OpenParameters::*is_open, ScenarioKey made) {
+  made.shown = [is_open, shown = std::move(made.shown)](const Scenario& s) {
+    return s.open.*is_open ? json() : shown(s);
+  };
+  return made;
+}
+
 constexpr Range any_finite{};
 constexpr Range positive{0.0, 1e9, true};
 constexpr Range not_negative{0.0, 1e9, false};
@@ -131,8 +139,15 @@ std::vector<ScenarioKey> mission_keys() {
 
 std::vector<ScenarioKey> plan_keys() {
   return {
-      number("plan.alpha", factor, FAIRWAY_MEMBER(plan.alpha),
-             "buffer width / turning radius (Eq. 3; the paper: at least 2)"),
+      choice<ParameterPreset>(
+          "plan.preset", {{"default", ParameterPreset::by_map}, {"paper", ParameterPreset::paper}},
+          FAIRWAY_MEMBER(preset),
+          "parameters that are not given: `alpha` and `sigma_cells` chosen for the map by flights "
+          "under a few plans, or the paper's, 2 and 1; with a contract always the paper's"),
+      unless(&OpenParameters::alpha,
+             number("plan.alpha", factor, FAIRWAY_MEMBER(plan.alpha),
+                    "buffer width / turning radius (Eq. 3; the paper: at least 2); by default as "
+                    "`plan.preset` says")),
       number("plan.beta", factor, FAIRWAY_MEMBER(plan.beta),
              "goal radius / turning radius (Eq. 4; the paper: at least 2)"),
       choice<Metric>(
@@ -141,8 +156,10 @@ std::vector<ScenarioKey> plan_keys() {
           FAIRWAY_MEMBER(plan.metric),
           "how distances are measured: exactly, along eight directions, or exactly as in the "
           "paper's Algorithms 1 and 2"),
-      number("plan.sigma_cells", width, FAIRWAY_MEMBER(plan.sigma_cells),
-             "standard deviation of the Gaussian filter, cells (Eqs. 19-21); 0: no filter"),
+      unless(&OpenParameters::sigma_cells,
+             number("plan.sigma_cells", width, FAIRWAY_MEMBER(plan.sigma_cells),
+                    "standard deviation of the Gaussian filter, cells (Eqs. 19-21); 0: no filter; "
+                    "by default as `plan.preset` says")),
       number("plan.mu_path", share, FAIRWAY_MEMBER(plan.mu_path),
              "how slowly the field turns parallel to a path near it: the smaller, the sooner "
              "(Eq. 16)"),
@@ -238,7 +255,8 @@ const std::vector<ScenarioKey>& scenario_keys() {
 
 std::string scenario_keys_markdown() {
   std::string text = "| key | value | default | meaning |\n|---|---|---|---|\n";
-  const Scenario defaults;
+  Scenario defaults;
+  defaults.open = {true, true};
   for (const ScenarioKey& k : scenario_keys()) {
     const json value = k.shown(defaults);
     const std::string fallback = k.required        ? "required"
@@ -254,6 +272,8 @@ json effective_values(const Scenario& scenario, std::string_view table) {
   for (const ScenarioKey& k : scenario_keys()) {
     if (k.table() == table) values[k.leaf()] = k.shown(scenario);
   }
+  // Records name what a preset stands for, not the preset.
+  if (table == "plan") values.erase("preset");
   // Goals have no path, and their records never named its field.
   if (table == "plan" && scenario.mission.kind == MissionKind::goal) values.erase("path_field");
   // Records name only what they named before there was a choice, and what was chosen.

@@ -127,6 +127,11 @@ Scenario keys_of_text(std::string_view bytes, const fs::path& file,
   }
   for (const ScenarioOverride& one : overrides) take_override(one, scenario);
   complete_contract(scenario);
+  // Flights are exact: they say nothing of a vehicle that only keeps a contract, and under one the
+  // paper's wide buffers prove more (docs/tuning.md).
+  const bool may_choose = scenario.preset == ParameterPreset::by_map && !scenario.contract;
+  scenario.open.alpha = may_choose && !scenario.lines.contains("plan.alpha");
+  scenario.open.sigma_cells = may_choose && !scenario.lines.contains("plan.sigma_cells");
   return scenario;
 }
 
