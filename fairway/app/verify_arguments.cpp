@@ -69,6 +69,9 @@ void declare_verify_arguments(CLI::App& options, VerifyArguments& a) {
                   "stop before using more memory than this, megabytes")
       ->check(finite_above(0.0))
       ->type_name("MB");
+  options.add_flag("--ceiling", a.ceiling,
+                   "also bound what any control could keep, and tell what share of it is proved; "
+                   "the limits hold for it, too (docs/ceiling.md)");
   options
       .add_option("--resume", a.resume,
                   "continue from an earlier certificate of the same plan, vehicle (or contract) "
@@ -114,9 +117,9 @@ void declare_verify_arguments(CLI::App& options, VerifyArguments& a) {
     if (!a.contract.empty() && !a.method.empty() && a.method != "contract") {
       throw CLI::ValidationError("--contract", "goes with --method contract");
     }
-    if (a.method == "bitmap" && (!a.resume.empty() || !a.failures.empty())) {
+    if (a.method == "bitmap" && (!a.resume.empty() || !a.failures.empty() || a.ceiling)) {
       throw CLI::ValidationError("--method bitmap",
-                                 "cannot be combined with --resume or --failures");
+                                 "cannot be combined with --resume, --failures or --ceiling");
     }
   });
 }

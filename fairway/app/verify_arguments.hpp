@@ -26,6 +26,7 @@ struct VerifyArguments {
   int parts_per_cell = 0;
   std::string region = "goal";
   VerifyLimits limits;
+  bool ceiling = false;
   std::size_t volume_samples = CertifyOptions{}.samples;
   std::uint64_t seed = CertifyOptions{}.seed;
   int samples_per_border = usual_border_samples;

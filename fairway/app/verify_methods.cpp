@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fairway/bitmap/bitmap_file.hpp"
+#include "fairway/ceiling/find_ceiling.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/run/bitmap_pictures.hpp"
 #include "fairway/run/bitmap_verification.hpp"
@@ -37,6 +38,18 @@ void write_failures(const VerifyTask& task, const Certificate& certificate) {
 
 }  // namespace
 
+void add_ceiling(const VerifyTask& task, const std::vector<CellKind>& kind,
+                 const ProvedShare& proved, VerifyOutcome& outcome) {
+  if (!task.arguments.ceiling) return;
+  task.clock.begin(ceiling_stage, unknown_time);
+  const Plan asked = as_verified(task.plan, kind);
+  const Ceiling ceiling =
+      find_ceiling(asked.grid, asked.region, asked.vehicle, ceiling_options(task.arguments.limits));
+  task.clock.end();
+  add_ceiling(outcome.summary, outcome.findings, ceiling, proved);
+  if (auto warning = limit_warning(ceiling)) outcome.warnings.push_back(std::move(*warning));
+}
+
 VerifyOutcome verify_exactly(const VerifyTask& task) {
   const VerifyArguments& a = task.arguments;
   std::optional<EarlierProof> earlier;
@@ -55,6 +68,7 @@ VerifyOutcome verify_exactly(const VerifyTask& task) {
     outcome.notes += resumed_words(*made.resumed) + "\n";
   }
   if (auto warning = limit_warning(made)) outcome.warnings.push_back(std::move(*warning));
+  add_ceiling(task, made.certificate.kind, proved_share(task.plan, made), outcome);
   return outcome;
 }
 

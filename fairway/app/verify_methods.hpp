@@ -12,10 +12,12 @@
 #include "fairway/app/verify_arguments.hpp"
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/plan/plan.hpp"
+#include "fairway/run/ceiling_summary.hpp"
 #include "fairway/run/contract_resume.hpp"
 #include "fairway/run/findings.hpp"
 #include "fairway/run/stage_clock.hpp"
 #include "fairway/vehicle/contract.hpp"
+#include "fairway/verify/flow.hpp"
 #include "fairway/verify/region_of_interest.hpp"
 
 namespace fairway {
@@ -41,6 +43,11 @@ struct VerifyOutcome {
 
 /// Paper 2's method: a bitmap.
 [[nodiscard]] VerifyOutcome verify_by_bitmap(const VerifyTask& task);
+
+/// What any control could keep, if that is asked for. `kind`: of the cells, that says which are to
+/// be reached; `proved`: what the plan keeps.
+void add_ceiling(const VerifyTask& task, const std::vector<CellKind>& kind,
+                 const ProvedShare& proved, VerifyOutcome& outcome);
 
 /// What is asked under a contract.
 struct ContractAsked {

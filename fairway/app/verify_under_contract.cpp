@@ -102,6 +102,11 @@ VerifyOutcome verify_under_contract(const VerifyTask& task, const ContractAsked&
     outcome.warnings.push_back(std::move(*wide));
   }
   if (auto limit = limit_warning(made)) outcome.warnings.push_back(std::move(*limit));
+  if (const auto proved = proved_share(task.plan, made)) {
+    add_ceiling(task, made.certificate.kind, *proved, outcome);
+  } else if (a.ceiling) {
+    outcome.warnings.emplace_back(no_ceiling_of_following);
+  }
   return outcome;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -10,17 +11,42 @@
 namespace fairway {
 namespace {
 
-nlohmann::json bounds(const CeilingShare& share) { return {share.lower, share.upper}; }
+using nlohmann::json;
 
-/// Rounded outwards: what is printed holds, too.
+json bounds(const CeilingShare& share) { return {share.lower, share.upper}; }
+
+// Rounded outwards: what is printed holds, too.
+std::string at_least_text(double share, int decimals = 1) {
+  const double units = std::pow(10.0, 2 + decimals);
+  return percent_text(std::floor(share * units) / units, decimals);
+}
+std::string at_most_text(double share) {
+  return percent_text(std::min(1.0, std::ceil(share * 1000.0) / 1000.0));
+}
 std::string bounds_text(const CeilingShare& share) {
-  return fmt::format("{} to {}", percent_text(std::floor(share.lower * 1000.0) / 1000.0),
-                     percent_text(std::min(1.0, std::ceil(share.upper * 1000.0) / 1000.0)));
+  return fmt::format("{} to {}", at_least_text(share.lower), at_most_text(share.upper));
+}
+
+Finding finding_of(const Ceiling& c, const ProvedShare& proved) {
+  return {at_least_text(share_of_ceiling(c, proved.of_all), proved.decimals),
+          "what any control could keep",
+          fmt::format("is kept at least: {} of all states {}, and no plan can keep more than {}",
+                      percent_text(proved.of_all, proved.decimals), proved.what,
+                      at_most_text(c.all.upper))};
 }
 
 }  // namespace
 
-nlohmann::json json_of(const Ceiling& c) {
+CeilingOptions ceiling_options(const VerifyLimits& limits) {
+  CeilingOptions options;
+  options.levels_max = 2;
+  options.time_limit_s =
+      limits.time_limit_s > 0.0 ? limits.time_limit_s : std::numeric_limits<double>::infinity();
+  options.memory_limit_mb = limits.memory_limit_mb.value_or(options.memory_limit_mb);
+  return options;
+}
+
+json json_of(const Ceiling& c) {
   return {{"ceiling", bounds(c.all)},
           {"ceiling_free", bounds(c.free)},
           {"ceiling_buffer", bounds(c.buffer)},
@@ -44,6 +70,45 @@ std::string words_of(const Ceiling& c) {
 double share_of_ceiling(const Ceiling& ceiling, double proved) {
   if (ceiling.all.upper <= 0.0) return 1.0;
   return std::min(1.0, proved / ceiling.all.upper);
+}
+
+ProvedShare proved_share(const Plan& plan, const Verification& made) {
+  const VolumeFractions& volume = made.outcome.volume;
+  return {volume.all[static_cast<std::size_t>(Verdict::reach)], decimals_of_sample(volume.samples),
+          proved_to_reach(goal_of(plan, made.certificate.region_of_interest))};
+}
+
+std::optional<ProvedShare> proved_share(const Plan& plan, const ContractVerification& made) {
+  if (made.following) return std::nullopt;
+  const ContractShares& shares = made.survey.shares;
+  return ProvedShare{shares.all[static_cast<std::size_t>(Verdict::reach)],
+                     decimals_of_sample(shares.samples),
+                     proved_to_reach(goal_of(plan, made.certificate.region_of_interest)) +
+                         " whatever the vehicle does within its contract"};
+}
+
+void add_ceiling(json& summary, std::vector<Finding>& found, const Ceiling& c,
+                 const ProvedShare& proved) {
+  summary["ceiling"] = bounds(c.all);
+  summary["ceiling_free"] = bounds(c.free);
+  summary["ceiling_buffer"] = bounds(c.buffer);
+  summary["ceiling_levels"] = c.levels;
+  summary["share_of_ceiling"] = share_of_ceiling(c, proved.of_all);
+  if (c.levels > 0) found.push_back(finding_of(c, proved));
+}
+
+std::string words_of(const Ceiling& c, const ProvedShare& proved) {
+  if (c.levels == 0) return words_of(c);
+  const Finding kept = finding_of(c, proved);
+  return fmt::format("{} Of {} {} {}.", words_of(c), kept.of, kept.share, kept.what);
+}
+
+std::optional<std::string> limit_warning(const Ceiling& c) {
+  if (c.complete) return std::nullopt;
+  return c.levels == 0
+             ? "What any control could keep is not known: a limit of time or memory came first."
+             : "What any control could keep is known less closely than usual: a limit of time or "
+               "memory came first.";
 }
 
 }  // namespace fairway

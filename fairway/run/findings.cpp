@@ -45,11 +45,6 @@ std::string done_by_states(Verdict verdict, const std::string& goal) {
   return "are proved to collide";
 }
 
-std::string goal_of(const Plan& plan, const Verification& v) {
-  const bool is_goal = v.certificate.region_of_interest.kind == RegionOfInterest::Kind::goal;
-  return is_goal ? goal_word(plan) : "region";
-}
-
 std::string after(const char* mark, const std::string& words) {
   return words.empty() ? words : mark + words;
 }
@@ -76,6 +71,10 @@ bool is_mostly_cut_off(const RegionCells& cells) {
 
 }  // namespace
 
+std::string goal_of(const Plan& plan, const RegionOfInterest& region) {
+  return region.kind == RegionOfInterest::Kind::goal ? goal_word(plan) : "region";
+}
+
 std::string proved_to_reach(const std::string& goal) {
   return (goal == "path" ? "are proved to touch the " : "are proved to reach the ") + goal;
 }
@@ -94,7 +93,7 @@ std::vector<Finding> plan_findings(const Plan& plan) {
 std::vector<Finding> findings(const Plan& plan, const Verification& v) {
   const VolumeFractions& volume = v.outcome.volume;
   const int decimals = decimals_of_sample(volume.samples);
-  const std::string goal = goal_of(plan, v);
+  const std::string goal = goal_of(plan, v.certificate.region_of_interest);
   const auto line = [&](const auto& shares, Verdict verdict, const char* of) {
     return Finding{percent_text(share_of(shares, verdict), decimals), of,
                    done_by_states(verdict, goal)};

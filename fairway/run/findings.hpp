@@ -17,6 +17,7 @@
 #include "fairway/run/bitmap_verification.hpp"
 #include "fairway/run/scenario_flights.hpp"
 #include "fairway/run/verification.hpp"
+#include "fairway/verify/region_of_interest.hpp"
 
 namespace fairway {
 
@@ -26,6 +27,9 @@ struct Finding {
   std::string of;
   std::string what;
 };
+
+/// The word for what a proof is about: "goal", "path", or "region".
+[[nodiscard]] std::string goal_of(const Plan& plan, const RegionOfInterest& region);
 
 /// "are proved to reach the goal": of a path, to reach is only to touch it.
 [[nodiscard]] std::string proved_to_reach(const std::string& goal);

@@ -27,11 +27,6 @@ double share_of(const std::array<double, verdict_count>& shares, Verdict verdict
   return shares[static_cast<std::size_t>(verdict)];
 }
 
-std::string goal_of(const Plan& plan, const ProvedUnderContract& proved) {
-  const RegionOfInterest& region = proved.verification.certificate.region_of_interest;
-  return region.kind == RegionOfInterest::Kind::goal ? goal_word(plan) : "region";
-}
-
 const char* checked_words(bool checked) {
   return checked ? "an independent program re-proved the certificate"
                  : "the certificate was NOT checked: fairway-check could not be run";
@@ -106,7 +101,7 @@ std::vector<Finding> findings(const Plan& plan, const ProvedUnderContract& prove
       (made.following && made.certificate.follow->hold
            ? "are proved to reach the goal and to stay there for ever"
        : made.following ? "are proved to join the path and to follow it"
-                        : proved_to_reach(goal_of(plan, proved))) +
+                        : proved_to_reach(goal_of(plan, made.certificate.region_of_interest))) +
           within);
   if (const double holding = share_of(s.all, Verdict::hold); holding > 0.0) {
     add(holding, "are proved to hold" + (exact ? "" : "," + within));

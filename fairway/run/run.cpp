@@ -7,12 +7,14 @@
 #include <fmt/format.h>
 
 #include "fairway/base/digest.hpp"
+#include "fairway/ceiling/find_ceiling.hpp"
 #include "fairway/exchange/flight_files.hpp"
 #include "fairway/field/compute_field.hpp"
 #include "fairway/map/degrees_from_frame.hpp"
 #include "fairway/map/read_map.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/plan/plan_of_field.hpp"
+#include "fairway/run/ceiling_summary.hpp"
 #include "fairway/run/closing.hpp"
 #include "fairway/run/contract_pictures.hpp"
 #include "fairway/run/design_warnings.hpp"
@@ -111,12 +113,21 @@ const FollowProof* follow_of(const std::optional<ProvedUnderContract>& under_con
   return &*under_contract->verification.certificate.follow;
 }
 
+/// What any control could keep of what was proved, if the scenario asks for it.
+std::optional<Ceiling> ceiling_of_run(const Scenario& scenario, const Plan& as_asked,
+                                      const Verified& verified, StageClock& clock) {
+  if (!scenario.verify.ceiling || !std::holds_alternative<Proved>(verified)) return std::nullopt;
+  clock.begin(ceiling_stage, unknown_time);
+  return find_ceiling(as_asked.grid, as_asked.region, as_asked.vehicle,
+                      ceiling_options(scenario.verify.limits));
+}
+
 /// report.html; where this build has none, a warning says why.
 void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights& flown,
                 const Verified& verified, const std::optional<ProvedUnderContract>& under_contract,
-                const VerdictMap* contract_map, const std::optional<PageWitnesses>& witnesses,
-                const ExactFlights& flights, const std::string& title, const fs::path& place,
-                RunResult& result) {
+                const std::optional<Ceiling>& ceiling, const VerdictMap* contract_map,
+                const std::optional<PageWitnesses>& witnesses, const ExactFlights& flights,
+                const std::string& title, const fs::path& place, RunResult& result) {
   constexpr std::size_t failing_of_each = 4;
   const auto* proved = std::get_if<Proved>(&verified);
   ReportPage page{title,
@@ -131,6 +142,7 @@ void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights&
                   follow_of(under_contract),
                   under_contract && is_exact(under_contract->verification.certificate)};
   if (under_contract) page.words.push_back(words_of(plan, *under_contract));
+  if (ceiling) page.words.push_back(words_of(*ceiling, proved_share(plan, proved->verification)));
   const std::string absent = write_report_page(plan, mission, flown, page, place);
   if (!absent.empty()) result.warnings.push_back(absent);
 }
@@ -191,6 +203,7 @@ RunResult run(const Scenario& asked, const fs::path& folder, Existing existing,
       prove_under_contract(plan, scenario, region, place, clock, contract_warnings);
   const Plan as_asked = as_verified(plan, verified);
   const ExactFlights flights(as_asked);
+  const std::optional<Ceiling> ceiling = ceiling_of_run(scenario, as_asked, verified, clock);
 
   clock.begin("drawing", left.from_pictures());
   const std::string title = scenario.file.stem().string();
@@ -211,11 +224,19 @@ RunResult run(const Scenario& asked, const fs::path& folder, Existing existing,
   RunResult result{
       false, plan_summary(scenario, plan), {}, warnings_of(scenario, map, plan, flown, verified)};
   for (std::string& warning : contract_warnings) result.warnings.push_back(std::move(warning));
+  result.summary["verify"] = json_of(verified);
+  if (ceiling) {
+    add_ceiling(result.summary["verify"], found, *ceiling,
+                proved_share(plan, std::get<Proved>(verified).verification));
+    if (auto warning = limit_warning(*ceiling)) result.warnings.push_back(*warning);
+  }
   if (under_contract) {
-    const std::vector<Finding> under = findings(plan, *under_contract);
+    std::vector<Finding> under = findings(plan, *under_contract);
+    result.summary["contract"] = json_of(*under_contract);
+    const auto share = proved_share(plan, under_contract->verification);
+    if (ceiling && share) add_ceiling(result.summary["contract"], under, *ceiling, *share);
     found.insert(found.end(), under.begin(), under.end());
     if (auto warning = limit_warning(*under_contract)) result.warnings.push_back(*warning);
-    result.summary["contract"] = json_of(*under_contract);
     result.summary["contract"]["findings"] = findings_json(under);
   }
   add_overrides(result.summary, scenario);
@@ -224,9 +245,8 @@ RunResult run(const Scenario& asked, const fs::path& folder, Existing existing,
   result.summary["warnings"] = result.warnings;
   add_flights(result.summary, flown, scenario.simulate.seed);
   result.summary["measures"] = flight_costs_json(costs);
-  result.summary["verify"] = json_of(verified);
   result.summary["products"] = product_digests(place);
-  write_page(plan, mission, flown, verified, under_contract,
+  write_page(plan, mission, flown, verified, under_contract, ceiling,
              contract_map ? &*contract_map : nullptr, witnesses, flights, title, place, result);
   clock.end();
   result.summary["products"] = product_digests(place);

@@ -124,6 +124,9 @@ void check(const Scenario& s) {
   }
   if (s.verify.method != VerifyMethod::bitmap) {
     forbid(s, "verify.border_samples", "belongs to verify.method = \"bitmap\"");
+  } else if (s.verify.ceiling) {
+    refuse(s, "verify.ceiling",
+           "compares what is proved with what any control could keep; a bitmap proves nothing");
   }
 }
 

@@ -77,6 +77,7 @@ struct VerifyRequest {
   RegionRequest region;
   std::uint64_t border_samples = usual_border_samples;  ///< bitmap: m, a multiple of four
   VerifyLimits limits = limits_of_a_run;
+  bool ceiling = false;  ///< also find what any control could keep
 };
 
 struct Scenario {

@@ -234,6 +234,9 @@ std::vector<ScenarioKey> simulate_and_verify_keys() {
              "stop refining after this time, seconds; 0: no limit"),
       number("verify.memory_limit_mb", positive, FAIRWAY_MEMBER(verify.limits.memory_limit_mb),
              "stop refining before using more memory than this, megabytes"),
+      key("verify.ceiling", "true or false", any_finite, FAIRWAY_MEMBER(verify.ceiling),
+          "method \"certified\": also bound what any control could keep, and tell what share of it "
+          "the plan keeps; the limits hold for it, too"),
   };
 }
 
