@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "fairway/base/digest.hpp"
-#include "fairway/ceiling/find_ceiling.hpp"
 #include "fairway/exchange/flight_files.hpp"
 #include "fairway/field/compute_field.hpp"
 #include "fairway/map/degrees_from_frame.hpp"
@@ -113,15 +112,6 @@ const FollowProof* follow_of(const std::optional<ProvedUnderContract>& under_con
   return &*under_contract->verification.certificate.follow;
 }
 
-/// What any control could keep of what was proved, if the scenario asks for it.
-std::optional<Ceiling> ceiling_of_run(const Scenario& scenario, const Plan& as_asked,
-                                      const Verified& verified, StageClock& clock) {
-  if (!scenario.verify.ceiling || !std::holds_alternative<Proved>(verified)) return std::nullopt;
-  clock.begin(ceiling_stage, unknown_time);
-  return find_ceiling(as_asked.grid, as_asked.region, as_asked.vehicle,
-                      ceiling_options(scenario.verify.limits));
-}
-
 /// report.html; where this build has none, a warning says why.
 void write_page(const Plan& plan, const Mission& mission, const ScenarioFlights& flown,
                 const Verified& verified, const std::optional<ProvedUnderContract>& under_contract,
@@ -203,7 +193,7 @@ RunResult run(const Scenario& asked, const fs::path& folder, Existing existing,
       prove_under_contract(plan, scenario, region, place, clock, contract_warnings);
   const Plan as_asked = as_verified(plan, verified);
   const ExactFlights flights(as_asked);
-  const std::optional<Ceiling> ceiling = ceiling_of_run(scenario, as_asked, verified, clock);
+  const std::optional<Ceiling> ceiling = ceiling_asked(scenario, as_asked, verified, clock);
 
   clock.begin("drawing", left.from_pictures());
   const std::string title = scenario.file.stem().string();

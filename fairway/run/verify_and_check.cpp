@@ -6,9 +6,11 @@
 
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/bitmap/bitmap_file.hpp"
+#include "fairway/ceiling/find_ceiling.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/run/bitmap_pictures.hpp"
 #include "fairway/run/bitmap_verification.hpp"
+#include "fairway/run/ceiling_summary.hpp"
 #include "fairway/run/checker.hpp"
 #include "fairway/run/failing_flights.hpp"
 #include "fairway/run/products.hpp"
@@ -65,6 +67,14 @@ Verified verify_and_check(const Plan& plan, const Scenario& scenario,
     }
   }
   return NotVerified{};
+}
+
+std::optional<Ceiling> ceiling_asked(const Scenario& scenario, const Plan& as_asked,
+                                     const Verified& verified, StageClock& clock) {
+  if (!scenario.verify.ceiling || !std::holds_alternative<Proved>(verified)) return std::nullopt;
+  clock.begin(ceiling_stage, unknown_time);
+  return find_ceiling(as_asked.grid, as_asked.region, as_asked.vehicle,
+                      ceiling_options(scenario.verify.limits));
 }
 
 Plan as_verified(const Plan& plan, const Verified& verified) {

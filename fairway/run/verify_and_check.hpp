@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "fairway/ceiling/ceiling.hpp"
 #include "fairway/plan/plan.hpp"
 #include "fairway/run/scenario.hpp"
 #include "fairway/run/scenario_flights.hpp"
@@ -23,6 +25,11 @@ namespace fairway {
                                         const ScenarioFlights& flown,
                                         const std::filesystem::path& place, StageClock& clock,
                                         double after_s);
+
+/// What any control could keep of what was proved, if the scenario asks for it. `as_asked`: the
+/// plan as verified.
+[[nodiscard]] std::optional<Ceiling> ceiling_asked(const Scenario& scenario, const Plan& as_asked,
+                                                   const Verified& verified, StageClock& clock);
 
 /// The plan with what was to be reached as its goal: what verdicts and their flights are about.
 [[nodiscard]] Plan as_verified(const Plan& plan, const Verified& verified);
