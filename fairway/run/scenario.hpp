@@ -91,7 +91,7 @@ struct Scenario {
   MissionRequest mission;
   ParameterPreset preset = ParameterPreset::by_map;
   FieldOptions plan;
-  OpenParameters open;  ///< of `plan`: not given, and not yet chosen
+  OpenParameters open;   ///< of `plan`: not given, and not yet chosen
   bool improve = false;  ///< plan.improve: change commands where verdicts confirm that it helps
   SimulateRequest simulate;
   VerifyRequest verify;
