@@ -468,13 +468,14 @@ TEST(Page, FlightsComeWithTheirPiecesAndLegsAndSayHowManyAreLeftOut) {
 TEST(Page, FollowedFlightsSayWhatComesAfterReaching) {
   const Plan plan = island_plan({14, 12, -300.0, 5.0, 6.0}, {-240.0, 40.0}, {4, 6});
   const State start{{-290.0, 20.0}, Heading::from_rad(1.0)};
-  std::vector<Flight> flights(3, flight_of({{start, 0.0, 12.0, 0.1}}, Outcome::reach));
+  std::vector<Flight> flights(4, flight_of({{start, 0.0, 12.0, 0.1}}, Outcome::reach));
   for (std::size_t i = 0; i < flights.size(); ++i) flights[i].onward.after = afters_in_order[i];
   const json shown =
-      record_of(page_html({"t", plan, goal, {{"given", flights, 3}}}, bare))["flights"];
+      record_of(page_html({"t", plan, goal, {{"given", flights, 4}}}, bare))["flights"];
   EXPECT_EQ(shown[0]["after"], "follow");
-  EXPECT_EQ(shown[1]["after"], "collide");
-  EXPECT_EQ(shown[2]["after"], "leave");
+  EXPECT_EQ(shown[1]["after"], "hold");
+  EXPECT_EQ(shown[2]["after"], "collide");
+  EXPECT_EQ(shown[3]["after"], "leave");
   for (const json& flight : shown) EXPECT_EQ(flight["outcome"], "reach");
 }
 
