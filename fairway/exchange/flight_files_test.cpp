@@ -33,8 +33,10 @@ TEST(FlightFiles, WritesALinePerStartThatReadsBackAsTheSameDoubles) {
   for (int i = 0; i < 200; ++i) {
     starts.push_back(
         {{random.uniform(-1e6, 1e6), random.normal()}, Heading::from_rad(random.uniform(-pi, pi))});
-    results.push_back({outcomes_in_order[static_cast<std::size_t>(i % 4)],
-                       i % 4 == 3 ? infinity : random.unit(), 0.1});
+    const Outcome outcome =
+        outcomes_in_order[static_cast<std::size_t>(i) % outcomes_in_order.size()];
+    const bool ends = outcome != Outcome::trapped && outcome != Outcome::hold;
+    results.push_back({outcome, ends ? random.unit() : infinity, 0.1});
   }
   std::vector<FlightMeasures> measures(starts.size());
   for (FlightMeasures& m : measures) m.turning = {120.5, 3.25, 7, 1.0};
