@@ -18,7 +18,8 @@ double SharpProof::share() const {
 }
 
 nlohmann::json SharpProof::json() const {
-  return exact ? verification_json(*exact) : contract_verification_json(under_contract->certificate);
+  return exact ? verification_json(*exact)
+               : contract_verification_json(under_contract->certificate);
 }
 
 bool SharpProof::write_and_check(const std::filesystem::path& folder) const {
