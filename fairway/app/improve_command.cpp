@@ -109,7 +109,8 @@ Action declare_improve(CLI::App& options) {
   options.footer(
       "Commands are tried cell by cell on a model of the plan, and the plan is proved before and\n"
       "after: of the exact vehicle, and under its contract if it has one. It is written only if\n"
-      "neither proves less, and one proves more; else the exit code is 1.\n"
+      "more is proved than what the first proof left open could make up for, and no less under\n"
+      "the contract; else the exit code is 1.\n"
       "Example: fairway improve out/demo/plan.safetensors -o better.safetensors");
   return [a](const Session& session) { return improve_command(*a, session); };
 }

@@ -1,13 +1,9 @@
 #include "fairway/improve/sampled_flow.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "fairway/base/error.hpp"
-#include "fairway/base/parallel.hpp"
-#include "fairway/base/random.hpp"
 
 namespace fairway {
 
@@ -17,28 +13,6 @@ Direction direction_of(float heading_rad) {
   if (std::isnan(heading_rad)) return Direction::none();
   return Direction::of(Heading::from_rad(heading_rad));
 }
-
-/// The part of a direction that leads out of a side.
-double outward(Vec2 u, Side side) {
-  const std::array<double, 4> parts{u.x, u.y, -u.x, -u.y};
-  return parts[static_cast<std::size_t>(side)];
-}
-
-/// Where a place on a side of one cell is in the cell beyond.
-Vec2 beyond(Vec2 p, Side side, double cell_m) {
-  switch (side) {
-    case Side::right:
-      return {0.0, p.y};
-    case Side::top:
-      return {p.x, 0.0};
-    case Side::left:
-      return {cell_m, p.y};
-    default:
-      return {p.x, cell_m};
-  }
-}
-
-bool is_upright(Side side) { return side == Side::right || side == Side::left; }
 
 }  // namespace
 
@@ -55,8 +29,8 @@ SampledFlow::SampledFlow(const Flow& flow, const SampledFlowOptions& options)
           "samples are positive numbers");
   require(shape_.cell_m < shape_.turn_radius_m, "the cell is smaller than the turning radius");
   const std::size_t places = stride_ * (static_cast<std::size_t>(flow.grid.ny) + 2);
-  const double flights = static_cast<double>(places) * (4.0 * per_side_ + per_cell_);
-  require(flights < 4.29e9, "there are fewer than 2^32 sampled flights");
+  require(places <= most_cells(options), "there are fewer than 2^32 sampled flights");
+  const std::size_t flights = places * (4 * std::size_t{per_side_} + per_cell_);
   nodes_ = static_cast<Id>(places * 4 * per_side_);
   command_.assign(places, Direction::none());
   kind_.assign(places, CellKind::outside);
@@ -67,7 +41,7 @@ SampledFlow::SampledFlow(const Flow& flow, const SampledFlowOptions& options)
   }
   meeting_.resize(places);
   tidy_at_.assign(places, 0);
-  end_.assign(static_cast<std::size_t>(flights), nowhere);
+  end_.assign(flights, nowhere);
   value_.assign(nodes_, 0);
   steps_.assign(nodes_, never);
   direct_.assign(nodes_, 0);
@@ -96,7 +70,7 @@ SampledFlow::SampledFlow(const Flow& flow, const SampledFlowOptions& options)
   }
   std::vector<Id> all(nodes_);
   for (Id node = 0; node < nodes_; ++node) all[node] = node;
-  renew_steps(all);
+  renew_values(all);
   for (std::size_t flight = nodes_; flight < end_.size(); ++flight) {
     const Id end = end_[flight];
     if (end == reaches || (is_node(end) && value_[end] != 0)) ++reached_;
@@ -107,86 +81,6 @@ SampledFlow::SampledFlow(const Flow& flow, const SampledFlowOptions& options)
     if (same_side && torn(end_[node], end_[node + 1])) ++tears_;
   }
   own_trial_ = std::make_unique<Trial>(*this);
-}
-
-std::size_t SampledFlow::place_of_flight(Id flight) const {
-  return is_node(flight) ? flight / (4 * per_side_) : (flight - nodes_) / per_cell_;
-}
-
-/// Spread over the cell and the headings by the additive recurrence of the plastic numbers (Roberts
-/// 2018), shifted at random from cell to cell.
-CellState SampledFlow::state_of_start(Id flight) const {
-  static constexpr std::array<double, 3> step{0.8191725133961645, 0.6710436067037893,
-                                              0.5497004779019703};
-  const std::size_t place = place_of_flight(flight);
-  const double k = (flight - nodes_) % per_cell_;
-  Random random = Random::stream(0x1a7e, place);
-  const auto coordinate = [&](double alpha) {
-    const double x = random.unit() + k * alpha;
-    return x - std::floor(x);
-  };
-  const double x = coordinate(step[0]);
-  const double y = coordinate(step[1]);
-  const double h = coordinate(step[2]);
-  return {{x * shape_.cell_m, y * shape_.cell_m},
-          Direction::of(Heading::from_rad(two_pi * h - pi))};
-}
-
-/// Where a flight begins. False: nowhere, for a node on a side by which its command does not lead.
-bool SampledFlow::take_off(Id flight, const std::vector<Direction>& commands, Airborne& at) const {
-  const std::size_t place = place_of_flight(flight);
-  if (!is_node(flight)) {
-    at = {place, state_of_start(flight), 0};
-    return true;
-  }
-  const Id number = flight % (4 * per_side_);
-  const auto side = static_cast<Side>(number / per_side_);
-  const Direction command = commands[place];
-  if (!(outward(command.unit, side) > 0.0)) return false;
-  const double along = (number % per_side_ + 0.5) / per_side_ * shape_.cell_m;
-  const Vec2 p = is_upright(side) ? Vec2{0.0, along} : Vec2{along, 0.0};
-  at = {place + step(side), {beyond(p, side, shape_.cell_m), command}, 0};
-  return true;
-}
-
-/// Moves on into the next cell by `exit`, or returns where the flight ends.
-SampledFlow::Id SampledFlow::cross(Airborne& at, const CellExit& exit, bool commanded) const {
-  const double d = shape_.cell_m;
-  const std::size_t next = at.place + step(exit.side);
-  const bool aligned = commanded && (exit.path == CellPath::arc_then_straight || exit.turn == 0);
-  if (aligned && kind_[at.place] == CellKind::target) return reaches;
-  const Vec2 p = exit.state.position_m;
-  if (aligned && kind_[next] == CellKind::ordinary) {
-    const double along = (is_upright(exit.side) ? p.y : p.x) / d * per_side_;
-    const Id number = std::min(static_cast<Id>(along), per_side_ - 1);
-    return first_node(at.place) + static_cast<Id>(exit.side) * per_side_ + number;
-  }
-  at = {next, {beyond(p, exit.side, d), exit.state.heading}, at.crossings + 1};
-  return passing;
-}
-
-/// Flies to the end, or to the cell `until`: then it is passing.
-SampledFlow::Id SampledFlow::fly_on(Airborne& at, const std::vector<Direction>& commands,
-                                    std::vector<std::uint32_t>* met, std::size_t until) const {
-  for (;;) {
-    const CellKind kind = kind_[at.place];
-    if (kind == CellKind::target && !reaches_aligned_) return reaches;
-    const bool ends = kind == CellKind::obstacle || kind == CellKind::outside;
-    if (ends || at.crossings >= most_crossings_) return fails;
-    if (at.place == until) return passing;
-    if (met != nullptr) met->push_back(static_cast<std::uint32_t>(at.place));
-    const Direction& command = commands[at.place];
-    const CellExit exit = cross_cell(at.state, command, shape_);
-    const Id end = cross(at, exit, command.unit != Vec2{});
-    if (end != passing) return end;
-  }
-}
-
-SampledFlow::Id SampledFlow::fly(Id flight, const std::vector<Direction>& commands,
-                                 std::vector<std::uint32_t>* met) const {
-  Airborne at;
-  if (!take_off(flight, commands, at)) return nowhere;
-  return fly_on(at, commands, met, 0);
 }
 
 void SampledFlow::remember(Id flight, std::span<const std::uint32_t> met) {
@@ -221,8 +115,14 @@ void SampledFlow::unlink(Id node) {
   if (next != nowhere) previous_before_[next] = previous;
 }
 
+std::size_t SampledFlow::most_cells(const SampledFlowOptions& options) {
+  const auto flights =
+      4 * std::size_t(options.nodes_per_side) + std::size_t(options.starts_per_cell);
+  return passing / flights;  // the numbers above it mean something else
+}
+
 /// Values and steps of these nodes and of all before them, from the links as they are now.
-void SampledFlow::renew_steps(std::span<const Id> changed) {
+void SampledFlow::renew_values(std::span<const Id> changed) {
   static constexpr std::uint32_t unknown = never - 1;
   std::vector<Id> waiting(changed.begin(), changed.end());
   std::vector<Id> before;
@@ -315,7 +215,7 @@ void SampledFlow::apply(std::span<const CommandChange> changes) {
       end_[flown.flight] = end;
     }
   }
-  renew_steps(changed);
+  renew_values(changed);
   reached_ += gain.reached;
   borders_ += gain.borders;
   tears_ += gain.tears;

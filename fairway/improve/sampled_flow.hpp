@@ -55,9 +55,11 @@ class SampledFlow {
   using Id = std::uint32_t;  ///< of a node, then of a start
 
   /// Keeps no reference to the arrays of `flow`. Throws PreconditionViolation when the cell is not
-  /// smaller than the turning radius, an option is out of range, or there are more than 2^32
-  /// flights.
+  /// smaller than the turning radius, an option is out of range, or the grid has more cells than
+  /// most_cells().
   explicit SampledFlow(const Flow& flow, const SampledFlowOptions& options = {});
+  /// Flights have 32-bit numbers. A ring of cells around the grid counts.
+  static std::size_t most_cells(const SampledFlowOptions& options = {});
 
   /// How many starts reach, of `starts()`, those of ordinary cells.
   std::int64_t reached() const { return reached_; }
@@ -65,6 +67,7 @@ class SampledFlow {
   /// How many neighbouring nodes there are of which one reaches and the other fails. A proof must
   /// cut leaves there; where there are many, motion is chaotic, and no proof comes to an end.
   std::int64_t borders() const { return borders_; }
+  /// How many neighbouring nodes there are whose flights end far apart: where nearby flights part.
   std::int64_t tears() const { return tears_; }
   /// About how many starts meet the cell on their way to their first node and fail: those that met
   /// it before commands changed may be among them.
@@ -89,6 +92,7 @@ class SampledFlow {
 
    private:
     friend class SampledFlow;
+    void begin_trial();
     void fly(std::span<const CommandChange> changes);
     bool is_first(Id flight);
     void come_to(std::size_t place);
@@ -159,7 +163,7 @@ class SampledFlow {
   CellState state_of_start(Id flight) const;
   void link(Id node, Id end);
   void unlink(Id node);
-  void renew_steps(std::span<const Id> changed);
+  void renew_values(std::span<const Id> changed);
   void remember(Id flight, std::span<const std::uint32_t> met);
   bool torn(Id a, Id b) const;
 

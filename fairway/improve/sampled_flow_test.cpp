@@ -32,7 +32,7 @@ TEST(SampledFlow, AfterChangesItIsAsIfMadeOfTheNewCommands) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     Plan plan = seed % 4 == 3 ? odd_plan(seed) : random_plan(seed);
     const PlanFlow owner(plan);
-    const SampledFlowOptions options{4 + static_cast<int>(seed % 5), 24, 120};
+    const SampledFlowOptions options{4 + static_cast<int>(seed % 5), 24, 120, seed % 3 == 0};
     SampledFlow flow(owner.flow(), options);
     SampledFlow::Trial trial(flow);
     Random random(seed);
@@ -83,6 +83,24 @@ TEST(SampledFlow, ItsShareIsThatOfExactFlights) {
     const double share = static_cast<double>(flow.reached()) / static_cast<double>(flow.starts());
     EXPECT_NEAR(share, static_cast<double>(reach) / starts, 0.03) << "seed " << seed;
   }
+}
+
+TEST(SampledFlow, OfAPathThoseReachWhoFlyAlongIt) {
+  // A column of target cells that point up; everywhere else commands point right, across it.
+  Plan plan = empty_plan(7, 9, 1.0, 1.5);
+  for (int iy = 0; iy < 9; ++iy) {
+    plan.region[plan.grid.index({3, iy})] = Region::goal;
+    plan.heading_rad[plan.grid.index({3, iy})] = Heading::stored(pi / 2);
+  }
+  const PlanFlow owner(plan);
+  const SampledFlow touched(owner.flow());
+  const SampledFlow followed(owner.flow(), {16, 64, 500, true});
+  EXPECT_GT(followed.reached(), 0);
+  EXPECT_LT(followed.reached(), touched.reached());
+  // Where the cells of the path point across it, too, crossing it is flying along their commands.
+  for (int iy = 0; iy < 9; ++iy) plan.heading_rad[plan.grid.index({3, iy})] = 0.0F;
+  const SampledFlow crossed(owner.flow(), {16, 64, 500, true});
+  EXPECT_GT(crossed.reached(), followed.reached());
 }
 
 TEST(SampledFlow, ACellWithoutCommandsHasNoNodesAndIsCrossedStraight) {

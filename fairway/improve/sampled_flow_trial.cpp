@@ -47,11 +47,19 @@ bool SampledFlow::Trial::is_first(Id flight) {
   return true;
 }
 
-/// Flies again all that meets the changed cells, and what starts on their sides.
-void SampledFlow::Trial::fly(std::span<const CommandChange> changes) {
-  ++trial_;
+void SampledFlow::Trial::begin_trial() {
   flown_.clear();
   fewest_steps_ = never;
+  if (++trial_ != 0) return;
+  // Numbers begin again, and must not be taken for old ones.
+  seen_.assign(seen_.size(), 0);
+  turned_in_.assign(turned_in_.size(), 0);
+  trial_ = 1;
+}
+
+/// Flies again all that meets the changed cells, and what starts on their sides.
+void SampledFlow::Trial::fly(std::span<const CommandChange> changes) {
+  begin_trial();
   for (const CommandChange& change : changes) {
     const Id first = flow_->first_node(flow_->place_of(change.cell));
     for (Id i = 0; i < 4 * flow_->per_side_; ++i) {
@@ -113,7 +121,10 @@ void SampledFlow::Trial::fly_through(std::size_t place) {
 /// of every node flown again leads to none of them: each step onwards is one fewer.
 bool SampledFlow::Trial::value_of(Id end) {
   path_.clear();
-  ++walk_;
+  if (++walk_ == 0) {
+    walked_.assign(walked_.size(), 0);
+    walk_ = 1;
+  }
   bool value = false;
   for (Id id = end;;) {
     if (!flow_->is_node(id)) {

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include <fmt/format.h>
 
+#include "fairway/base/error.hpp"
 #include "fairway/base/share_text.hpp"
 #include "fairway/plan/plan_digests.hpp"
 #include "fairway/run/contract_verification.hpp"
 #include "fairway/run/path_follower.hpp"
+#include "fairway/run/summary.hpp"
 #include "fairway/run/verification.hpp"
 #include "fairway/verify/region_of_interest.hpp"
 
@@ -48,9 +49,12 @@ class Judge {
       CertifyOptions certify;
       certify.undecided_max = options_.undecided_max;
       certify.time_limit_s = limit_s;
-      proved.exact = of_mission(verify_plan(plan, where_, {}, certify).outcome.volume.all);
+      const auto shares = verify_plan(plan, where_, {}, certify).outcome.volume.all;
+      proved.exact = of_mission(shares);
+      proved.exact_at_most = proved.exact + shares[static_cast<std::size_t>(Verdict::undecided)];
     } else {
-      proved.exact = share_under(plan, nearly_exact(plan.vehicle), limit_s);
+      // This proof goes on to its end.
+      proved.exact = proved.exact_at_most = share_under(plan, nearly_exact(plan.vehicle), limit_s);
     }
     if (plan.record.contract) {
       proved.under_contract = share_under(plan, *plan.record.contract, limit_s);
@@ -62,7 +66,7 @@ class Judge {
   double share_under(const Plan& plan, const VehicleContract& contract, double limit_s) const {
     ContractVerifyOptions verify;
     verify.limits.time_limit_s = limit_s;
-    verify.samples = 400000;
+    verify.samples = 100000;
     verify.or_touch = false;
     verify.find_witnesses = false;
     const auto made =
@@ -79,10 +83,8 @@ class Judge {
 };
 
 bool is_better(const ProvedShares& now, const ProvedShares& before) {
-  const double contract_gain =
-      now.under_contract.value_or(0.0) - before.under_contract.value_or(0.0);
-  const double gain = now.exact - before.exact;
-  return gain >= 0.0 && contract_gain >= 0.0 && gain + contract_gain > 0.0;
+  return now.exact > before.exact_at_most &&
+         now.under_contract.value_or(0.0) >= before.under_contract.value_or(0.0);
 }
 
 /// The plan with the commands that the model likes best.
@@ -133,6 +135,11 @@ ImprovedRecord record_of(const Plan& plan, const Improvement& made) {
 
 Improvement improved(const Plan& plan, const std::string& where, const ImprovementOptions& options,
                      StageClock& clock) {
+  if (plan.grid.size() > SampledFlow::most_cells() / 2) {
+    throw InputError(
+        where, fmt::format("has {} cells, and at most {} can be improved",
+                           grouped(plan.grid.size()), grouped(SampledFlow::most_cells() / 2)));
+  }
   const Judge judge(where, options);
   Improvement made;
   clock.begin("proving the plan as it is", unknown_time);
@@ -162,11 +169,15 @@ std::vector<Finding> findings(const Plan& before, const Improvement& made) {
   for (const float heading_rad : before.heading_rad) commanded += std::isnan(heading_rad) ? 0 : 1;
   if (made.changed.empty()) {
     return {{"", "",
-             fmt::format("No better commands were found: of {} tried, none proves more",
-                         made.attempts == 1 ? "one set" : fmt::format("{} sets", made.attempts))}};
+             fmt::format(
+                 "No better commands were found: of {} tried, none is proved to save more states",
+                 made.attempts == 1 ? "one set" : fmt::format("{} sets", made.attempts))}};
   }
-  const std::string what =
-      follows(before) ? "are proved to follow the path" : "are proved to reach";
+  const std::string goal = goal_word(before);
+  const std::string what = !follows(before) ? proved_to_reach(goal)
+                           : goal == "path"
+                               ? "are proved to join the path and to follow it for ever"
+                               : "are proved to reach the goal and to stay there";
   const auto gain = [&](double now, double was, const std::string& whom) {
     return Finding{percent_text(now), "all states",
                    fmt::format("{}{}, {} before", what, whom, percent_text(was))};

@@ -1,8 +1,9 @@
 // A plan with better commands: proposed on a model (improve/), kept only when proofs confirm it.
 //
 // Properties that always hold:
-//   1. A plan that is kept proves more than the one before, of all states, and no less anywhere it
-//      counts: of the exact vehicle, and under the plan's contract if it has one.
+//   1. A plan that is kept proves more of all states than the one before could, had its proof gone
+//      on: what that left undecided counts against it. Under the plan's contract, if it has one, it
+//      proves no less.
 //   2. It differs in nothing but the commands of cells that have one, and in its record.
 //   3. The result does not depend on the number of threads, unless a time limit ends some of the
 //      work.
@@ -35,6 +36,7 @@ struct ImprovementOptions {
 /// Shares of all states that are proved to do what the mission asks.
 struct ProvedShares {
   double exact = 0.0;
+  double exact_at_most = 0.0;  ///< with what the proof left undecided before its end
   std::optional<double> under_contract;
 };
 
@@ -46,7 +48,7 @@ struct Improvement {
   std::size_t attempts = 0;  ///< improved plans that were proved
 };
 
-/// Throws InputError{where, ...} when the plan cannot be verified.
+/// Throws InputError{where, ...} when the plan cannot be verified, or is too large.
 [[nodiscard]] Improvement improved(const Plan& plan, const std::string& where,
                                    const ImprovementOptions& options, StageClock& clock);
 

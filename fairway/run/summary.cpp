@@ -139,8 +139,7 @@ std::string grid_words(const Plan& plan) {
   if (const auto& improved = plan.record.improved) {
     words += fmt::format(
         " The commands of {} were improved: from {} of all states the exact vehicle was then "
-        "proved "
-        "to do what the mission asks, from {} before.",
+        "proved to do what the mission asks, from {} before.",
         plural(improved->cells_changed, "cell"), percent_text(improved->exact[1]),
         percent_text(improved->exact[0]));
   }
