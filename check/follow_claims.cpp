@@ -10,8 +10,6 @@
 namespace fairway_check {
 namespace {
 
-/// A direction in which behaviours move on is less than this from their headings.
-constexpr float most_off_rad = 1.5F;
 constexpr double far_m = 1e15;
 
 std::uint64_t rows_of(const TensorFile& file, const char* name, std::size_t dimensions) {
@@ -23,10 +21,11 @@ std::uint64_t rows_of(const TensorFile& file, const char* name, std::size_t dime
 
 void require_stages(const FollowClaims& f) {
   for (std::size_t k = 0; k < f.stages(); ++k) {
-    const bool fits = std::abs(f.heading_rad[k]) <= 3.2F &&
-                      (f.bends(k) || (f.off_rad[k] >= 0.0F && f.off_rad[k] <= most_off_rad)) &&
-                      f.time_s[k] >= 0.0F && std::isfinite(f.time_s[k]) &&
-                      std::isfinite(f.station_m[k]);
+    const bool fits =
+        std::abs(f.heading_rad[k]) <= 3.2F &&
+        (f.bends(k) ||
+         (f.off_rad[k] >= 0.0F && static_cast<double>(f.off_rad[k]) <= most_off_rad)) &&
+        f.time_s[k] >= 0.0F && std::isfinite(f.time_s[k]) && std::isfinite(f.station_m[k]);
     require(fits, fmt::format("stage {}: has an invalid direction, time or place", k));
   }
   // With fewer, to and fro could not be told from round.

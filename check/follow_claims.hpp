@@ -10,6 +10,9 @@
 
 namespace fairway_check {
 
+/// Less than a right angle: so far off its direction one still moves on in a stage.
+inline constexpr double most_off_rad = 1.5;
+
 struct FollowClaims {
   bool closed = true;
   std::vector<Point> path;             ///< metres

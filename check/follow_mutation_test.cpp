@@ -4,12 +4,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
 
-#include "check/follow_proof.hpp"
+#include "check/lap_sums.hpp"
 #include "check/testing/refusal.hpp"
 #include "check/testing/taken_apart.hpp"
 #include "fairway/certificate/contract_certificate_file.hpp"
@@ -243,6 +244,43 @@ TEST_F(FollowMutation, StagesGoRoundThePathOnce) {
   parts.put<float>("stage_station_m", k, good.at<float>("stage_station_m", k + 1));
   parts.put<float>("stage_station_m", k + 1, good.at<float>("stage_station_m", k));
   expect_refused(parts, "do not go round the path once");
+}
+
+TEST_F(FollowMutation, ALoopBesideThePathDoesNotGoRoundIt) {
+  // A path that is far longer than the loop: all of it lies beside a short piece.
+  TakenApart parts(closed_);
+  const std::size_t vertices = parts.arrays.at("path_m").size() / 16;
+  ASSERT_EQ(vertices % 4, 0U);
+  const std::size_t by_side = vertices / 4;
+  constexpr double side_m = 3000.0;
+  for (std::size_t i = 0; i < vertices; ++i) {  // a square, its first side below the loop
+    const double on_m = side_m * static_cast<double>(i % by_side) / static_cast<double>(by_side);
+    const std::array<double, 4> x{on_m, side_m, side_m - on_m, 0.0};
+    const std::array<double, 4> y{0.0, -on_m, -side_m, on_m - side_m};
+    parts.put<double>("path_m", 2 * i, x[i / by_side] - 0.5 * side_m);
+    parts.put<double>("path_m", 2 * i + 1, y[i / by_side]);
+  }
+  for (std::size_t i = 0; i < parts.arrays.at("tube").size() / 8; ++i) {
+    parts.put<float>("tube", 2 * i, 1e4F);
+    parts.put<float>("tube", 2 * i + 1, 7.0F);
+  }
+  // On the way back over the loop, one stage is passed over: it goes round for all.
+  const std::size_t stages = parts.arrays.at("stage_station_m").size() / 4;
+  const std::size_t passed = stages / 4;
+  constexpr auto round_m = static_cast<float>(4.0 * side_m);
+  constexpr float before_m = 0.125F * round_m + 128.0F - 0.2F * round_m;
+  for (std::size_t k = 0; k < stages; ++k) {
+    const float share =
+        static_cast<float>((k + stages - passed - 1) % stages) / static_cast<float>(stages);
+    parts.put<float>("stage_station_m", k, before_m + share * 0.4F * round_m);
+  }
+  parts.put<float>("stage_station_m", passed, before_m + 0.7F * round_m);
+  for (std::size_t leaf = 0; leaf < parts.leaves(); ++leaf) {
+    if (stage_of(parts, leaf) != passed + 1) continue;
+    parts.put<std::uint16_t>("leaf_stage", leaf, static_cast<std::uint16_t>(passed));
+  }
+  parts.record["follow"]["lap_time_s"] = {0.0, 1e6};
+  expect_refused(parts, "jump along the path");
 }
 
 TEST_F(FollowMutation, EndsAreAtTheEndOfThePath) {

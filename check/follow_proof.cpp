@@ -16,20 +16,19 @@ constexpr double time_margin = 1.0 + 1e-9;
 constexpr double least_difference = 0x1p-30;
 /// So near a leaf is to where its stage begins, as a share of the path.
 constexpr double most_beside_stage = 0.25;
-/// Less than a right angle: so far off its direction one still moves on in a stage.
-constexpr double most_off_rad = 1.5;
-
-Point scaled_unit(double rad, double by) { return {by * std::cos(rad), by * std::sin(rad)}; }
-double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+/// Less than half of the path, by more than all rounding.
+constexpr double most_way = 0.499;
 
 /// Everything that behaviours of one leaf of the core may do next.
 class CoreOutcome : public Sightings {
  public:
-  CoreOutcome(const ContractCertificate& c, const CoreProof& proof, std::size_t leaf, LapSums& sums)
+  CoreOutcome(const ContractCertificate& c, const CoreProof& proof, std::size_t part,
+              std::size_t leaf, LapSums& sums)
       : c_(c),
         f_(*c.follow),
         proof_(proof),
         sums_(sums),
+        part_(part),
         stage_(f_.stage[leaf] - std::size_t{1}),
         group_(c.group[leaf]),
         bends_(f_.bends(stage_)),
@@ -40,7 +39,7 @@ class CoreOutcome : public Sightings {
     bool any = false;
     c_.for_leaves(4 * part + static_cast<std::size_t>(side), low, high, [&](std::size_t leaf) {
       any = true;
-      most = std::max(most, look(leaf, past));
+      most = std::max(most, look(part, leaf, past));
     });
     if (!any) fault = "its behaviours come where nothing is claimed";
     if (!bends_) note_heading(off_direction(past));
@@ -66,7 +65,7 @@ class CoreOutcome : public Sightings {
 
  private:
   /// How many stages on that leaf is.
-  std::size_t look(std::size_t leaf, const Past& past) {
+  std::size_t look(std::size_t part, std::size_t leaf, const Past& past) {
     if (f_.stage[leaf] == 0) {
       fault = "its behaviours leave the core";
       return 0;
@@ -77,6 +76,9 @@ class CoreOutcome : public Sightings {
     if (on > 0 && 3 * on >= count) {
       fault =
           fmt::format("its behaviours go from stage {} to stage {}", stage_, f_.stage[leaf] - 1);
+    }
+    if (!proof_.moves_as_stages(part_, stage_, part, f_.stage[leaf] - std::size_t{1})) {
+      fault = "its behaviours jump along the path";
     }
     if (!bends_) return on;
     const std::uint32_t group = c_.group[leaf];
@@ -112,6 +114,7 @@ class CoreOutcome : public Sightings {
   const FollowClaims& f_;
   const CoreProof& proof_;
   LapSums& sums_;
+  std::size_t part_;
   std::size_t stage_;
   std::uint32_t group_;
   bool bends_;
@@ -119,89 +122,6 @@ class CoreOutcome : public Sightings {
 };
 
 }  // namespace
-
-LapSums::LapSums(const ContractCertificate& c)
-    : late_s_(c.follow->stages(), -HUGE_VAL),
-      way_m_(c.follow->stages(), HUGE_VAL),
-      begin_s_(c.follow->stages(), HUGE_VAL),
-      end_s_(c.follow->stages(), -HUGE_VAL),
-      off_rad_(c.follow->off_rad.begin(), c.follow->off_rad.end()) {
-  const FollowClaims& f = *c.follow;
-  for (std::size_t k = 0; k < f.stages(); ++k) {
-    along_.push_back(scaled_unit(f.heading_rad[k], 1.0));
-    slowness_.push_back(
-        f.bends(k) ? Point{0.0, 0.0}
-                   : scaled_unit(f.heading_rad[k],
-                                 1.0 / (c.contract.least_speed * std::cos(double(f.off_rad[k])))));
-  }
-}
-
-/// From x to x' in a stage with slowness w takes at most w . (x' - x): over a lap the sum of
-/// x . (w - w'), where one stage ends and the next begins, and what laps do not begin alike.
-void LapSums::pass(std::size_t k, std::size_t stages, Point at) {
-  const std::size_t count = late_s_.size();
-  end_s_[k] = std::max(end_s_[k], dot(at, slowness_[k]));
-  for (std::size_t i = 0; i < stages; ++i, k = (k + 1) % count) {
-    const std::size_t next = (k + 1) % count;
-    begin_s_[next] = std::min(begin_s_[next], dot(at, slowness_[next]));
-    late_s_[k] = std::max(late_s_[k], dot(at, slowness_[k] - slowness_[next]));
-    way_m_[k] = std::min(way_m_[k], dot(at, along_[k] - along_[next]));
-    if (next != 0) continue;
-    start_least_s_ = std::min(start_least_s_, dot(at, slowness_[0]));
-    start_most_s_ = std::max(start_most_s_, dot(at, slowness_[0]));
-    start_least_m_ = std::min(start_least_m_, dot(at, along_[0]));
-    start_most_m_ = std::max(start_most_m_, dot(at, along_[0]));
-  }
-}
-
-void LapSums::slow_down(std::size_t k, double off_rad) {
-  off_rad_[k] = std::max(off_rad_[k], off_rad);
-}
-
-/// By how much longer stage k takes than with the angle claimed: along its whole extent at most.
-double LapSums::slower_s(std::size_t k, double claimed_rad) const {
-  if (!(off_rad_[k] > claimed_rad)) return 0.0;
-  const double extent_s = std::max(0.0, end_s_[k] - begin_s_[k]);
-  return extent_s * (std::cos(claimed_rad) / std::cos(off_rad_[k]) - 1.0);
-}
-
-void LapSums::add(const LapSums& other) {
-  for (std::size_t k = 0; k < late_s_.size(); ++k) {
-    late_s_[k] = std::max(late_s_[k], other.late_s_[k]);
-    way_m_[k] = std::min(way_m_[k], other.way_m_[k]);
-    begin_s_[k] = std::min(begin_s_[k], other.begin_s_[k]);
-    end_s_[k] = std::max(end_s_[k], other.end_s_[k]);
-    if (other.off_rad_[k] > off_rad_[k]) off_rad_[k] = other.off_rad_[k];
-  }
-  start_least_s_ = std::min(start_least_s_, other.start_least_s_);
-  start_most_s_ = std::max(start_most_s_, other.start_most_s_);
-  start_least_m_ = std::min(start_least_m_, other.start_least_m_);
-  start_most_m_ = std::max(start_most_m_, other.start_most_m_);
-}
-
-std::string LapSums::defect(const ContractCertificate& c) const {
-  const FollowClaims& f = *c.follow;
-  if (f.holds) return f.lap_least_s == 0.0 && f.lap_most_s == 0.0 ? "" : "lap_time_s: expected 0";
-  if (!f.closed) {
-    const bool follows = f.lap_least_s == 0.0 && f.lap_most_s >= static_cast<double>(f.time_s[0]);
-    return follows ? "" : "lap_time_s: does not follow from the time to the end";
-  }
-  double most_s = start_most_s_ - start_least_s_;
-  double least_m = start_least_m_ - start_most_m_;
-  for (std::size_t k = 0; k < late_s_.size(); ++k) {
-    most_s += late_s_[k] + static_cast<double>(f.time_s[k]) +
-              slower_s(k, static_cast<double>(f.off_rad[k]));
-    least_m += way_m_[k];
-  }
-  // Every stage is left by somebody, or its sums are infinite.
-  if (!std::isfinite(most_s) || !std::isfinite(least_m)) return "stages: one is never left";
-  const double least_s = least_m / c.contract.most_speed;
-  if (f.lap_most_s < most_s * time_margin || f.lap_least_s * time_margin > std::max(0.0, least_s)) {
-    return fmt::format("lap_time_s: is {:.9g} to {:.9g} s, claimed as {:.9g} to {:.9g} s", least_s,
-                       most_s, f.lap_least_s, f.lap_most_s);
-  }
-  return "";
-}
 
 CoreProof::CoreProof(const ContractCertificate& c)
     : c_(c),
@@ -214,7 +134,14 @@ CoreProof::CoreProof(const ContractCertificate& c)
             return from_corner;
           }(),
           c.follow->closed),
-      half_m_(std::sqrt(0.5) * c.parts.side_m * (1.0 + 0x1p-20)) {}
+      half_m_(std::sqrt(0.5) * c.parts.side_m * (1.0 + 0x1p-20)) {
+  const std::vector<float>& station = c.follow->station_m;
+  begins_m_.push_back(station[0]);
+  for (std::size_t k = 0; k < station.size(); ++k) {
+    const double by = double(station[(k + 1) % station.size()]) - double(station[k]);
+    begins_m_.push_back(begins_m_.back() + (by < 0.0 ? by + path_.length() : by));
+  }
+}
 
 CoreProof::Beside CoreProof::beside(std::size_t part) const {
   auto& known = known_.local();
@@ -244,16 +171,10 @@ std::string CoreProof::defect() const {
     }
     return "";
   }
-  // Else a small circle beside the path could be said to go round it.
-  std::size_t wraps = 0;
-  for (std::size_t k = 0; k < f.stages(); ++k) {
-    const double by = static_cast<double>(f.station_m[(k + 1) % f.stages()]) -
-                      static_cast<double>(f.station_m[k]);
-    wraps += by < 0.0 ? 1 : 0;
-    const double on = by < 0.0 ? by + path_.length() : by;
-    if (!(on >= 0.0 && on <= 0.5 * path_.length())) wraps = f.stages();
-  }
-  return wraps == 1 ? "" : "stages: do not go round the path once";
+  const bool ascend = std::is_sorted(begins_m_.begin(), begins_m_.end());
+  const double round_m = begins_m_.back() - begins_m_.front();
+  const bool once = std::abs(round_m - path_.length()) < 0.5 * path_.length();
+  return ascend && once ? "" : "stages: do not go round the path once";
 }
 
 bool CoreProof::is_in_tube(std::size_t part, double least, double most) const {
@@ -269,22 +190,35 @@ bool CoreProof::is_in_tube(std::size_t part, double least, double most) const {
   return b.farthest_m <= farthest && off <= static_cast<double>(f.tube_off_rad[k]) + angle_slack;
 }
 
-bool CoreProof::is_near_stage(std::size_t part, std::size_t stage) const {
-  const FollowClaims& f = *c_.follow;
-  const double off = beside(part).station_m - static_cast<double>(f.station_m[stage]);
-  return !f.closed || f.holds ||
-         std::abs(std::remainder(off, path_.length())) <= most_beside_stage * path_.length();
+double CoreProof::from_stage_m(std::size_t part, std::size_t stage) const {
+  return std::remainder(beside(part).station_m - static_cast<double>(c_.follow->station_m[stage]),
+                        path_.length());
+}
+
+/// A lap of stages is one round of the path, so the ways sum up to one. If each is less than half
+/// of it, it is the shorter way between the two parts: then what laps are claimed of does go round,
+/// which a loop beside the path does not, however its stages are named.
+bool CoreProof::moves_as_stages(std::size_t part, std::size_t stage, std::size_t to_part,
+                                std::size_t to_stage) const {
+  if (!c_.follow->closed) return true;
+  const double round_m = to_stage < stage ? begins_m_.back() - begins_m_.front() : 0.0;
+  const double way_m = begins_m_[to_stage] + round_m - begins_m_[stage] +
+                       from_stage_m(to_part, to_stage) - from_stage_m(part, stage);
+  return std::abs(way_m) < most_way * path_.length();
 }
 
 std::string CoreProof::defect_of_leaf(Behaviours& behaviours, std::size_t section, std::size_t leaf,
                                       Share& share, LapSums& sums) const {
   const FollowClaims& f = *c_.follow;
   const std::size_t stage = f.stage[leaf] - std::size_t{1};
-  if (!is_near_stage(section / 4, stage)) return "its stage begins far along the path";
+  if (f.closed && !f.holds &&
+      std::abs(from_stage_m(section / 4, stage)) > most_beside_stage * path_.length()) {
+    return "its stage begins far along the path";
+  }
   if (!f.holds && f.bends(stage) && c_.group_time_s[c_.group[leaf]] > f.time_s[stage]) {
     return fmt::format("its group takes longer than its stage {}", stage);
   }
-  CoreOutcome outcome(c_, *this, leaf, sums);
+  CoreOutcome outcome(c_, *this, section / 4, leaf, sums);
   behaviours.follow_leaf(section / 4, static_cast<int>(section % 4), c_.begin_of(leaf),
                          c_.end_of(section, leaf), outcome);
   share = {outcome.onwards_s, outcome.astray_rad};

@@ -10,6 +10,7 @@
 
 #include "check/contract_certificate.hpp"
 #include "check/contract_flight.hpp"
+#include "check/lap_sums.hpp"
 #include "check/path_places.hpp"
 
 namespace fairway_check {
@@ -18,37 +19,6 @@ namespace fairway_check {
 struct Share {
   double onwards_s = 0.0;
   double astray_rad = -1.0;
-};
-
-/// Sums over a lap: at the end of each stage, how much later than others a behaviour may be, and
-/// how much less way it may have made.
-class LapSums {
- public:
-  LapSums() = default;
-  explicit LapSums(const ContractCertificate& c);
-
-  /// Behaviours at `at` (metres) go on from stage k, from 0, by so many stages.
-  void pass(std::size_t k, std::size_t stages, Point at);
-  /// In stage k, from 0, behaviours head so far from its direction, more than is claimed.
-  void slow_down(std::size_t k, double off_rad);
-  void add(const LapSums& other);
-  /// "" when the claims about laps follow.
-  std::string defect(const ContractCertificate& c) const;
-
- private:
-  double slower_s(std::size_t k, double claimed_rad) const;
-
-  std::vector<Point> slowness_;      ///< [stages]: seconds by metre, as a vector
-  std::vector<Point> along_;         ///< [stages], of length 1
-  std::vector<double> late_s_;       ///< [stages], at most
-  std::vector<double> way_m_;        ///< [stages], at least
-  std::vector<double> begin_s_;      ///< [stages], of places where they begin, at least
-  std::vector<double> end_s_;        ///< [stages], of places where they end, at most
-  std::vector<double> off_rad_;      ///< [stages], from their directions, at most
-  double start_least_s_ = HUGE_VAL;  ///< of where laps begin
-  double start_most_s_ = -HUGE_VAL;
-  double start_least_m_ = HUGE_VAL;
-  double start_most_m_ = -HUGE_VAL;
 };
 
 class CoreProof {
@@ -66,6 +36,11 @@ class CoreProof {
   /// Whether a part in which headings are in [least, most] lies in the tube.
   bool is_in_tube(std::size_t part, double least, double most) const;
 
+  /// Whether behaviours that go from a part and its stage to others move on along the path as the
+  /// stages say they do, and not the other way round it.
+  bool moves_as_stages(std::size_t part, std::size_t stage, std::size_t to_part,
+                       std::size_t to_stage) const;
+
  private:
   /// How a part lies beside the path.
   struct Beside {
@@ -74,11 +49,13 @@ class CoreProof {
     Arc ways;           ///< of the path at the points nearest to them
   };
   Beside beside(std::size_t part) const;
-  bool is_near_stage(std::size_t part, std::size_t stage) const;
+  /// How far along the path a part lies from where its stage begins, either way.
+  double from_stage_m(std::size_t part, std::size_t stage) const;
 
   const ContractCertificate& c_;
   PathPlaces path_;
-  double half_m_;  ///< from the middle of a part to its corners
+  std::vector<double> begins_m_;  ///< [stages + 1]: stations, which ascend over one lap
+  double half_m_;                 ///< from the middle of a part to its corners
   mutable tbb::enumerable_thread_specific<std::unordered_map<std::size_t, Beside>> known_;
 };
 

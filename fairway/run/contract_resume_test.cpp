@@ -2,6 +2,9 @@
 // lost is told.
 #include "fairway/run/contract_resume.hpp"
 
+#include <algorithm>
+#include <cstdint>
+
 #include <gtest/gtest.h>
 
 #include "fairway/base/error.hpp"
@@ -80,14 +83,42 @@ TEST(ContractResume, ProvesAllAgainAndSaysSo) {
   }
 }
 
+ContractVerification followed(const Plan& plan, const EarlierContractProof* earlier) {
+  ContractVerifyOptions options;
+  options.samples = 1000;
+  options.find_witnesses = false;
+  return verify_contract(
+      plan, "the plan", {}, contract_to_follow(), options, [](const std::string&) {}, earlier);
+}
+
+/// What goes on from a certificate that claims too much is what goes on from an honest one.
+void expect_nothing_believed(const Plan& plan, const ContractCertificate& earlier,
+                             const ContractCertificate& expected) {
+  EarlierContractProof lies{earlier, "lies"};
+  ContractVerdicts& v = lies.certificate.verdicts;
+  std::fill(v.verdict.begin(), v.verdict.end(), static_cast<std::uint8_t>(Verdict::reach));
+  std::fill(v.group.begin(), v.group.end(), 1U);
+  std::fill(v.group_time_s.begin() + 1, v.group_time_s.end(), 0.0F);
+  FollowProof& follow = *lies.certificate.follow;
+  std::fill(follow.leaf_stage.begin(), follow.leaf_stage.end(), std::uint16_t{1});
+  std::fill(follow.tube.begin(), follow.tube.end(), TubeStretch{});
+  std::fill(follow.stages.time_s.begin(), follow.stages.time_s.end(), 0.0F);
+  follow.stages.lap_most_s = 0.0;
+  const ContractVerification made = followed(plan, &lies);
+  const ContractVerdicts& now = made.certificate.verdicts;
+  EXPECT_EQ(now.verdict, expected.verdicts.verdict);
+  EXPECT_EQ(now.begin, expected.verdicts.begin);
+  EXPECT_EQ(now.group, expected.verdicts.group);
+  EXPECT_EQ(now.group_time_s, expected.verdicts.group_time_s);
+  const FollowProof& proved = *made.certificate.follow;
+  EXPECT_EQ(proved.leaf_stage, expected.follow->leaf_stage);
+  EXPECT_EQ(proved.stages.time_s, expected.follow->stages.time_s);
+  EXPECT_EQ(proved.stages.lap_most_s, expected.follow->stages.lap_most_s);
+  EXPECT_EQ(widest_of(proved.tube).distance_m, widest_of(expected.follow->tube).distance_m);
+  EXPECT_GT(made.resumed->dropped, 0U);
+}
+
 TEST(ContractResume, AProofOfFollowingGoesOnAsSuch) {
-  const auto followed = [](const Plan& plan, const EarlierContractProof* earlier) {
-    ContractVerifyOptions options;
-    options.samples = 1000;
-    options.find_witnesses = false;
-    return verify_contract(
-        plan, "the plan", {}, contract_to_follow(), options, [](const std::string&) {}, earlier);
-  };
   for (const bool closed : {true, false}) {
     Plan plan =
         closed ? plan_along(ellipse_to_follow(), 32, 30) : plan_along(line_to_follow(), 30, 15);
@@ -98,6 +129,7 @@ TEST(ContractResume, AProofOfFollowingGoesOnAsSuch) {
     EXPECT_GT(made.resumed->decided, 1000U);
     EXPECT_EQ(made.resumed->dropped, 0U);
     EXPECT_EQ(made.certificate.follow->leaf_stage.size(), made.certificate.verdicts.leaves());
+    expect_nothing_believed(plan, earlier.certificate, made.certificate);
     earlier.certificate.follow->path.vertices_m[1].x += 0.5;
     EXPECT_NE(difference(earlier.certificate, made.certificate).find("another line"),
               std::string::npos);
