@@ -11,9 +11,12 @@
 #include "fairway/base/share_text.hpp"
 #include "fairway/plan/plan_digests.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/run/mission_on_map.hpp"
+#include "fairway/run/plan_record.hpp"
 #include "fairway/run/products.hpp"
 #include "fairway/run/run_inputs.hpp"
 #include "fairway/run/summary.hpp"
+#include "fairway/run/version.hpp"
 #include "fairway/tune/parameter_search.hpp"
 #include "fairway/tune/sharp_proof.hpp"
 #include "fairway/tune/tuning_pictures.hpp"
@@ -24,6 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+
 /// What a resumed search must have in common with the one before.
 json identity_of(const TuneRequest& request, const TunedScenario& tuned) {
   json vary = json::object();
@@ -32,10 +36,12 @@ json identity_of(const TuneRequest& request, const TunedScenario& tuned) {
   }
   json set = json::object();
   for (const ScenarioOverride& one : request.overrides) set[one.key] = one.value;
-  return {{"program", "fairway tune"},
-          {"scenario_sha256", tuned.given().sha256},
-          {"set", set},
-          {"vary", vary}};
+  json inputs = json::object();
+  for (const InputFile& input :
+       recorded_inputs(tuned.given(), read_map(map_request(tuned.given())))) {
+    inputs[input.path] = input.sha256;
+  }
+  return {{"program", program_version}, {"inputs", inputs}, {"set", set}, {"vary", vary}};
 }
 
 /// Makes the folder ready for a search that may be killed at any time.
@@ -50,7 +56,8 @@ void begin_folder(const fs::path& folder, const TuneRequest& request, Existing e
     }
     if (file_text(search) != identity.dump(2) + "\n") {
       throw InputError(search.string(),
-                       "is of another search: --resume needs the same scenario, --set and --vary");
+                       "is of another search: --resume needs the same scenario, map, --set and "
+                       "--vary, and the same version of Fairway");
     }
     return;
   }
@@ -96,10 +103,14 @@ std::vector<Finalist> finalists(const ParameterSearch& search, const TunedScenar
   std::stable_sort(order.begin(), order.end(), [&](const Evaluation* a, const Evaluation* b) {
     return search.value(*a) > search.value(*b);
   });
-  if (all.front().allowed) order.insert(order.begin(), &all.front());
+  auto most = static_cast<std::size_t>(request.finalists);
+  if (all.front().allowed) {
+    order.insert(order.begin(), &all.front());
+    ++most;
+  }
   std::vector<Finalist> found;
   for (const Evaluation* one : order) {
-    if (found.size() > static_cast<std::size_t>(request.finalists)) break;
+    if (found.size() == most) break;
     const Scenario scenario = tuned.with(one->values);
     Planned planned = planned_of(scenario);
     const PlanDigests digests = plan_digests(planned.plan);
@@ -107,7 +118,7 @@ std::vector<Finalist> finalists(const ParameterSearch& search, const TunedScenar
       return plan_digests(f.planned.plan) == digests;
     });
     if (is_known) continue;
-    clock.rename(fmt::format("proving, plan {} of {}", found.size() + 1, request.finalists + 1));
+    clock.rename(fmt::format("proving, plan {} of {}", found.size() + 1, most));
     clock.tell(unknown_time);
     SharpProof proof = prove_sharply(planned.plan, scenario);
     found.push_back({one, std::move(planned), std::move(proof)});
@@ -115,11 +126,13 @@ std::vector<Finalist> finalists(const ParameterSearch& search, const TunedScenar
   return found;
 }
 
-/// By what is proved, with the weights of the objective; the first of equals.
-std::size_t best_of(const std::vector<Finalist>& all, const ParameterSearch& search,
-                    const Objective& objective) {
+/// By what is proved, and the time that was flown; the first of equals.
+std::size_t best_of(const std::vector<Finalist>& all, const ParameterSearch& search) {
   const auto worth = [&](const Finalist& f) {
-    return search.value(*f.evaluation) + objective.reach * (f.proof.share() - f.evaluation->share);
+    Evaluation proved = *f.evaluation;
+    proved.share = f.proof.share();
+    proved.safe_share = f.proof.safe_share();
+    return search.value(proved);
   };
   std::size_t best = 0;
   for (std::size_t i = 1; i < all.size(); ++i) {
@@ -148,7 +161,7 @@ RunResult tune(const TuneRequest& request, const fs::path& folder, Existing exis
   if (last.empty()) {
     return {true, {{"unreachable", true}}, "No parameters that were tried allow the mission.", {}};
   }
-  const Finalist& best = last[best_of(last, search, request.objective)];
+  const Finalist& best = last[best_of(last, search)];
 
   clock.begin("writing", unknown_time);
   AtomicFolder products(folder, Existing::replace, product::summary, tuning_product_names());
@@ -173,8 +186,10 @@ RunResult tune(const TuneRequest& request, const fs::path& folder, Existing exis
                       {"mean_time_s", one.evaluation->mean_time_s}});
   }
   result.summary["finalists"] = proved;
-  result.summary["given_share"] = last.front().proof.share();
+  const bool is_given_allowed = search.asked().front().allowed;
+  result.summary["given_share"] = is_given_allowed ? json(last.front().proof.share()) : json();
   result.summary["tuned_share"] = best.proof.share();
+  result.summary["tuned_values"] = best.evaluation->values;
   result.summary["verify"] = best.proof.json();
   clock.end();
   add_cost(result.summary, clock);
