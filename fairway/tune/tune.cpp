@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 /// What a resumed search must have in common with the one before.
-json identity_of(const TuneRequest& request, const TunedScenario& tuned) {
+json identity_of(const TuneRequest& request, const TunedScenario& tuned, const ObstacleMap& map) {
   json vary = json::object();
   for (const Parameter& p : tuned.parameters()) {
     vary[p.key] = p.is_range() ? json{p.low, p.high} : json(p.choices);
@@ -37,8 +37,7 @@ json identity_of(const TuneRequest& request, const TunedScenario& tuned) {
   json set = json::object();
   for (const ScenarioOverride& one : request.overrides) set[one.key] = one.value;
   json inputs = json::object();
-  for (const InputFile& input :
-       recorded_inputs(tuned.given(), read_map(map_request(tuned.given())))) {
+  for (const InputFile& input : recorded_inputs(tuned.given(), map)) {
     inputs[input.path] = input.sha256;
   }
   return {{"program", program_version}, {"inputs", inputs}, {"set", set}, {"vary", vary}};
@@ -147,12 +146,15 @@ RunResult tune(const TuneRequest& request, const fs::path& folder, Existing exis
                const Progress& progress) {
   require_range("evaluations", request.evaluations);
   const TunedScenario tuned(request);
-  std::vector<fs::path> places;
+  std::vector<fs::path> places{folder / tuning_product::evaluations,
+                               folder / tuning_product::search};
   for (const std::string& name : tuning_product_names()) places.push_back(folder / name);
   require_no_inputs(places, inputs_of(tuned.given()));
+  const ObstacleMap map = read_map(map_request(tuned.given()));
+  require_no_inputs(places, inputs_of(map));
   StageClock clock(progress);
   clock.begin("searching", unknown_time);
-  begin_folder(folder, request, existing, identity_of(request, tuned));
+  begin_folder(folder, request, existing, identity_of(request, tuned, map));
   ParameterSearch search(request, tuned, folder, clock);
   search.run();
 
