@@ -108,7 +108,9 @@ path_m            [n, 2], the path to follow, metres; closed=True joins its ends
 goal_heading_rad  heading to arrive with, radians counter-clockwise from east
 
 Beyond the array the vehicle has left the map; add a rim of obstacles to make that a collision.
-The other keywords are the keys of a scenario's [plan] and [mission] tables (docs/scenario.md).
+The other keywords are the keys of a scenario's [plan] and [mission] tables (docs/scenario.md);
+without alpha and sigma_cells the paper's are taken, 2 and 1, where a scenario has them chosen for
+its map (docs/defaults.md).
 
 Returns a Plan. Raises MissionRefused when the map does not allow the mission, ValueError when a
 number is out of range, TypeError when an array has the wrong type. Other Python threads keep

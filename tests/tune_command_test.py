@@ -103,6 +103,14 @@ class Tune(unittest.TestCase):
         self.fairway("tune", "s.toml", "-o", "out", "--evaluations", 2, "--finalists", 1, "--force", "--quiet")
         self.assertEqual((self.folder / "out" / "mine").read_text(), "keep")
 
+    def test_replaces_no_file_that_it_reads(self):
+        (self.folder / "map.pgm").rename(self.folder / "search.png")
+        (self.folder / "map.yaml").write_text("image: search.png\nresolution: 2.0\norigin: [0, 0, 0]\nnegate: 0\n"
+                                              "occupied_thresh: 0.65\nfree_thresh: 0.196\n")
+        (self.folder / "s.toml").write_text(SCENARIO.replace("map.pgm", "map.yaml").replace("resolution_m = 2.0\n", ""))
+        self.fairway("tune", "s.toml", "-o", ".", "--evaluations", 2, "--force", code=65)
+        self.assertTrue((self.folder / "search.png").exists())
+
 
 if __name__ == "__main__":
     FAIRWAY = str(pathlib.Path(sys.argv.pop(1)).absolute())

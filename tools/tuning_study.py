@@ -105,7 +105,7 @@ class Proofs:
     def of(self, name, keys):
         given = {} if "plan.preset" in keys else PAPER
         sets = {f"plan.{key}": value for key, value in given.items()} | keys
-        of = json.dumps([name, self.undecided_max, sorted(sets.items())])
+        of = json.dumps([name, self.undecided_max, self.time_limit_s, sorted(sets.items())])
         if of not in self.known:
             one = self.prove(name, sets) | {"of": of}
             with self.file.open("a") as out:

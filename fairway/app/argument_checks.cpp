@@ -3,11 +3,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/heading.hpp"
+#include "fairway/map/source_text.hpp"
 #include "fairway/simulate/state_files.hpp"
 
 namespace fairway {
@@ -59,6 +61,18 @@ CLI::Validator finite_number() {
 }
 
 State state_of_argument(const std::string& text) { return state_of_text(text, ""); }
+
+CLI::Validator readable(std::function<void(const std::string&)> read) {
+  return {[read = std::move(read)](const std::string& text) -> std::string {
+            try {
+              read(text);
+              return {};
+            } catch (const InputError& error) {
+              return reason_of(error);
+            }
+          },
+          ""};
+}
 
 CLI::Validator state_argument() {
   return {[](const std::string& text) { return complaint_of(text, state_of_argument); }, ""};

@@ -2,6 +2,7 @@
 // value is wrong usage (64), whereas an error in a file is bad input (65).
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -15,6 +16,9 @@ namespace fairway {
 [[nodiscard]] CLI::Validator finite_above(double low);
 [[nodiscard]] CLI::Validator finite_from(double low);
 [[nodiscard]] CLI::Validator finite_number();
+
+/// What `read` takes; else what it says, without the place that it names.
+[[nodiscard]] CLI::Validator readable(std::function<void(const std::string&)> read);
 
 /// `X,Y,H`; and the state that such a text stands for.
 [[nodiscard]] CLI::Validator state_argument();

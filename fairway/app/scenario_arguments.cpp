@@ -1,33 +1,19 @@
 #include "fairway/app/scenario_arguments.hpp"
 
-#include "fairway/base/error.hpp"
+#include "fairway/app/argument_checks.hpp"
 #include "fairway/run/scenario_overrides.hpp"
 
 namespace fairway {
-namespace {
-
-/// Checks the key and its value before the scenario is read.
-CLI::Validator override_argument() {
-  return {[](const std::string& text) -> std::string {
-            try {
-              Scenario any;
-              take_override(override_of_text(text), any);
-              return {};
-            } catch (const InputError& error) {
-              const std::string place = error.where().empty() ? "" : error.where() + ": ";
-              return std::string(error.what()).substr(place.size());
-            }
-          },
-          ""};
+std::vector<ScenarioOverride> ScenarioArguments::overrides() const {
+  std::vector<ScenarioOverride> all;
+  for (const std::string& text : set) all.push_back(override_of_text(text));
+  return all;
 }
 
-}  // namespace
-
 Scenario ScenarioArguments::read(const std::vector<ScenarioOverride>& more) const {
-  std::vector<ScenarioOverride> overrides;
-  for (const std::string& text : set) overrides.push_back(override_of_text(text));
-  overrides.insert(overrides.end(), more.begin(), more.end());
-  return read_scenario(file, overrides);
+  std::vector<ScenarioOverride> all = overrides();
+  all.insert(all.end(), more.begin(), more.end());
+  return read_scenario(file, all);
 }
 
 void declare(CLI::App& options, ScenarioArguments& arguments) {
@@ -39,7 +25,10 @@ void declare(CLI::App& options, ScenarioArguments& arguments) {
                   "override a value of the scenario: map.cell_m=4, plan.metric=paper, "
                   "'mission.goal_m=[30, 40]'; may be repeated")
       ->type_name("KEY=VALUE")
-      ->check(override_argument())
+      ->check(readable([](const std::string& text) {  // before the scenario is read
+        Scenario any;
+        take_override(override_of_text(text), any);
+      }))
       ->allow_extra_args(false)
       ->delimiter('\0');
 }

@@ -15,6 +15,9 @@ struct ScenarioArguments {
   std::filesystem::path file;
   std::vector<std::string> set;
 
+  /// Of --set.
+  [[nodiscard]] std::vector<ScenarioOverride> overrides() const;
+
   /// The scenario with --set, and then with `more`. Throws InputError.
   [[nodiscard]] Scenario read(const std::vector<ScenarioOverride>& more = {}) const;
 };

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,8 +9,6 @@
 #include "fairway/app/ending.hpp"
 #include "fairway/app/scenario_arguments.hpp"
 #include "fairway/app/terminal_progress.hpp"
-#include "fairway/base/error.hpp"
-#include "fairway/run/scenario_overrides.hpp"
 #include "fairway/tune/tune.hpp"
 
 namespace fairway {
@@ -28,28 +25,11 @@ struct TuneArguments {
   bool resume = false;
 };
 
-/// Checks what `read` says of a text.
-template <typename Read>
-CLI::Validator readable(const Read& read) {
-  return {[read](const std::string& text) -> std::string {
-            try {
-              (void)read(text);
-              return {};
-            } catch (const InputError& error) {
-              const std::string place = error.where().empty() ? "" : error.where() + ": ";
-              return std::string(error.what()).substr(place.size());
-            }
-          },
-          ""};
-}
-
 int tune_command(const TuneArguments& arguments, const Session& session) {
   say_when_interrupted("evaluations.csv is kept; fairway tune --resume continues from it");
   TuneRequest request;
   request.scenario = arguments.scenario.file;
-  for (const std::string& text : arguments.scenario.set) {
-    request.overrides.push_back(override_of_text(text));
-  }
+  request.overrides = arguments.scenario.overrides();
   for (const std::string& text : arguments.vary) {
     request.parameters.push_back(parameter_of_text(text));
   }
@@ -80,7 +60,7 @@ Action declare_tune(CLI::App& options) {
                   "as map.cell_m=4,8; may be repeated (default: plan.alpha, plan.sigma_cells, "
                   "plan.sigma_border, plan.mu_border)")
       ->type_name("KEY=VALUES")
-      ->check(readable(parameter_of_text))
+      ->check(readable([](const std::string& text) { (void)parameter_of_text(text); }))
       ->allow_extra_args(false)
       ->delimiter('\0');
   options
@@ -88,7 +68,7 @@ Action declare_tune(CLI::App& options) {
                   "reach: the share of all states that is proved, then time; or weights of reach, "
                   "safe (share of safe starts) and time, such as reach=1,time=0.05")
       ->type_name("WHAT")
-      ->check(readable(objective_of_text))
+      ->check(readable([](const std::string& text) { (void)objective_of_text(text); }))
       ->delimiter('\0')
       ->capture_default_str();
   options.add_option("--evaluations", a.evaluations, "how many parameters to try")

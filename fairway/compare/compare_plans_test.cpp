@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/markup_text.hpp"
 #include "fairway/compare/comparison_page.hpp"
 #include "fairway/compare/comparison_text.hpp"
 #include "fairway/compare/require_alike.hpp"
@@ -254,7 +255,7 @@ TEST(ComparePlans, TellsTheWorstFirstAndEveryNumberInItsFiles) {
   const std::string text = comparison_text(c);
   for (const ComparedMeasure& m : c.table) {
     EXPECT_THAT(text, HasSubstr(m.name));
-    EXPECT_THAT(page, HasSubstr(html_text(m.name)));
+    EXPECT_THAT(page, HasSubstr(markup_text(m.name)));
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "fairway/base/markup_text.hpp"
 #include "fairway/base/number_text.hpp"
 #include "fairway/base/share_text.hpp"
 #include "fairway/compare/comparison_style.hpp"
@@ -18,24 +19,24 @@ namespace {
 
 std::string list_of(const std::vector<std::string>& sentences, const char* opening) {
   std::string items;
-  for (const std::string& sentence : sentences) items += "<li>" + html_text(sentence) + "</li>";
+  for (const std::string& sentence : sentences) items += "<li>" + markup_text(sentence) + "</li>";
   return fmt::format("<ul{}>{}</ul>\n", opening, items);
 }
 
 std::string cell_of(const ComparedMeasure& m, std::size_t plan) {
   const MeasureText text = measure_text(m, plan);
-  if (text.difference.empty()) return fmt::format("<td>{}</td>", html_text(text.value));
+  if (text.difference.empty()) return fmt::format("<td>{}</td>", markup_text(text.value));
   const double by = m.difference_from_first[plan].value * m.better;
   const char* kind = !text.differs || by == 0.0 ? "" : by > 0.0 ? "better" : "worse";
   const std::string mark = *kind == '\0' ? "" : fmt::format(" <b class=\"{0}\">{0}</b>", kind);
-  return fmt::format("<td>{}<small>{}{}</small></td>", html_text(text.value),
-                     html_text(text.difference), mark);
+  return fmt::format("<td>{}<small>{}{}</small></td>", markup_text(text.value),
+                     markup_text(text.difference), mark);
 }
 
 std::string table_of(const Comparison& c) {
   std::string head = "<th scope=\"col\">Measure</th>";
   for (const std::string& name : c.names) {
-    head += fmt::format("<th scope=\"col\">{}</th>", html_text(name));
+    head += fmt::format("<th scope=\"col\">{}</th>", markup_text(name));
   }
   std::string body;
   std::string group;
@@ -44,11 +45,12 @@ std::string table_of(const Comparison& c) {
       group = m.group;
       body += fmt::format(
           "<tr class=\"group\"><th colspan=\"{}\" scope=\"colgroup\"><span>{}</span></th></tr>\n",
-          c.names.size() + 1, html_text(group));
+          c.names.size() + 1, markup_text(group));
     }
-    const std::string unit =
-        m.unit.empty() || m.unit == "%" ? "" : fmt::format(" <small>{}</small>", html_text(m.unit));
-    body += fmt::format("<tr><th scope=\"row\">{}{}</th>", html_text(m.name), unit);
+    const std::string unit = m.unit.empty() || m.unit == "%"
+                                 ? ""
+                                 : fmt::format(" <small>{}</small>", markup_text(m.unit));
+    body += fmt::format("<tr><th scope=\"row\">{}{}</th>", markup_text(m.name), unit);
     for (std::size_t k = 0; k < c.names.size(); ++k) body += cell_of(m, k);
     body += "</tr>\n";
   }
@@ -60,7 +62,7 @@ std::string table_of(const Comparison& c) {
 }
 
 std::string key_of(const char* kind, const std::string& words) {
-  return fmt::format("<li><i class=\"{}\"></i>{}</li>", kind, html_text(words));
+  return fmt::format("<li><i class=\"{}\"></i>{}</li>", kind, markup_text(words));
 }
 
 std::string figure_of(const Comparison& c, const PairDifference& d) {
@@ -79,7 +81,7 @@ std::string figure_of(const Comparison& c, const PairDifference& d) {
       "<ul class=\"key\">{}{}{}{}{}{}{}{}{}{}</ul>\n"
       "<p class=\"hint\">Pictures of the same, with what neither {}: <a href=\"{}.svg\">SVG</a>, "
       "<a href=\"{}.png\">PNG</a>.</p></figure>\n",
-      html_text(title), d.map.each, found, length_text(grid.width_m()),
+      markup_text(title), d.map.each, found, length_text(grid.width_m()),
       length_text(grid.height_m()), length_text(sample_m),
       difference_svg(d, title + ": where the plans differ"),
       key_of("a1", fmt::format("only {}: up to 1/4 of the headings", a)), key_of("a2", "up to 3/4"),
@@ -95,12 +97,12 @@ std::string sources_of(std::span<const ComparedPlan> plans) {
   std::string rows;
   for (const ComparedPlan& p : plans) {
     std::string proofs;
-    for (const std::string& proof : p.proofs) proofs += html_text(proof) + " ";
+    for (const std::string& proof : p.proofs) proofs += markup_text(proof) + " ";
     rows += fmt::format(
         "<tr><th scope=\"row\">{}</th><td>{}</td><td>{} × {} cells of {} m, {:g} m/s, turns of "
         "{:g} "
         "m</td><td>{}</td></tr>\n",
-        html_text(p.name), html_text(p.from.string()), p.plan.grid.nx, p.plan.grid.ny,
+        markup_text(p.name), markup_text(p.from.string()), p.plan.grid.nx, p.plan.grid.ny,
         length_text(p.plan.grid.cell_m), p.plan.vehicle.speed_mps, p.plan.vehicle.turn_radius_m,
         proofs);
   }
@@ -126,29 +128,6 @@ const char* kind_of(const DifferenceMap& map, std::size_t i) {
 }
 
 }  // namespace
-
-std::string html_text(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
 
 std::string difference_svg(const PairDifference& pair, const std::string& label) {
   const DifferenceMap& map = pair.map;
@@ -177,7 +156,7 @@ std::string difference_svg(const PairDifference& pair, const std::string& label)
       "patternTransform=\"rotate(45)\"><rect width=\"{6}\" height=\"{5}\" class=\"stroke\"/>"
       "</pattern></defs><style>#map-{3}-{4} .hatch {{ fill: url(#hatch-{3}-{4}); }}</style>"
       "<rect class=\"same\" width=\"{1}\" height=\"{2}\"/><g id=\"map-{3}-{4}\">\n{7}</g></svg>\n",
-      html_text(label), nx, ny, name_of(pair.of), pair.second, std::max(nx, ny) / 90.0,
+      markup_text(label), nx, ny, name_of(pair.of), pair.second, std::max(nx, ny) / 90.0,
       std::max(nx, ny) / 380.0, paths);
 }
 
@@ -213,10 +192,10 @@ std::string comparison_page(std::span<const ComparedPlan> plans, const Compariso
       "<a href=\"comparison.csv\">comparison.csv</a>, "
       "<a href=\"comparison.json\">comparison.json</a>. Made by <code>{11}</code>.</p></section>\n"
       "</main></body></html>\n",
-      html_text(title), comparison_style, grouped(c.ground.counted), warnings,
-      list_of(difference_lines(c), " class=\"lead\""), figures, html_text(c.names.front()),
+      markup_text(title), comparison_style, grouped(c.ground.counted), warnings,
+      list_of(difference_lines(c), " class=\"lead\""), figures, markup_text(c.names.front()),
       c.is_proved ? "each answered by the plan's certificate" : "each flown exactly once",
-      table_of(c), sources_of(plans), states_files, html_text(command),
+      table_of(c), sources_of(plans), states_files, markup_text(command),
       percent_text(error_of_shares(c), 2));
 }
 

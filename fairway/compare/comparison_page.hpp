@@ -17,7 +17,4 @@ namespace fairway {
 /// The map of a pair: SVG whose colours are those of the page.
 [[nodiscard]] std::string difference_svg(const PairDifference& pair, const std::string& label);
 
-/// Text within HTML.
-[[nodiscard]] std::string html_text(const std::string& text);
-
 }  // namespace fairway

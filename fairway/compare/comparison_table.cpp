@@ -103,15 +103,16 @@ void add_known(Table& table, const Comparison& c, Knowledge of) {
   table.add_share({key + "proved", "", c.known_to(of), "", 1, {}, {}}, of, is_kept, everywhere);
 }
 
+/// Each plan's own cells are other ground: more of less is not better.
 void add_known_in_cells(Table& table, std::span<const ComparedPlan> plans, const Comparison& c) {
   const auto add = [&](const std::string& key, Region region) {
     const auto counts = [&, region](std::size_t k, std::size_t i) {
       return is_in(plans[k].plan, c.ground.states[i], region);
     };
-    table.add_share({key + "_proved", "", c.known_to(Knowledge::exact), "", 1, {}, {}},
+    table.add_share({key + "_proved", "", c.known_to(Knowledge::exact), "", 0, {}, {}},
                     Knowledge::exact, is_kept, counts);
     if (!c.has_contract) return;
-    table.add_share({key + "_contract_proved", "", c.known_to(Knowledge::contract), "", 1, {}, {}},
+    table.add_share({key + "_contract_proved", "", c.known_to(Knowledge::contract), "", 0, {}, {}},
                     Knowledge::contract, is_kept, counts);
   };
   table.group = "of the states in each plan's own safe-start cells";

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fairway/base/error.hpp"
+#include "fairway/base/markup_text.hpp"
 #include "fairway/report/color.hpp"
 #include "fairway/report/outcome_style.hpp"
 #include "fairway/report/page_arrays.hpp"
@@ -197,32 +198,6 @@ std::string inert(const json& value) {
 
 }  // namespace
 
-std::string escaped_html(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
-
 std::string page_html(const PageContent& content, std::string_view html) {
   PagePayload payload;
   add_plan_arrays(content.plan, payload);
@@ -235,7 +210,7 @@ std::string page_html(const PageContent& content, std::string_view html) {
   }
   add_flight_arrays(content, payload);
   const std::array<std::pair<std::string_view, std::string>, 3> marks{
-      {{"@FAIRWAY_TITLE@", escaped_html(content.title)},
+      {{"@FAIRWAY_TITLE@", markup_text(content.title)},
        {"@FAIRWAY_RECORD@", inert(record_of(content))},
        {"@FAIRWAY_ARRAYS@", base64(payload.bytes())}}};
   std::string page;

@@ -57,7 +57,4 @@ struct PageContent {
 /// The same with the caller's template.
 [[nodiscard]] std::string page_html(const PageContent& content, std::string_view html);
 
-/// Text between tags or in a quoted attribute.
-[[nodiscard]] std::string escaped_html(std::string_view text);
-
 }  // namespace fairway

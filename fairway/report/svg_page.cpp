@@ -7,6 +7,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/heading.hpp"
+#include "fairway/base/markup_text.hpp"
 
 namespace fairway {
 namespace {
@@ -19,29 +20,6 @@ std::string number(double value) {
 }
 
 std::string pair_of(Vec2 p) { return number(p.x) + " " + number(p.y); }
-
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
 
 /// An arc command cannot distinguish a full circle from nothing, and is exact only with its ends
 /// well apart: long arcs are split into parts of at most 120 degrees.
@@ -113,7 +91,7 @@ SvgPage::SvgPage(double width_pt, double height_pt, const std::string& title) {
       "version=\"1.1\" width=\"{0}pt\" height=\"{1}pt\" viewBox=\"0 0 {0} {1}\" "
       "font-family=\"DejaVu Sans, Verdana, sans-serif\" stroke-linejoin=\"round\">\n"
       "<title>{2}</title>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-      number(width_pt), number(height_pt), escaped(title));
+      number(width_pt), number(height_pt), markup_text(title));
 }
 
 void SvgPage::open_layer(std::string_view name, const std::optional<Rect>& clip) {
@@ -125,7 +103,7 @@ void SvgPage::open_layer(std::string_view name, const std::optional<Rect>& clip)
         number(clip->x), number(clip->y), number(clip->width), number(clip->height));
     clipping = fmt::format(" clip-path=\"url(#{})\"", id);
   }
-  body_ += fmt::format("<g id=\"{}\"{}>\n", escaped(name), clipping);
+  body_ += fmt::format("<g id=\"{}\"{}>\n", markup_text(name), clipping);
   ++open_layers_;
 }
 
@@ -155,7 +133,7 @@ void SvgPage::text(const std::string& text, Vec2 at, const TextStyle& style) {
   body_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\"{}{}{}{}>{}</text>\n", number(at.x),
                        number(at.y), number(style.size_pt), anchor,
                        style.bold ? " font-weight=\"bold\"" : "", paint("fill", style.color), turn,
-                       escaped(text));
+                       markup_text(text));
 }
 
 void SvgPage::image(int width, int height, const std::string& png, const Rect& place) {

@@ -23,8 +23,13 @@ std::string path_in_record(const fs::path& path, const Scenario& scenario) {
   return fs::absolute(path).lexically_normal().lexically_relative(folder).generic_string();
 }
 
-/// Scenario, map and path files with their digests.
-std::vector<InputFile> inputs_of(const Scenario& scenario, const ObstacleMap& map) {
+std::string text_of(const json& options) {
+  return options.dump(-1, ' ', true, json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::vector<InputFile> recorded_inputs(const Scenario& scenario, const ObstacleMap& map) {
   std::vector<InputFile> inputs{{path_in_record(scenario.file, scenario), scenario.sha256}};
   for (const InputFile& input : map.inputs) {
     inputs.push_back({path_in_record(input.path, scenario), input.sha256});
@@ -35,18 +40,12 @@ std::vector<InputFile> inputs_of(const Scenario& scenario, const ObstacleMap& ma
   return inputs;
 }
 
-std::string text_of(const json& options) {
-  return options.dump(-1, ' ', true, json::error_handler_t::replace);
-}
-
-}  // namespace
-
 PlanRecord plan_record(const Scenario& scenario, const ObstacleMap& map, const Mission& mission) {
   json options = {{"map", effective_values(scenario, "map")},
                   {"plan", effective_values(scenario, "plan")}};
   options["map"].erase("file");  // it stands among the inputs
   if (!scenario.only_connected) options["map"].erase("only_connected");  // as records always were
-  return {program_version,  mission, map.frame,        inputs_of(scenario, map),
+  return {program_version,  mission, map.frame,        recorded_inputs(scenario, map),
           text_of(options), {},      scenario.contract};
 }
 

@@ -2,21 +2,21 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <numeric>
 #include <sstream>
 #include <utility>
 #include <variant>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include "fairway/base/atomic_file.hpp"
 #include "fairway/base/error.hpp"
 #include "fairway/run/choose_parameters.hpp"
 #include "fairway/run/contract_verification.hpp"
 #include "fairway/run/mission_on_map.hpp"
 #include "fairway/run/region_request.hpp"
 #include "fairway/run/run.hpp"
+#include "fairway/tune/tuning_products.hpp"
 
 namespace fairway {
 namespace {
@@ -52,7 +52,7 @@ void prove_coarsely(const Plan& plan, const Scenario& scenario, const VehicleCon
   options.limits.time_limit_s = 0.0;
   options.samples = 5'000;
   options.seed = scenario.simulate.seed;
-  options.or_touch = true;
+  options.or_touch = false;  // to touch a path that is to be followed is no success
   options.find_witnesses = false;
   const ContractVerification proof =
       verify_contract(plan, scenario.file.string(), region_on_plan({}, plan), contract, options,
@@ -86,8 +86,9 @@ Objective objective_of_text(const std::string& text) {
 }
 
 double value_of(const Evaluation& one, const Evaluation& given, const Objective& objective) {
-  if (!one.allowed) return -objective.time;  // less than any plan that saves a state
-  const double time = given.mean_time_s > 0.0 ? one.mean_time_s / given.mean_time_s : 1.0;
+  // Where nothing arrives there is no time: that of the scenario as given stands for it.
+  const bool is_timed = one.mean_time_s > 0.0 && given.mean_time_s > 0.0;
+  const double time = is_timed ? one.mean_time_s / given.mean_time_s : 1.0;
   return objective.reach * one.share + objective.safe * one.safe_share - objective.time * time;
 }
 
@@ -133,11 +134,7 @@ Evaluation evaluate(const Scenario& scenario, std::vector<std::string> values) {
 EvaluationLog::EvaluationLog(std::filesystem::path file, const std::vector<std::string>& keys)
     : file_(std::move(file)), keys_(keys.size()) {
   const std::string header = header_of(keys) + "\n";
-  std::string text;
-  {
-    std::ifstream in(file_, std::ios::binary);
-    text.assign(std::istreambuf_iterator<char>(in), {});
-  }
+  std::string text = file_text(file_);
   text.resize(text.rfind('\n') + 1);  // npos + 1 is 0
   if (!text.empty() && !text.starts_with(header)) {
     throw InputError(file_.string(), "is the log of other parameters; expected " + header_of(keys));
@@ -147,12 +144,9 @@ EvaluationLog::EvaluationLog(std::filesystem::path file, const std::vector<std::
   for (const std::string& line : parts_of(text, '\n')) {
     if (++number > 1) take_line(line, number);
   }
-  out_ = std::fopen(file_.c_str(), "wb");
-  if (out_ == nullptr || std::fwrite(text.data(), 1, text.size(), out_) != text.size() ||
-      std::fflush(out_) != 0) {
-    if (out_ != nullptr) std::fclose(out_);
-    throw InputError(file_.string(), "cannot be written");
-  }
+  write_whole(file_, Existing::replace, text);  // killed here, the process loses no line
+  out_ = std::fopen(file_.c_str(), "ab");
+  if (out_ == nullptr) throw InputError(file_.string(), "cannot be written");
 }
 
 EvaluationLog::~EvaluationLog() { std::fclose(out_); }

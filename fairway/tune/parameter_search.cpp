@@ -96,7 +96,9 @@ ParameterSearch::ParameterSearch(const TuneRequest& request, const TunedScenario
 Values ParameterSearch::given_values() const {
   const Progress silent;
   StageClock own(silent);
-  const auto answer = plan_scenario(tuned_.given(), own);
+  Scenario scenario = tuned_.given();
+  scenario.improve = false;  // changes no parameter
+  const auto answer = plan_scenario(scenario, own);
   const auto* planned = std::get_if<Planned>(&answer);
   Values values;
   for (const Parameter& p : tuned_.parameters()) {

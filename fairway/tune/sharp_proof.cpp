@@ -12,9 +12,20 @@
 
 namespace fairway {
 
+namespace {
+
+constexpr auto reach = static_cast<std::size_t>(Verdict::reach);
+
+}  // namespace
+
 double SharpProof::share() const {
-  constexpr auto reach = static_cast<std::size_t>(Verdict::reach);
-  return exact ? exact->outcome.volume.all[reach] : under_contract->survey.shares.all[reach];
+  if (exact) return exact->outcome.volume.all[reach];
+  return under_contract->no_tube ? 0.0 : under_contract->survey.shares.all[reach];
+}
+
+double SharpProof::safe_share() const {
+  if (exact) return exact->outcome.volume.free[reach];
+  return under_contract->no_tube ? 0.0 : under_contract->survey.shares.free[reach];
 }
 
 nlohmann::json SharpProof::json() const {

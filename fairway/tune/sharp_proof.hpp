@@ -19,7 +19,10 @@ struct SharpProof {
   std::optional<Verification> exact;
   std::optional<ContractVerification> under_contract;
 
-  [[nodiscard]] double share() const;  ///< of all states, proved
+  /// Of all states, proved to do what the mission asks for: of a path that is to be followed, not
+  /// only to touch it.
+  [[nodiscard]] double share() const;
+  [[nodiscard]] double safe_share() const;  ///< the same of safe starts
   [[nodiscard]] nlohmann::json json() const;
   /// Writes the certificate, and has the separate program check it: false when that is not there.
   [[nodiscard]] bool write_and_check(const std::filesystem::path& folder) const;

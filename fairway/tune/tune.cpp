@@ -11,9 +11,12 @@
 #include "fairway/base/share_text.hpp"
 #include "fairway/plan/plan_digests.hpp"
 #include "fairway/plan/plan_file.hpp"
+#include "fairway/run/mission_on_map.hpp"
+#include "fairway/run/plan_record.hpp"
 #include "fairway/run/products.hpp"
 #include "fairway/run/run_inputs.hpp"
 #include "fairway/run/summary.hpp"
+#include "fairway/run/version.hpp"
 #include "fairway/tune/parameter_search.hpp"
 #include "fairway/tune/sharp_proof.hpp"
 #include "fairway/tune/tuning_pictures.hpp"
@@ -24,18 +27,20 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+
 /// What a resumed search must have in common with the one before.
-json identity_of(const TuneRequest& request, const TunedScenario& tuned) {
+json identity_of(const TuneRequest& request, const TunedScenario& tuned, const ObstacleMap& map) {
   json vary = json::object();
   for (const Parameter& p : tuned.parameters()) {
     vary[p.key] = p.is_range() ? json{p.low, p.high} : json(p.choices);
   }
   json set = json::object();
   for (const ScenarioOverride& one : request.overrides) set[one.key] = one.value;
-  return {{"program", "fairway tune"},
-          {"scenario_sha256", tuned.given().sha256},
-          {"set", set},
-          {"vary", vary}};
+  json inputs = json::object();
+  for (const InputFile& input : recorded_inputs(tuned.given(), map)) {
+    inputs[input.path] = input.sha256;
+  }
+  return {{"program", program_version}, {"inputs", inputs}, {"set", set}, {"vary", vary}};
 }
 
 /// Makes the folder ready for a search that may be killed at any time.
@@ -50,7 +55,8 @@ void begin_folder(const fs::path& folder, const TuneRequest& request, Existing e
     }
     if (file_text(search) != identity.dump(2) + "\n") {
       throw InputError(search.string(),
-                       "is of another search: --resume needs the same scenario, --set and --vary");
+                       "is of another search: --resume needs the same scenario, map, --set and "
+                       "--vary, and the same version of Fairway");
     }
     return;
   }
@@ -96,10 +102,14 @@ std::vector<Finalist> finalists(const ParameterSearch& search, const TunedScenar
   std::stable_sort(order.begin(), order.end(), [&](const Evaluation* a, const Evaluation* b) {
     return search.value(*a) > search.value(*b);
   });
-  if (all.front().allowed) order.insert(order.begin(), &all.front());
+  auto most = static_cast<std::size_t>(request.finalists);
+  if (all.front().allowed) {
+    order.insert(order.begin(), &all.front());
+    ++most;
+  }
   std::vector<Finalist> found;
   for (const Evaluation* one : order) {
-    if (found.size() > static_cast<std::size_t>(request.finalists)) break;
+    if (found.size() == most) break;
     const Scenario scenario = tuned.with(one->values);
     Planned planned = planned_of(scenario);
     const PlanDigests digests = plan_digests(planned.plan);
@@ -107,7 +117,7 @@ std::vector<Finalist> finalists(const ParameterSearch& search, const TunedScenar
       return plan_digests(f.planned.plan) == digests;
     });
     if (is_known) continue;
-    clock.rename(fmt::format("proving, plan {} of {}", found.size() + 1, request.finalists + 1));
+    clock.rename(fmt::format("proving, plan {} of {}", found.size() + 1, most));
     clock.tell(unknown_time);
     SharpProof proof = prove_sharply(planned.plan, scenario);
     found.push_back({one, std::move(planned), std::move(proof)});
@@ -115,11 +125,13 @@ std::vector<Finalist> finalists(const ParameterSearch& search, const TunedScenar
   return found;
 }
 
-/// By what is proved, with the weights of the objective; the first of equals.
-std::size_t best_of(const std::vector<Finalist>& all, const ParameterSearch& search,
-                    const Objective& objective) {
+/// By what is proved, and the time that was flown; the first of equals.
+std::size_t best_of(const std::vector<Finalist>& all, const ParameterSearch& search) {
   const auto worth = [&](const Finalist& f) {
-    return search.value(*f.evaluation) + objective.reach * (f.proof.share() - f.evaluation->share);
+    Evaluation proved = *f.evaluation;
+    proved.share = f.proof.share();
+    proved.safe_share = f.proof.safe_share();
+    return search.value(proved);
   };
   std::size_t best = 0;
   for (std::size_t i = 1; i < all.size(); ++i) {
@@ -134,12 +146,15 @@ RunResult tune(const TuneRequest& request, const fs::path& folder, Existing exis
                const Progress& progress) {
   require_range("evaluations", request.evaluations);
   const TunedScenario tuned(request);
-  std::vector<fs::path> places;
+  std::vector<fs::path> places{folder / tuning_product::evaluations,
+                               folder / tuning_product::search};
   for (const std::string& name : tuning_product_names()) places.push_back(folder / name);
   require_no_inputs(places, inputs_of(tuned.given()));
+  const ObstacleMap map = read_map(map_request(tuned.given()));
+  require_no_inputs(places, inputs_of(map));
   StageClock clock(progress);
   clock.begin("searching", unknown_time);
-  begin_folder(folder, request, existing, identity_of(request, tuned));
+  begin_folder(folder, request, existing, identity_of(request, tuned, map));
   ParameterSearch search(request, tuned, folder, clock);
   search.run();
 
@@ -148,7 +163,7 @@ RunResult tune(const TuneRequest& request, const fs::path& folder, Existing exis
   if (last.empty()) {
     return {true, {{"unreachable", true}}, "No parameters that were tried allow the mission.", {}};
   }
-  const Finalist& best = last[best_of(last, search, request.objective)];
+  const Finalist& best = last[best_of(last, search)];
 
   clock.begin("writing", unknown_time);
   AtomicFolder products(folder, Existing::replace, product::summary, tuning_product_names());
@@ -173,8 +188,10 @@ RunResult tune(const TuneRequest& request, const fs::path& folder, Existing exis
                       {"mean_time_s", one.evaluation->mean_time_s}});
   }
   result.summary["finalists"] = proved;
-  result.summary["given_share"] = last.front().proof.share();
+  const bool is_given_allowed = search.asked().front().allowed;
+  result.summary["given_share"] = is_given_allowed ? json(last.front().proof.share()) : json();
   result.summary["tuned_share"] = best.proof.share();
+  result.summary["tuned_values"] = best.evaluation->values;
   result.summary["verify"] = best.proof.json();
   clock.end();
   add_cost(result.summary, clock);

@@ -25,12 +25,12 @@ struct TuneRequest {
   bool resume = false;        ///< from the folder's evaluations.csv
 };
 
-/// Searches coarsely, proves the best few sharply, and keeps the one of which most is proved: never
-/// less than of the scenario as given. The folder gets scenario.toml, its plan and certificate,
-/// pictures and summary.json at the end, in one step; evaluations.csv and search.json are there
-/// from the beginning, and what was evaluated is not evaluated again when resumed. Depends on the
-/// request alone, not on threads, unless a limit of time ends the search or a proof. Throws
-/// InputError.
+/// Searches coarsely, proves the best few sharply and the scenario as given, and keeps the one of
+/// the highest value, of proved shares and flown times. The folder gets scenario.toml, its plan and
+/// certificate, pictures and summary.json at the end, in one step; evaluations.csv and search.json
+/// are there from the beginning, and what was evaluated is not evaluated again when resumed.
+/// Depends on the request alone, not on threads, unless a limit of time ends the search or a proof.
+/// Throws InputError.
 [[nodiscard]] RunResult tune(const TuneRequest& request, const std::filesystem::path& folder,
                              Existing existing, const Progress& progress);
 

@@ -14,11 +14,13 @@
 #include "fairway/run/region_request.hpp"
 #include "fairway/run/verification.hpp"
 #include "fairway/tune/search.hpp"
+#include "fairway/tune/tuning_products.hpp"
 
 namespace fairway {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 
 const std::string text = R"(# A yard.
 [map]
@@ -171,6 +173,36 @@ TEST_F(Tuning, RefusesWhatItCannotDo) {
   EXPECT_NE(refusal(request(3), "out").find("--resume continues"), std::string::npos);
   resumed.parameters = {parameter_of_text("plan.beta=1.5:2")};
   EXPECT_NE(refusal(resumed, "out").find("is of another search"), std::string::npos);
+  resumed.parameters.clear();
+  EXPECT_EQ(refusal(resumed, "out"), "accepted");
+  std::string other = yard();
+  other[other.size() / 2] = '\0';
+  (void)folder_.write("map.pgm", other);
+  EXPECT_NE(refusal(resumed, "out").find("is of another search"), std::string::npos)
+      << "flights over another map must not mix";
+}
+
+TEST_F(Tuning, TheValuesToldAreThoseOfTheScenarioWritten) {
+  TuneRequest asked = request(4);
+  asked.parameters = {parameter_of_text("plan.mu_border=0.4:0.6")};
+  json summary = run(asked, "out").summary;
+  const Scenario tuned = read_scenario(folder_.file("out/scenario.toml"));
+  const std::string value = value_text(tuned.plan.mu_border);
+  EXPECT_EQ(summary["tuned_values"], json::array({value}));
+  // Nor is another plan told of which just as much is proved.
+  summary["finalists"].push_back({{"values", {"0.123"}}, {"share", summary["tuned_share"]}});
+  EXPECT_NE(tuning_words(summary, "out").find("plan.mu_border = " + value), std::string::npos);
+  summary["given_share"] = json();
+  EXPECT_NE(tuning_words(summary, "out").find("as given does not allow the mission"),
+            std::string::npos);
+}
+
+TEST(ValueOf, APlanUnderWhichNothingArrivesIsNotTheFastest) {
+  const Evaluation given{{}, true, 0.5, 0.5, 20.0};
+  const Evaluation nothing{{}, true, 0.0, 0.0, 0.0};
+  const Evaluation faster{{}, true, 0.5, 0.5, 10.0};
+  const Objective time = objective_of_text("time=1");
+  EXPECT_GT(value_of(faster, given, time), value_of(nothing, given, time));
 }
 
 TEST(SearchBox, FindsTheHigherOfTwoStepsAndThenItsTop) {

@@ -39,10 +39,8 @@ void add_tuning(json& summary, const std::vector<Evaluation>& all,
                 const std::vector<std::string>& keys, const TuneRequest& request) {
   json front = json::array();
   for (const std::size_t i : pareto_front(all)) {
-    front.push_back({{"evaluation", i + 1},
-                     {"values", all[i].values},
-                     {"share", all[i].share},
-                     {"mean_time_s", all[i].mean_time_s}});
+    front.push_back(
+        {{"values", all[i].values}, {"share", all[i].share}, {"mean_time_s", all[i].mean_time_s}});
   }
   std::size_t refused = 0;
   for (const Evaluation& one : all) refused += one.allowed ? 0 : 1;
@@ -58,19 +56,16 @@ void add_tuning(json& summary, const std::vector<Evaluation>& all,
 
 std::string tuning_words(const json& summary, const std::filesystem::path& folder) {
   const json& tuning = summary["tuning"];
-  const json* best = &summary["finalists"].front();
-  for (const json& one : summary["finalists"]) {
-    if (one["share"] == summary["tuned_share"]) best = &one;
-  }
+  const json& given = summary["given_share"];
   std::string words = fmt::format(
-      "{} of all states are proved to succeed with the best of {} evaluations; {} with the "
-      "scenario as given.\n",
+      "{} of all states are proved to succeed with the best of {} evaluations; {}.\n",
       percent_text(summary["tuned_share"].get<double>(), 2),
       tuning["evaluations"].get<std::size_t>(),
-      percent_text(summary["given_share"].get<double>(), 2));
+      given.is_null() ? "the scenario as given does not allow the mission"
+                      : percent_text(given.get<double>(), 2) + " with the scenario as given");
   for (std::size_t i = 0; i < tuning["parameters"].size(); ++i) {
     words += fmt::format("  {} = {}\n", tuning["parameters"][i].get<std::string>(),
-                         (*best)["values"][i].get<std::string>());
+                         summary["tuned_values"][i].get<std::string>());
   }
   return words + fmt::format("{}\nLook at {} and {}.", cost_words(summary),
                              (folder / tuning_product::scenario).string(),
