@@ -315,6 +315,32 @@ TEST(Ceiling, MirroredMapHasTheMirroredCeiling) {
   EXPECT_NEAR(a.upper, b.upper, 2e-3);
 }
 
+TEST(Ceiling, SharesAreThoseOfTheClaimsAlthoughWallsLieAlongTheNodes) {
+  const CeilingCells cells = cells_of(room, 0.5);
+  const CeilingLevel level = level_of(cells, 0);
+  constexpr int across = 32;  // places of a cell, along each axis
+  double told = 0.0;
+  double counted = 0.0;
+  double ordinary = 0.0;
+  for (std::size_t bin = 0; bin < level.lost_share.size(); ++bin) {
+    const std::size_t cell = bin % cells.goal.size();
+    if (!cells.ordinary(cell)) continue;
+    ordinary += 1.0;
+    told += static_cast<double>(level.lost_share[bin]);
+    const double heading =
+        (static_cast<double>(bin / cells.goal.size()) + 0.5) * level.lattice.bin_rad;
+    const Vec2 corner{static_cast<double>(cell % static_cast<std::size_t>(cells.nx)),
+                      static_cast<double>(cell / static_cast<std::size_t>(cells.nx))};
+    int lost = 0;
+    for (int i = 0; i < across * across; ++i) {
+      const Vec2 within{(i % across + 0.5) / across, (i / across + 0.5) / across};
+      if (claimed(level.lattice, level.lost, {cells.side * (corner + within), heading})) ++lost;
+    }
+    counted += static_cast<double>(lost) / (across * across);
+  }
+  EXPECT_NEAR(told / ordinary, counted / ordinary, 1e-3);
+}
+
 TEST(Ceiling, DoesNotDependOnThreads) {
   Random random(5);
   const CeilingCells cells = random_cells(random, 20, 16, 0.4);
