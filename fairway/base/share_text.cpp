@@ -14,17 +14,6 @@ std::string percent_of(double percent, int decimals) {
   return fmt::format("{:.{}f} %", percent, decimals);
 }
 
-/// The bound of an interval, outwards: `towards` -1 down, +1 up.
-std::string bound_text(double share, int decimals, int towards) {
-  const double ten = std::pow(10.0, decimals);
-  const double units = 100.0 * share * ten;
-  const double rounded = towards < 0 ? std::floor(units + 1e-9) : std::ceil(units - 1e-9);
-  if (share > 0.0 && share < 1.0 && (rounded <= 0.0 || rounded >= 100.0 * ten)) {
-    return percent_text(share, decimals);
-  }
-  return percent_text(rounded / (100.0 * ten), decimals);
-}
-
 }  // namespace
 
 std::string grouped(std::size_t n) {
@@ -68,6 +57,16 @@ std::array<double, 2> wilson_interval(std::size_t hits, std::size_t count) {
   const double middle = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
   const double half = z / (1.0 + z * z / n) * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
   return {hits == 0 ? 0.0 : middle - half, hits == count ? 1.0 : middle + half};
+}
+
+std::string bound_text(double share, int decimals, int towards) {
+  const double ten = std::pow(10.0, decimals);
+  const double units = 100.0 * share * ten;
+  const double rounded = towards < 0 ? std::floor(units + 1e-9) : std::ceil(units - 1e-9);
+  if (share > 0.0 && share < 1.0 && (rounded <= 0.0 || rounded >= 100.0 * ten)) {
+    return percent_text(share, decimals);
+  }
+  return percent_text(rounded / (100.0 * ten), decimals);
 }
 
 SampledShare sampled_share(std::size_t hits, std::size_t count) {

@@ -17,6 +17,10 @@ namespace fairway {
 /// "> 99.9 %"; exactly nothing and all have no decimals: "0 %", "100 %".
 [[nodiscard]] std::string percent_text(double share, int decimals = 1);
 
+/// The bound of an interval, rounded outwards: `towards` -1 down, +1 up; what is not nothing, or
+/// not all, never reads as it.
+[[nodiscard]] std::string bound_text(double share, int decimals, int towards);
+
 /// Counted, not sampled: one decimal.
 [[nodiscard]] std::string percent_text(std::size_t part, std::size_t whole);
 

@@ -1,7 +1,6 @@
 #include "fairway/run/ceiling_summary.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -15,24 +14,25 @@ using nlohmann::json;
 
 json bounds(const CeilingShare& share) { return {share.lower, share.upper}; }
 
-// Rounded outwards: what is printed holds, too.
-std::string at_least_text(double share, int decimals = 1) {
-  const double units = std::pow(10.0, 2 + decimals);
-  return percent_text(std::floor(share * units) / units, decimals);
-}
-std::string at_most_text(double share) {
-  return percent_text(std::min(1.0, std::ceil(share * 1000.0) / 1000.0));
-}
+// Rounded outwards.
 std::string bounds_text(const CeilingShare& share) {
-  return fmt::format("{} to {}", at_least_text(share.lower), at_most_text(share.upper));
+  return fmt::format("{} to {}", bound_text(share.lower, 1, -1), bound_text(share.upper, 1, +1));
 }
 
 Finding finding_of(const Ceiling& c, const ProvedShare& proved) {
-  return {at_least_text(share_of_ceiling(c, proved.of_all), proved.decimals),
+  const std::string most = bound_text(c.all.upper, 1, +1);
+  // Both are measured, each to its digits.
+  constexpr double measured = 0.01;
+  if (proved.of_all > c.all.upper + measured) {
+    return {"", "",
+            fmt::format("{} of all states {}, but no plan can keep more than {}: one of the two is "
+                        "wrong, which is a fault of this program",
+                        percent_text(proved.of_all, proved.decimals), proved.what, most)};
+  }
+  return {bound_text(share_of_ceiling(c, proved.of_all), proved.decimals, -1),
           "what any control could keep",
           fmt::format("is kept at least: {} of all states {}, and no plan can keep more than {}",
-                      percent_text(proved.of_all, proved.decimals), proved.what,
-                      at_most_text(c.all.upper))};
+                      bound_text(proved.of_all, proved.decimals, -1), proved.what, most)};
 }
 
 }  // namespace
@@ -94,12 +94,13 @@ void add_ceiling(json& summary, std::vector<Finding>& found, const Ceiling& c,
   summary["ceiling_buffer"] = bounds(c.buffer);
   summary["ceiling_levels"] = c.levels;
   summary["share_of_ceiling"] = share_of_ceiling(c, proved.of_all);
-  if (c.levels > 0) found.push_back(finding_of(c, proved));
+  if (c.levels > 0 && c.all.upper > 0.0) found.push_back(finding_of(c, proved));
 }
 
 std::string words_of(const Ceiling& c, const ProvedShare& proved) {
-  if (c.levels == 0) return words_of(c);
+  if (c.levels == 0 || c.all.upper <= 0.0) return words_of(c);
   const Finding kept = finding_of(c, proved);
+  if (kept.share.empty()) return fmt::format("{} {}.", words_of(c), kept.what);
   return fmt::format("{} Of {} {} {}.", words_of(c), kept.of, kept.share, kept.what);
 }
 
