@@ -38,8 +38,9 @@
 #include "fairway/vehicle/command_field.hpp"
 #include "fairway/vehicle/turn_side.hpp"
 #include "fairway/verify/flow.hpp"
+#include "fairway/verify/mode_choice.hpp"
+#include "fairway/verify/proof_view.hpp"
 #include "fairway/verify/section_view.hpp"
-#include "fairway/verify/state_flight.hpp"
 #include "fairway/verify/verdict.hpp"
 
 namespace fairway::runtime {
@@ -55,6 +56,8 @@ enum class Status : std::uint8_t {
 struct Answer {
   Verdict verdict = Verdict::undecided;
   double time_bound_s = std::numeric_limits<double>::infinity();  ///< finite only for `reach`
+  /// The one to fly: the first that is proved to reach; 0 where none is, or where the plan has one.
+  int mode = 0;
 };
 
 using Command = HeadingCommand;
@@ -85,6 +88,8 @@ class FileArrays {
   const HeaderEntry* find(const char* name) const noexcept { return header_.find(name); }
   /// Whether it says where the plan holds: an array more.
   bool holds() const noexcept { return find("holding") != nullptr; }
+  /// Whether the plan has further modes: seven arrays more.
+  bool has_modes() const noexcept { return find("mode_heading_rad") != nullptr; }
 
   /// An array's bytes; null when it is missing or not as expected.
   template <typename... Shape>
@@ -137,93 +142,162 @@ class Certificate {
   /// `bytes`: the whole file, aligned to 8 bytes, which must outlive this object.
   Status open(const void* bytes, std::size_t size) noexcept {
     opened_ = false;
-    flow_ = {};
+    proof_ = {};
     FileArrays arrays;
     if (const Status status = arrays.open(bytes, size); status != Status::ok) return status;
-    const HeaderEntry* verdict = arrays.find("leaf_verdict");
-    if (arrays.count() != (arrays.holds() ? 10 : 9) || verdict == nullptr || verdict->sizes != 1) {
-      return Status::not_certificate;
-    }
-    if (const Status status = arrays.take_flow(flow_); status != Status::ok) return status;
-    const std::uint64_t cells = flow_.grid.size();
-    const std::uint64_t leaves = verdict->shape[0];
-    const std::uint64_t ny = static_cast<std::uint64_t>(flow_.grid.ny);
-    const std::uint64_t nx = static_cast<std::uint64_t>(flow_.grid.nx);
-    const char* first = arrays.place("section_first", "U32", 4, 4 * cells + 1);
-    const char* begin = arrays.place("leaf_begin", "U32", 4, leaves);
-    const char* time = arrays.place("leaf_time_s", "F32", 4, leaves);
-    const char* verdicts = arrays.place("leaf_verdict", "U8", 1, leaves);
-    for (const char* array :
-         {first, begin, time, verdicts, arrays.place("leaf_rank", "U32", 4, leaves),
-          arrays.place("region", "I8", 1, ny, nx)}) {
-      if (array == nullptr) return Status::misfit;
-    }
-    sections_.first = reinterpret_cast<const std::uint32_t*>(first);
-    sections_.begin = reinterpret_cast<const std::uint32_t*>(begin);
-    sections_.time_s = reinterpret_cast<const float*>(time);
-    sections_.verdict = reinterpret_cast<const std::uint8_t*>(verdicts);
-    for (std::size_t s = 0; s < 4 * cells; ++s) {
-      if (sections_.first[s] > sections_.first[s + 1]) return Status::misfit;
-    }
-    if (sections_.first[0] != 0 || sections_.first[4 * cells] != leaves) return Status::misfit;
-    for (std::size_t k = 0; k < leaves; ++k) {
-      if (sections_.verdict[k] >= stored_verdict_count) return Status::misfit;
-    }
-    opened_ = true;
-    return Status::ok;
+    const int expected = 9 + (arrays.holds() ? 1 : 0) + (arrays.has_modes() ? 7 : 0);
+    if (arrays.count() != expected) return Status::not_certificate;
+    Flow& flow = proof_.flow;
+    if (const Status status = arrays.take_flow(flow); status != Status::ok) return status;
+    const std::uint64_t ny = static_cast<std::uint64_t>(flow.grid.ny);
+    const std::uint64_t nx = static_cast<std::uint64_t>(flow.grid.nx);
+    if (arrays.place("region", "I8", 1, ny, nx) == nullptr) return Status::misfit;
+    const Names names{"section_first", "leaf_begin", "leaf_rank", "leaf_time_s", "leaf_verdict"};
+    Status status = take_leaves(arrays, names, 4 * flow.grid.size(), proof_.sections);
+    if (status == Status::ok && arrays.has_modes()) status = take_modes(arrays);
+    opened_ = status == Status::ok;
+    return status;
   }
 
   /// The same for a certificate already read and in memory, which must outlive this object.
-  void look_into(const Flow& flow, const SectionView& sections) noexcept {
-    flow_ = flow;
-    sections_ = sections;
+  void look_into(const ProofView& proof) noexcept {
+    proof_ = proof;
     opened_ = true;
   }
 
   /// The verdict of a state: metres, radians.
   Answer query(double x_m, double y_m, double heading_rad) const noexcept {
-    Answer answer;
-    if (!is_near(x_m, y_m) || !std::isfinite(heading_rad)) return answer;
-    Reader reader{flow_, sections_, {}};
-    follow_state(flow_, x_m, y_m, heading_rad, usual_most_crossings, reader);
-    answer.verdict = flow_.told(reader.found.only(), flow_.grid.cell_of({x_m, y_m}));
-    if (answer.verdict == Verdict::reach) answer.time_bound_s = reader.found.time_s;
-    return answer;
+    return told(x_m, y_m, heading_rad, modes());
   }
 
-  /// What to steer at a state; no command outside the grid.
-  Command command(double x_m, double y_m, double heading_rad) const noexcept {
+  /// Its modes: 1, unless the plan has further ones (docs/modes.md).
+  int modes() const noexcept { return proof_.modes(); }
+
+  /// The same as if the plan had only the modes before `end`.
+  Answer query_before(int end, double x_m, double y_m, double heading_rad) const noexcept {
+    return told(x_m, y_m, heading_rad, end);
+  }
+
+  /// What one mode does from a state, whatever others do.
+  Answer query_mode(int mode, double x_m, double y_m, double heading_rad) const noexcept {
+    if (!is_near(x_m, y_m) || !std::isfinite(heading_rad)) return {};
+    const VerdictSet found = ask_mode(proof_, mode, x_m, y_m, heading_rad);
+    const bool reaches = found.only() == Verdict::reach;
+    return {found.only(), reaches ? found.time_s : std::numeric_limits<double>::infinity(), mode};
+  }
+
+  /// What to steer at a state, in a mode; no command outside the grid.
+  Command command(double x_m, double y_m, double heading_rad, int mode = 0) const noexcept {
     if (!opened_) return {};
-    return bang_bang(flow_.grid, flow_.vehicle, flow_.heading_rad, x_m, y_m, heading_rad);
+    const Flow flow = proof_.flow_of(mode);
+    return bang_bang(flow.grid, flow.vehicle, flow.heading_rad, x_m, y_m, heading_rad);
   }
 
-  const Flow& flow() const noexcept { return flow_; }
+  const Flow& flow() const noexcept { return proof_.flow; }
+  const ProofView& proof() const noexcept { return proof_; }
 
  private:
-  struct Reader {
-    const Flow& flow;
-    const SectionView& sections;
-    VerdictSet found;
-
-    double seconds(double length_m) const {
-      return length_m == 0.0 ? 0.0 : above(length_m / flow.vehicle.speed_mps);
-    }
-    void arrive(std::size_t section, Interval along_m, double length_m, bool) {
-      sections.look_up(section, units_of(along_m, flow.grid.cell_m), seconds(length_m), found);
-    }
-    void end(Verdict verdict, double length_m) { found.add(verdict, seconds(length_m)); }
-    void give_up() { found.add(Verdict::undecided, 0.0); }
+  struct Names {
+    const char* first;
+    const char* begin;
+    const char* rank;
+    const char* time_s;
+    const char* verdict;
   };
 
-  bool is_near(double x_m, double y_m) const noexcept {
-    const double far = 0x1p30 * flow_.grid.cell_m;
-    return opened_ && std::abs(x_m - flow_.grid.x0_m) < far &&
-           std::abs(y_m - flow_.grid.y0_m) < far;
+  static Status take_leaves(const FileArrays& arrays, const Names& names, std::uint64_t sections,
+                            SectionView& into) noexcept {
+    const HeaderEntry* entry = arrays.find(names.verdict);
+    if (entry == nullptr || entry->sizes != 1) return Status::not_certificate;
+    const std::uint64_t leaves = entry->shape[0];
+    const char* first = arrays.place(names.first, "U32", 4, sections + 1);
+    const char* begin = arrays.place(names.begin, "U32", 4, leaves);
+    const char* time = arrays.place(names.time_s, "F32", 4, leaves);
+    const char* verdicts = arrays.place(names.verdict, "U8", 1, leaves);
+    for (const char* array :
+         {first, begin, time, verdicts, arrays.place(names.rank, "U32", 4, leaves)}) {
+      if (array == nullptr) return Status::misfit;
+    }
+    into.first = reinterpret_cast<const std::uint32_t*>(first);
+    into.begin = reinterpret_cast<const std::uint32_t*>(begin);
+    into.time_s = reinterpret_cast<const float*>(time);
+    into.verdict = reinterpret_cast<const std::uint8_t*>(verdicts);
+    for (std::size_t s = 0; s < sections; ++s) {
+      if (into.first[s] > into.first[s + 1]) return Status::misfit;
+    }
+    if (into.first[0] != 0 || into.first[sections] != leaves) return Status::misfit;
+    for (std::size_t k = 0; k < leaves; ++k) {
+      if (into.verdict[k] >= stored_verdict_count) return Status::misfit;
+    }
+    return Status::ok;
   }
 
-  Flow flow_;
-  SectionView sections_;
+  Status take_modes(const FileArrays& arrays) noexcept {
+    const Grid& grid = proof_.flow.grid;
+    const HeaderEntry* commands = arrays.find("mode_heading_rad");
+    if (commands->sizes != 3) return Status::not_certificate;
+    const std::uint64_t further = commands->shape[0];
+    if (further < 1 || further >= most_modes) return Status::misfit;
+    const std::uint64_t ny = static_cast<std::uint64_t>(grid.ny);
+    const char* fields = arrays.place("mode_heading_rad", "F32", 4, further, ny,
+                                      static_cast<std::uint64_t>(grid.nx));
+    if (fields == nullptr) return Status::misfit;
+    const Names names{"mode_section_first", "mode_leaf_begin", "mode_leaf_rank", "mode_leaf_time_s",
+                      "mode_leaf_verdict"};
+    SectionView& sections = proof_.further_sections;
+    const Status status = take_leaves(arrays, names, 4 * further * grid.size(), sections);
+    if (status != Status::ok) return status;
+    const std::uint64_t leaves = sections.first[4 * further * grid.size()];
+    const char* next = arrays.place("mode_leaf_next", "U8", 1, leaves);
+    if (next == nullptr) return Status::misfit;
+    sections.next_mode = reinterpret_cast<const std::uint8_t*>(next);
+    for (std::size_t k = 0; k < leaves; ++k) {
+      if (sections.next_mode[k] != no_mode && sections.next_mode[k] >= further) {
+        return Status::misfit;
+      }
+    }
+    proof_.further_rad = reinterpret_cast<const float*>(fields);
+    proof_.further = static_cast<int>(further);
+    return Status::ok;
+  }
+
+  Answer told(double x_m, double y_m, double heading_rad, int end) const noexcept {
+    if (!is_near(x_m, y_m) || !std::isfinite(heading_rad)) return {};
+    const ProvedState known = ask_modes(proof_, end, x_m, y_m, heading_rad);
+    return {known.verdict, known.time_s, known.mode};
+  }
+
+  bool is_near(double x_m, double y_m) const noexcept {
+    const Grid& grid = proof_.flow.grid;
+    const double far = 0x1p30 * grid.cell_m;
+    return opened_ && std::abs(x_m - grid.x0_m) < far && std::abs(y_m - grid.y0_m) < far;
+  }
+
+  ProofView proof_;
   bool opened_ = false;
+};
+
+/// The side of a vehicle whose plan has modes: keeps the one that is flown. One for each vehicle;
+/// the certificate's bytes must outlive it. States that it is told of are finite and near the grid.
+class ModePilot {
+ public:
+  explicit ModePilot(const Certificate& certificate)
+      : certificate_(certificate), choice_(certificate.proof()) {}
+
+  /// What to steer now. `answer.verdict` other than reach: what was proved does not hold from here.
+  struct Steered {
+    Command command;
+    Answer answer;
+  };
+  Steered steer(double x_m, double y_m, double heading_rad) noexcept {
+    const ProvedState known = choice_.at(x_m, y_m, heading_rad);
+    return {certificate_.command(x_m, y_m, heading_rad, known.mode),
+            {known.verdict, known.time_s, known.mode}};
+  }
+
+ private:
+  Certificate certificate_;
+  ModeChoice choice_;
 };
 
 }  // namespace fairway::runtime

@@ -109,7 +109,7 @@ VerdictMap sampled(const HeldCertificate& held, int headings, int states) {
   VerdictMapOptions options;
   options.headings = headings;
   options.states_per_sample = states;
-  return verdict_map_of(held.certificate.flow(), held.certificate.sections.view(), options);
+  return verdict_map_of(held.certificate.view(), options);
 }
 
 Picture picture(const HeldCertificate& held, int headings, const std::string& title) {

@@ -64,7 +64,7 @@ std::optional<VerdictMap> kept_by_plan(const fs::path& file, const Plan& plan,
   if (file.empty()) return std::nullopt;
   const Certificate found = read_certificate(file);
   if (proof_identity(found) == proof_identity(plan, RegionOfInterest{})) {
-    return verdict_map_of(found.flow(), found.sections.view(), {});
+    return verdict_map_of(found.view(), {});
   }
   session.warn(file.string() + " is not about this plan and its mission, and is not drawn");
   return std::nullopt;

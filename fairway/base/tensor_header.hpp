@@ -83,6 +83,9 @@ struct HeaderEntry {
   bool has_shape(std::uint64_t ny, std::uint64_t nx) const noexcept {
     return sizes == 2 && shape[0] == ny && shape[1] == nx;
   }
+  bool has_shape(std::uint64_t modes, std::uint64_t ny, std::uint64_t nx) const noexcept {
+    return sizes == 3 && shape[0] == modes && shape[1] == ny && shape[2] == nx;
+  }
 };
 
 class TensorHeader {

@@ -14,6 +14,7 @@
 #include "fairway/plan/plan_digests.hpp"
 #include "fairway/vehicle/vehicle.hpp"
 #include "fairway/verify/flow.hpp"
+#include "fairway/verify/proof_view.hpp"
 #include "fairway/verify/region_of_interest.hpp"
 #include "fairway/verify/section_verdicts.hpp"
 
@@ -29,7 +30,11 @@ struct Certificate {
   /// [iy][ix], 1 out of the mission's reach, where the plan holds (holding_cells); empty: nowhere.
   /// A state that is proved `trapped` is told to `hold` there.
   std::vector<std::uint8_t> holding;
-  SectionVerdicts sections;
+  SectionVerdicts sections;  ///< of the first mode
+  /// Commands of further modes, [mode - 1][iy][ix], and what is proved of them, one after another
+  /// (proof_view.hpp); empty: none.
+  std::vector<float> mode_heading_rad;
+  SectionVerdicts mode_sections;
   PlanDigests plan;            ///< which plan it belongs to
   std::optional<Frame> frame;  ///< where the plan's grid lies; none when the plan did not say
   /// How it was found and its overall results, one JSON object: program, options, volumes, levels.
@@ -38,6 +43,14 @@ struct Certificate {
   Flow flow() const {
     return {grid, vehicle, heading_rad.data(), kind.data(),
             holding.empty() ? nullptr : holding.data()};
+  }
+  int further_modes() const {
+    return grid.size() == 0 ? 0 : static_cast<int>(mode_heading_rad.size() / grid.size());
+  }
+  /// For lookups; refers to this certificate.
+  ProofView view() const {
+    return {flow(), sections.view(), further_modes(), mode_heading_rad.data(),
+            mode_sections.view()};
   }
 };
 

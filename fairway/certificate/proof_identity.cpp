@@ -26,12 +26,13 @@ nlohmann::json region_identity(const RegionOfInterest& interest, const Grid& gri
 
 std::string identity(const Grid& grid, const Vehicle& vehicle, const std::optional<Frame>& frame,
                      const nlohmann::json& region, const PlanDigests& arrays) {
-  const nlohmann::json all = {
+  nlohmann::json all = {
       {"cells", {grid.nx, grid.ny}},
       {"geometry", {grid.x0_m, grid.y0_m, grid.cell_m, vehicle.turn_radius_m, vehicle.speed_mps}},
       {"frame", json_of(frame.value_or(Frame{}))},
       {"region_of_interest", region},
       {"arrays", {arrays.heading_rad, arrays.cost_m, arrays.region}}};
+  if (!arrays.mode_heading_rad.empty()) all["arrays"].push_back(arrays.mode_heading_rad);
   const std::string text = all.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   return sha256_hex(std::as_bytes(std::span(text)));
 }

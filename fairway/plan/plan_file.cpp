@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -22,6 +23,7 @@
 #include "fairway/base/strict_json.hpp"
 #include "fairway/plan/plan_record_json.hpp"
 #include "fairway/vehicle/contract_defect.hpp"
+#include "fairway/vehicle/modes.hpp"
 #include "fairway/vehicle/size_range.hpp"
 #include "fairway/vehicle/vehicle_json.hpp"
 
@@ -31,6 +33,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int format_version = 1;
+constexpr const char* modes_name = "mode_heading_rad";
 constexpr std::array<const char*, 5> own_keys{"format_version", "origin_m", "cell_m", "vehicle",
                                               "sha256"};
 
@@ -38,13 +41,21 @@ constexpr std::array<const char*, 5> own_keys{"format_version", "origin_m", "cel
 std::vector<Tensor> tensors_of(const Plan& plan) {
   const std::vector<std::uint64_t> shape{static_cast<std::uint64_t>(plan.grid.ny),
                                          static_cast<std::uint64_t>(plan.grid.nx)};
-  return {{"heading_rad", "F32", shape, std::as_bytes(std::span(plan.heading_rad))},
-          {"cost_m", "F32", shape, std::as_bytes(std::span(plan.cost_m))},
-          {"region", "I8", shape, std::as_bytes(std::span(plan.region))}};
+  std::vector<Tensor> tensors{
+      {"heading_rad", "F32", shape, std::as_bytes(std::span(plan.heading_rad))},
+      {"cost_m", "F32", shape, std::as_bytes(std::span(plan.cost_m))}};
+  if (plan.further_modes() > 0) {
+    tensors.push_back({modes_name,
+                       "F32",
+                       {plan.further_modes(), shape[0], shape[1]},
+                       std::as_bytes(std::span(plan.mode_heading_rad))});
+  }
+  tensors.push_back({"region", "I8", shape, std::as_bytes(std::span(plan.region))});
+  return tensors;
 }
 
-std::array<std::string, 3> digests_of(const std::vector<Tensor>& tensors) {
-  std::array<std::string, 3> digest;
+std::vector<std::string> digests_of(const std::vector<Tensor>& tensors) {
+  std::vector<std::string> digest(tensors.size());
   for_ranges(tensors.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) digest[i] = sha256_hex(tensors[i].data);
   });
@@ -85,14 +96,17 @@ bool is_beside_axis(double heading_rad) {
   return heading_rad != 0.0 && std::abs(heading_rad) < 0x1p-52;
 }
 
+bool heading_valid(double heading_rad) {
+  return heading_rad > -pi && heading_rad <= pi && !is_beside_axis(heading_rad);
+}
+
 bool cell_valid(const Plan& plan, std::size_t i) {
   const double heading_rad = plan.heading_rad[i];
   const int region = static_cast<int>(plan.region[i]);
-  const bool heading_valid = heading_rad > -pi && heading_rad <= pi && !is_beside_axis(heading_rad);
   const bool may_lack_heading = plan.cost_m[i] == std::numeric_limits<float>::infinity() ||
                                 plan.region[i] == Region::obstacle;
   return plan.cost_m[i] >= 0.0F && region >= -1 && region <= 2 &&
-         (heading_valid || (std::isnan(heading_rad) && may_lack_heading));
+         (heading_valid(heading_rad) || (std::isnan(heading_rad) && may_lack_heading));
 }
 
 std::string cell_defect(const Plan& plan, std::size_t i) {
@@ -110,6 +124,33 @@ std::string cell_defect(const Plan& plan, std::size_t i) {
     return fmt::format("region is {}, expected -1, 0, 1 or 2", region);
   }
   return "heading_rad is NaN, expected a heading where cost_m is finite";
+}
+
+/// Of the arrays of further modes.
+std::string mode_defect(const Plan& plan) {
+  const std::size_t n = plan.grid.size();
+  const std::size_t further = plan.further_modes();
+  if (plan.mode_heading_rad.size() != further * n) {
+    return "mode_heading_rad does not have one entry per mode and cell";
+  }
+  if (further >= most_modes) {
+    return fmt::format("has {} modes, expected at most {}", further + 1, most_modes);
+  }
+  if (further != plan.record.modes.size()) {
+    return fmt::format("has {} further modes, but its record tells of {}", further,
+                       plan.record.modes.size());
+  }
+  for (std::size_t i = 0; i < plan.mode_heading_rad.size(); ++i) {
+    const double heading_rad = plan.mode_heading_rad[i];
+    if (std::isnan(heading_rad) || heading_valid(heading_rad)) continue;
+    const Cell c = plan.grid.cell_at(i % n);
+    return fmt::format(
+        "mode {}, cell ix {} iy {}: mode_heading_rad is {}, expected (-pi, pi], 0 or at least "
+        "2^-52 "
+        "from it, or NaN",
+        i / n + 1, c.ix, c.iy, heading_rad);
+  }
+  return {};
 }
 
 json metadata_of(const Plan& plan, const std::vector<Tensor>& tensors) {
@@ -132,9 +173,26 @@ void copy_tensor(const Safetensors& file, std::size_t index, std::vector<T>& int
   std::memcpy(into.data(), data.data(), data.size());
 }
 
+/// The index of the array of further modes, if there is one; its type and shape are as expected.
+std::optional<std::size_t> modes_at(const Safetensors& file,
+                                    const std::vector<std::uint64_t>& cells,
+                                    const std::string& where) {
+  for (std::size_t i = 0; i < file.tensors.size(); ++i) {
+    const Tensor& tensor = file.tensors[i];
+    if (tensor.name != modes_name) continue;
+    if (tensor.dtype != "F32" || tensor.shape.size() != 3 || tensor.shape[0] < 1 ||
+        tensor.shape[1] != cells[0] || tensor.shape[2] != cells[1]) {
+      throw InputError(fmt::format("{}: \"{}\".shape", where, modes_name),
+                       "expected F32 [modes, ny, nx], at least one mode");
+    }
+    return i;
+  }
+  return std::nullopt;
+}
+
 /// The index of the tensor `name`; its type and shape are as expected.
 std::size_t tensor_at(const Safetensors& file, std::string_view name, std::string_view dtype,
-                      const std::string& where) {
+                      const std::vector<std::uint64_t>& cells, const std::string& where) {
   for (std::size_t i = 0; i < file.tensors.size(); ++i) {
     const Tensor& tensor = file.tensors[i];
     if (tensor.name != name) continue;
@@ -142,7 +200,7 @@ std::size_t tensor_at(const Safetensors& file, std::string_view name, std::strin
     if (tensor.dtype != dtype) {
       throw InputError(place + ".dtype", fmt::format("is {}, expected {}", tensor.dtype, dtype));
     }
-    if (tensor.shape.size() != 2 || tensor.shape != file.tensors[0].shape) {
+    if (tensor.shape.size() != 2 || tensor.shape != cells) {
       throw InputError(place + ".shape", "expected [ny, nx], the same for every array");
     }
     for (const std::uint64_t extent : tensor.shape) {
@@ -204,7 +262,7 @@ std::string plan_defect(const Plan& plan) {
     while (i < end && i < lowest && !first.compare_exchange_weak(lowest, i)) {
     }
   });
-  if (first == n) return {};
+  if (first == n) return mode_defect(plan);
   const Cell c = plan.grid.cell_at(first);
   return fmt::format("cell ix {} iy {}: {}", c.ix, c.iy, cell_defect(plan, first));
 }
@@ -229,33 +287,40 @@ Plan plan_of_bytes(std::span<const std::byte> bytes, const std::string& where) {
   }
   const std::string place = where + ": fairway";
   json record = parse_strict_json(text->second, place);
-  if (file.tensors.size() > 3) {
-    throw InputError(where, "has arrays other than heading_rad, cost_m and region");
+  std::vector<std::uint64_t> cells;
+  for (const Tensor& tensor : file.tensors) {
+    if (tensor.name == "heading_rad") cells = tensor.shape;
+  }
+  const std::size_t heading = tensor_at(file, "heading_rad", "F32", cells, where);
+  const std::size_t cost = tensor_at(file, "cost_m", "F32", cells, where);
+  const std::size_t region = tensor_at(file, "region", "I8", cells, where);
+  const std::optional<std::size_t> modes = modes_at(file, cells, where);
+  if (file.tensors.size() != (modes ? 4 : 3)) {
+    throw InputError(where,
+                     "has arrays other than heading_rad, cost_m, region and mode_heading_rad");
   }
 
-  const std::size_t heading = tensor_at(file, "heading_rad", "F32", where);
-  const std::size_t cost = tensor_at(file, "cost_m", "F32", where);
-  const std::size_t region = tensor_at(file, "region", "I8", where);
-
   Plan plan;
-  plan.grid.ny = static_cast<int>(file.tensors[0].shape[0]);
-  plan.grid.nx = static_cast<int>(file.tensors[0].shape[1]);
+  plan.grid.ny = static_cast<int>(cells[0]);
+  plan.grid.nx = static_cast<int>(cells[1]);
   take_geometry(record, place, plan);
   const auto digest = digests_of(file.tensors);
   const json& digests = member(record, "sha256", place);
-  require_known_keys(digests, {"heading_rad", "cost_m", "region"}, place + ".sha256");
-  for (std::size_t i = 0; i < 3; ++i) require_digest(digests, file.tensors[i], digest[i], place);
+  require_known_keys(digests, {"heading_rad", "cost_m", "region", modes_name}, place + ".sha256");
+  for (std::size_t i = 0; i < file.tensors.size(); ++i)
+    require_digest(digests, file.tensors[i], digest[i], place);
 
   copy_tensor(file, heading, plan.heading_rad);
   copy_tensor(file, cost, plan.cost_m);
   copy_tensor(file, region, plan.region);
-  if (const std::string defect = plan_defect(plan); !defect.empty()) {
-    throw InputError(where, defect);
-  }
+  if (modes) copy_tensor(file, *modes, plan.mode_heading_rad);
   for (const char* key : own_keys) record.erase(key);
   plan.record = plan_record_of(std::move(record), place);
-  if (plan.record.contract) {
+  if (plan.record.contract && geometry_defect(plan.grid, plan.vehicle).empty()) {
     require_contract(*plan.record.contract, plan.vehicle, place + ".contract");
+  }
+  if (const std::string defect = plan_defect(plan); !defect.empty()) {
+    throw InputError(where, defect);
   }
   if (const auto goal = goal_pose_of(plan); goal && !is_on(plan.grid, goal->position_m)) {
     throw InputError(place + ".mission.goal_m", "expected [x, y] on the plan's grid");

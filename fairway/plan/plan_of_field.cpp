@@ -16,6 +16,7 @@ Plan plan_of_field(Field&& field, const Vehicle& vehicle, PlanRecord record) {
           std::move(field.heading_rad),
           std::move(field.region),
           std::move(field.cost_m),
+          {},
           std::move(record)};
 }
 

@@ -68,6 +68,21 @@ ImprovedRecord improved_of(const json& value, const std::string& where) {
   return improved;
 }
 
+json json_of(const ModeRecord& mode) {
+  json value = {{"rule", mode.rule}};
+  if (mode.direction_rad) value["direction_rad"] = *mode.direction_rad;
+  return value;
+}
+
+ModeRecord mode_of(const json& value, const std::string& where) {
+  if (!value.is_object()) throw InputError(where, "expected an object, found " + shown(value));
+  ModeRecord mode{text_member(value, "rule", where)};
+  if (value.contains("direction_rad")) {
+    mode.direction_rad = finite_number(value, "direction_rad", where);
+  }
+  return mode;
+}
+
 std::vector<InputFile> inputs_of(const json& value, const std::string& where) {
   if (!value.is_array()) throw InputError(where, "expected a list of files, found " + shown(value));
   std::vector<InputFile> inputs;
@@ -82,7 +97,7 @@ std::vector<InputFile> inputs_of(const json& value, const std::string& where) {
 json json_of(const PlanRecord& record) {
   json value = object_of(record.more_json, "more_json is a JSON object");
   for (const char* key : {"program", "mission", "options", "inputs", "frame", "contract",
-                          "holding_places", "improved"}) {
+                          "holding_places", "improved", "modes"}) {
     require(!value.contains(key), "more_json leaves out what the record holds");
   }
   if (record.program) value["program"] = *record.program;
@@ -102,6 +117,7 @@ json json_of(const PlanRecord& record) {
     value["holding_places"].push_back(json_of(place));
   }
   if (record.improved) value["improved"] = json_of(*record.improved);
+  for (const ModeRecord& mode : record.modes) value["modes"].push_back(json_of(mode));
   return value;
 }
 
@@ -138,6 +154,10 @@ PlanRecord plan_record_of(json value, const std::string& where) {
   });
   take("improved", [&](const json& found, const std::string& place) {
     record.improved = improved_of(found, place);
+  });
+  take("modes", [&](const json& found, const std::string& place) {
+    if (!found.is_array()) throw InputError(place, "expected a list, found " + shown(found));
+    for (const json& one : found) record.modes.push_back(mode_of(one, place));
   });
   if (!value.empty()) record.more_json = value.dump();
   return record;

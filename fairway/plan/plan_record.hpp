@@ -29,6 +29,13 @@ struct ImprovedRecord {
   friend bool operator==(const ImprovedRecord&, const ImprovedRecord&) = default;
 };
 
+/// How a further mode was made (docs/modes.md).
+struct ModeRecord {
+  std::string rule;                                    ///< "direction" or "turning_places"
+  std::optional<double> direction_rad = std::nullopt;  ///< the one that it goes on in
+  friend bool operator==(const ModeRecord&, const ModeRecord&) = default;
+};
+
 struct PlanRecord {
   std::optional<std::string> program;  ///< name and version
   std::optional<Mission> mission;
@@ -39,6 +46,7 @@ struct PlanRecord {
   std::optional<VehicleContract> contract = std::nullopt;  ///< none: the vehicle is exact
   std::vector<HoldingPlace> holding_places = {};           ///< in cells out of the mission's reach
   std::optional<ImprovedRecord> improved = std::nullopt;   ///< none: commands are the field's
+  std::vector<ModeRecord> modes = {};                      ///< the further ones, in order
 };
 
 /// The record as one JSON object with sorted keys, as in the plan's file.

@@ -9,7 +9,7 @@ namespace fairway {
 
 std::vector<runtime::Answer> ask(const Certificate& certificate, std::span<const State> states) {
   runtime::Certificate view;
-  view.look_into(certificate.flow(), certificate.sections.view());
+  view.look_into(certificate.view());
   std::vector<runtime::Answer> answers(states.size());
   for_ranges(states.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -27,7 +27,7 @@ ProductPicture picture_of_product(const std::filesystem::path& file) {
     return {picture_of_verdicts(certificate, contract_verdict_map(certificate), title), "verdicts"};
   }
   const Certificate certificate = read_certificate(file);
-  const VerdictMap map = verdict_map_of(certificate.flow(), certificate.sections.view(), {});
+  const VerdictMap map = verdict_map_of(certificate.view(), {});
   return {draw_verdicts(map, {.title = title}), "verdicts"};
 }
 

@@ -64,8 +64,7 @@ std::string write_report_page(const Plan& plan, const Mission& mission,
   }
   std::optional<VerdictMap> verdicts;
   if (page.certificate != nullptr) {
-    verdicts = verdict_map_of(page.certificate->flow(), page.certificate->sections.view(),
-                              sampling_of(plan.grid));
+    verdicts = verdict_map_of(page.certificate->view(), sampling_of(plan.grid));
   }
   const std::span recorded(flown.recorded);
   const std::size_t given = std::min(flown.given, recorded.size());

@@ -46,7 +46,7 @@ void write_verdict_pictures(const Plan& plan, const Certificate& certificate,
                             const std::string& title, const std::filesystem::path& folder) {
   VerdictMapOptions sampled;
   sampled.seed = seed;
-  const VerdictMap map = verdict_map_of(certificate.flow(), certificate.sections.view(), sampled);
+  const VerdictMap map = verdict_map_of(certificate.view(), sampled);
   write(draw_verdicts(map, {.title = titled(title, "verdicts near the cells' middles")}), folder,
         "verdicts");
   write(draw_proved_shares(map, {.title = titled(title, "verdicts over all headings")}), folder,

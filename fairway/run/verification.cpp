@@ -107,8 +107,10 @@ Verification verify_plan(const Plan& plan, const std::string& where, const Regio
         taken_over(std::move(*earlier), c, options.most_crossings, go_on, made.resumed.emplace());
     rest.time_limit_s = rest_of_limit(options.time_limit_s, so_far_s());
   }
-  made.outcome = certify(c.flow(), is_free, rest, std::move(start), progress);
+  made.outcome = certify(c.flow(), is_free, rest, std::move(start), progress, plan.further_rad());
   c.sections = std::move(made.outcome.sections);
+  c.mode_heading_rad = plan.mode_heading_rad;
+  c.mode_sections = std::move(made.outcome.further);
   c.evidence_json = evidence_of(options, made.outcome).dump();
   return made;
 }

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,8 @@ struct VolumeFractions {
   std::array<double, verdict_count> usable{};     ///< of all, with a command of the mission
   std::size_t samples = 0;
   double worst_time_s = 0.0;  ///< largest bound of a sampled state proved to reach
+  /// [mode], of all: shares that reach by this mode and by none before it.
+  std::vector<double> reach_by_mode;
 };
 
 struct LevelRecord {
@@ -61,7 +64,9 @@ struct LevelRecord {
 };
 
 struct Certified {
-  SectionVerdicts sections;
+  SectionVerdicts sections;  ///< of the first mode
+  /// Of the further ones, one after another (proof_view.hpp): leaves reach, or are undecided.
+  SectionVerdicts further;
   VolumeFractions volume;
   std::vector<LevelRecord> levels;
   StoppedBy stopped_by = StoppedBy::undecided_max;
@@ -71,8 +76,10 @@ struct Certified {
 using CertifyProgress = std::function<void(const LevelRecord&)>;
 
 /// `is_free[cell]`: a safe-start cell (only for the fractions). `start`: an earlier result for the
-/// same flow to continue from, or empty.
+/// same flow to continue from, or empty. `further_rad`: commands of further modes, each [iy][ix]:
+/// a state that the first mode does not bring reaches if a further one does.
 Certified certify(const Flow& flow, const std::vector<bool>& is_free, const CertifyOptions& options,
-                  SectionVerdicts start = {}, const CertifyProgress& progress = {});
+                  SectionVerdicts start = {}, const CertifyProgress& progress = {},
+                  std::span<const float* const> further_rad = {});
 
 }  // namespace fairway

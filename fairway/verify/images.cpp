@@ -47,6 +47,8 @@ struct Recorder {
   void give_up() { gave_up = true; }
 };
 
+}  // namespace
+
 /// A wide leaf that is not resolved in a few crossings will not be in many: it has fallen apart,
 /// and its halves are resolved sooner. Leaves narrower than cell_m / 2^12 may have a long weave to
 /// follow. On dense maps, nine tenths of all work used to go into wide leaves that then gave up.
@@ -55,8 +57,6 @@ int crossings_worth(UnitRange leaf, int most_crossings) {
   const double worth = 160.0 * std::sqrt(std::max(1.0, 0x1p20 / std::max(1.0, width)));
   return worth < static_cast<double>(most_crossings) ? static_cast<int>(worth) : most_crossings;
 }
-
-}  // namespace
 
 ImageStore::ImageStore(std::size_t count)
     : count_(count), blocks_((count + block_size - 1) / block_size) {}

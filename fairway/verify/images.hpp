@@ -55,6 +55,10 @@ class ImageStore {
   std::vector<Block> blocks_;
 };
 
+/// Of borders, in one flight of a leaf: a wide leaf that is not resolved in a few crossings will
+/// not be in many.
+int crossings_worth(UnitRange leaf, int most_crossings);
+
 /// A leaf of a section, by its range.
 struct LeafPlace {
   std::uint32_t section = 0;

@@ -135,6 +135,11 @@ void LeafGraph::decide(Id id, Verdict verdict, std::uint32_t rank, float time_s)
   if (keep_ == Keep::links_of_open_leaves) free_links(id);
 }
 
+void LeafGraph::decide_by_hand_over(Id id, std::uint8_t mode, float time_s) {
+  decide(id, Verdict::reach, 0, time_s);
+  leaf_[id].next_mode = mode;
+}
+
 LeafGraph::Id LeafGraph::cut(Id id) {
   require(is_open(id), "a leaf that is cut was open");
   free_links(id);
@@ -252,9 +257,13 @@ SectionVerdicts LeafGraph::sections() const {
       out.rank.push_back(leaf.rank);
       out.verdict.push_back(static_cast<std::uint8_t>(leaf.verdict));
       out.time_s.push_back(leaf.time_s);
+      out.next_mode.push_back(leaf.next_mode);
     }
     out.first.push_back(static_cast<std::uint32_t>(out.begin.size()));
   }
+  const bool hands_over = std::any_of(out.next_mode.begin(), out.next_mode.end(),
+                                      [](std::uint8_t mode) { return mode != no_mode; });
+  if (!hands_over) out.next_mode = {};
   return out;
 }
 

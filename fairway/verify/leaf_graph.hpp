@@ -64,6 +64,10 @@ class LeafGraph {
   // Images: how the flights of a leaf end, and its links.
   VerdictSet ends(Id id) const { return {leaf_[id].end_bits, leaf_[id].end_time_s}; }
   bool gave_up(Id id) const { return leaf_[id].gave_up; }
+  /// The earlier mode that the vehicle changes to there; no_mode: none.
+  std::uint8_t next_mode(Id id) const { return leaf_[id].next_mode; }
+  /// Not handed over, but a part of it might be (hand_over.hpp).
+  bool hands_over_in_part(Id id) const { return leaf_[id].hands_over_in_part; }
   std::span<const Link> links(Id id) const {
     return std::span(link_).subspan(leaf_[id].first_link, leaf_[id].link_count);
   }
@@ -74,6 +78,9 @@ class LeafGraph {
   // Changes.
   void set_image(Id id, const Image& image);
   void decide(Id id, Verdict verdict, std::uint32_t rank, float time_s);
+  /// All its states are proved to reach once the vehicle changes to that mode.
+  void decide_by_hand_over(Id id, std::uint8_t mode, float time_s);
+  void set_hands_over_in_part(Id id) { leaf_[id].hands_over_in_part = true; }
   /// Cuts an open leaf: it becomes its own lower half; the returned id is the upper half. Neither
   /// has an image.
   Id cut(Id id);
@@ -96,7 +103,9 @@ class LeafGraph {
     std::uint32_t link_count = 0;
     Verdict verdict = Verdict::undecided;
     std::uint8_t end_bits = 0;
+    std::uint8_t next_mode = no_mode;
     bool gave_up = false;
+    bool hands_over_in_part = false;
     double end_time_s = 0.0;
   };
   struct Place {

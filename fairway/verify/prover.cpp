@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "fairway/base/parallel.hpp"
+
 namespace fairway {
 namespace {
 
@@ -13,10 +15,11 @@ constexpr float infinite = std::numeric_limits<float>::infinity();
 }  // namespace
 
 Prover::Prover(const Flow& flow, const SectionVerdicts& start, int most_crossings,
-               std::function<bool()> go_on, LeafGraph::Keep keep)
+               std::function<bool()> go_on, LeafGraph::Keep keep, std::span<const ModeView> earlier)
     : flow_(flow),
       most_crossings_(most_crossings),
       go_on_(std::move(go_on)),
+      earlier_(earlier),
       graph_(start, keep),
       rank_(graph_.highest_rank()) {
   std::vector<Id> unknown;  // decided ones too, if their links are to be kept
@@ -35,7 +38,8 @@ void Prover::look_up(std::size_t section, UnitRange range, double flown_s,
 }
 
 /// Computes images for leaves that have none yet; these then wait to be examined.
-void Prover::fly(const std::vector<Id>& ids) {
+void Prover::fly(std::vector<Id> ids) {
+  if (!earlier_.empty()) ids = not_handed_over(ids);
   std::vector<LeafPlace> places(ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i) places[i] = graph_.place(ids[i]);
   const ImageStore images = leaf_images(flow_, places, most_crossings_, go_on_);
@@ -45,8 +49,32 @@ void Prover::fly(const std::vector<Id>& ids) {
   }
 }
 
+/// Hands leaves over to earlier modes where all their states are proved there: most are, so that is
+/// asked before their own flights. Returns the others.
+std::vector<Prover::Id> Prover::not_handed_over(const std::vector<Id>& ids) {
+  std::vector<HandOver> found(ids.size());
+  for_ranges(ids.size(), 64, [&](std::size_t a, std::size_t b) {
+    for (std::size_t i = a; i < b && go_on_(); ++i) {
+      found[i] = hand_over(flow_, graph_.place(ids[i]), earlier_, most_crossings_);
+    }
+  });
+  std::vector<Id> others;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const Id id = ids[i];
+    const float time_s = std::nextafter(static_cast<float>(found[i].time_s), infinite);
+    if (found[i].mode != no_mode && graph_.is_open(id) && time_s < infinite) {
+      graph_.decide_by_hand_over(id, found[i].mode, time_s);
+      wake_dependents(id);
+      continue;
+    }
+    if (found[i].in_part) graph_.set_hands_over_in_part(id);
+    others.push_back(id);
+  }
+  return others;
+}
+
 bool Prover::is_worth_cutting(Id id) const {
-  if (graph_.gave_up(id) || graph_.ends(id).bits != 0) return true;
+  if (graph_.hands_over_in_part(id) || graph_.gave_up(id) || graph_.ends(id).bits != 0) return true;
   bool worth = false;
   for (const LeafGraph::Link& link : graph_.links(id)) {
     graph_.for_leaves(link.section, link.range, [&](Id other) {
@@ -63,6 +91,11 @@ Prover::Finding Prover::examine(Id id, double least_units) const {
   // An unknown leaf keeps everything that leads to it waiting: cut it finer, ahead of the rest.
   constexpr double ahead = 1.0 / 64.0;
   const double least = graph_.gave_up(id) ? std::max(ahead * least_units, 64.0) : least_units;
+  // Before it fails as a whole, a part that can be handed over is cut off, down to a small one.
+  constexpr double least_part = 0x1p24;
+  const bool in_part = graph_.hands_over_in_part(id) && finding.found.only() != Verdict::reach &&
+                       width_of(graph_.place(id).range) >= least_part;
+  if (in_part) finding.found.add(Verdict::undecided, 0.0);
   finding.cut = finding.found.only() == Verdict::undecided &&
                 width_of(graph_.place(id).range) >= 2.0 * least && is_worth_cutting(id);
   return finding;

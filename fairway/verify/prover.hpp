@@ -14,9 +14,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "fairway/verify/fixpoints.hpp"
+#include "fairway/verify/hand_over.hpp"
 #include "fairway/verify/leaf_graph.hpp"
 #include "fairway/verify/section_verdicts.hpp"
 
@@ -25,8 +27,10 @@ namespace fairway {
 class Prover {
  public:
   /// Keeps references to the arrays that `flow` points to. `start`: the leaves as known so far.
+  /// `earlier`: modes that leaves may be handed over to; they must outlive this object.
   Prover(const Flow& flow, const SectionVerdicts& start, int most_crossings,
-         std::function<bool()> go_on, LeafGraph::Keep keep = LeafGraph::Keep::links_of_open_leaves);
+         std::function<bool()> go_on, LeafGraph::Keep keep = LeafGraph::Keep::links_of_open_leaves,
+         std::span<const ModeView> earlier = {});
 
   /// Runs rounds until nothing changes, with no leaf narrower than `least_units`. False: stopped.
   bool settle(double least_units);
@@ -49,7 +53,8 @@ class Prover {
     bool cut = false;
   };
 
-  void fly(const std::vector<Id>& ids);
+  void fly(std::vector<Id> ids);
+  std::vector<Id> not_handed_over(const std::vector<Id>& ids);
   bool is_worth_cutting(Id id) const;
   Finding examine(Id id, double least_units) const;
   void conclude(const std::vector<Id>& round, const std::vector<Finding>& findings);
@@ -59,6 +64,7 @@ class Prover {
   Flow flow_;
   int most_crossings_;
   std::function<bool()> go_on_;
+  std::span<const ModeView> earlier_;
   LeafGraph graph_;
   Worklist waiting_;
   std::uint32_t rank_ = 0;

@@ -6,23 +6,9 @@
 #include "fairway/base/heading.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/base/random.hpp"
-#include "fairway/verify/state_flight.hpp"
 
 namespace fairway {
 namespace {
-
-/// Collects the verdicts of all ends that one state's flights may have.
-struct Reader {
-  const Flow& flow;
-  const SectionView& sections;
-  VerdictSet found;
-
-  void arrive(std::size_t section, Interval along_m, double, bool) {
-    sections.look_up(section, units_of(along_m, flow.grid.cell_m), 0.0, found);
-  }
-  void end(Verdict verdict, double) { found.add(verdict, 0.0); }
-  void give_up() { found.add(Verdict::undecided, 0.0); }
-};
 
 /// `n` mirrored at the point, in `base`: spreads 0, 1, 2, ... evenly over [0, 1).
 double radical_inverse(unsigned n, unsigned base) {
@@ -36,13 +22,11 @@ double fraction(double x) { return x - std::floor(x); }
 
 class Sampler {
  public:
-  Sampler(const Flow& flow, const SectionView& sections, const VerdictMapOptions& options)
-      : flow_(flow), sections_(sections), options_(options) {}
+  Sampler(const ProofView& proof, const VerdictMapOptions& options)
+      : proof_(proof), options_(options) {}
 
   Verdict verdict(Vec2 p, double heading_rad) const {
-    Reader reader{flow_, sections_, {}};
-    follow_state(flow_, p.x, p.y, heading_rad, options_.most_crossings, reader);
-    return flow_.told(reader.found.only(), flow_.grid.cell_of(p));
+    return ask_all_modes(proof_, p.x, p.y, heading_rad, options_.most_crossings).verdict;
   }
 
   /// One heading in each of equal slices; positions from a Halton sequence, shifted at random so
@@ -65,26 +49,24 @@ class Sampler {
   }
 
  private:
-  const Flow& flow_;
-  const SectionView& sections_;
+  const ProofView& proof_;
   const VerdictMapOptions& options_;
 };
 
 }  // namespace
 
-VerdictMap verdict_map_of(const Flow& flow, const SectionView& sections,
-                          const VerdictMapOptions& options) {
+VerdictMap verdict_map_of(const ProofView& proof, const VerdictMapOptions& options) {
   require(options.headings >= 1 && options.most_across >= 1 && options.most_crossings >= 1,
           "a verdict map has at least one heading, one sample across, and one crossing per flight");
   require(options.states_per_sample >= 0 && options.states_per_sample <= 65535,
           "0 to 65535 states per sample");
-  VerdictMap map = VerdictMap::over(flow.grid, options.headings, options.most_across);
+  VerdictMap map = VerdictMap::over(proof.flow.grid, options.headings, options.most_across);
   map.states_per_sample = options.states_per_sample;
-  const Sampler sampler(flow, sections, options);
+  const Sampler sampler(proof, options);
   for_ranges(map.samples(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Cell cell = map.cell_of_sample(i);
-      map.kind[i] = flow.kind_at({cell.ix, cell.iy});
+      map.kind[i] = proof.flow.kind_at({cell.ix, cell.iy});
       if (map.kind[i] != CellKind::ordinary) continue;
       for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
         map.verdict[h * map.samples() + i] = sampler.verdict(map.place_m(i), map.heading_rad[h]);

@@ -7,8 +7,7 @@
 
 #include <cstdint>
 
-#include "fairway/verify/flow.hpp"
-#include "fairway/verify/section_view.hpp"
+#include "fairway/verify/proof_view.hpp"
 #include "fairway/verify/verdict_map.hpp"
 
 namespace fairway {
@@ -22,7 +21,6 @@ struct VerdictMapOptions {
 };
 
 /// Throws PreconditionViolation when an option is out of range.
-[[nodiscard]] VerdictMap verdict_map_of(const Flow& flow, const SectionView& sections,
-                                        const VerdictMapOptions& options);
+[[nodiscard]] VerdictMap verdict_map_of(const ProofView& proof, const VerdictMapOptions& options);
 
 }  // namespace fairway

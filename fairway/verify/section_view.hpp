@@ -11,6 +11,7 @@
 
 #include "fairway/base/grid.hpp"
 #include "fairway/base/interval.hpp"
+#include "fairway/vehicle/modes.hpp"
 #include "fairway/vehicle/size_range.hpp"
 #include "fairway/vehicle/vehicle.hpp"
 #include "fairway/verify/verdict.hpp"
@@ -97,6 +98,8 @@ struct SectionView {
   const std::uint32_t* begin = nullptr;   ///< [leaves], units; ascending in a section, from 0
   const std::uint8_t* verdict = nullptr;  ///< [leaves]
   const float* time_s = nullptr;          ///< [leaves], bound of the time to the verdict
+  /// [leaves], the earlier mode that the vehicle changes to there, or no_mode; null: all no_mode.
+  const std::uint8_t* next_mode = nullptr;
 
   /// Calls with each leaf that `range` of the section touches; false when it has no leaves.
   template <typename Body>

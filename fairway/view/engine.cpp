@@ -183,8 +183,7 @@ json LiveEngine::proof(Vec2 goal_m) const {
   }
   const auto proof = moved_.proof_of(*std::get<std::shared_ptr<const LivePlan>>(answer));
   const Certificate& certificate = proof->certificate;
-  const VerdictMap map = verdict_map_of(certificate.flow(), certificate.sections.view(),
-                                        quick_sampling(certificate.grid));
+  const VerdictMap map = verdict_map_of(certificate.view(), quick_sampling(certificate.grid));
   PagePayload arrays;
   add_verdict_arrays(map, arrays);
   return {{"volume_fraction", shares_json(proof->volume.all)},

@@ -49,7 +49,7 @@ struct ShortProof {
 
   runtime::Certificate asked() const {
     runtime::Certificate all;
-    all.look_into(certificate.flow(), certificate.sections.view());
+    all.look_into(certificate.view());
     return all;
   }
 };

@@ -1,0 +1,42 @@
+#include "fairway/verify/hand_over.hpp"
+
+#include "fairway/verify/section_flight.hpp"
+
+namespace fairway {
+namespace {
+
+/// Collects what is proved of all ends that a set's flights may have.
+struct Reader {
+  const ModeView& mode;
+  VerdictSet found;
+
+  double seconds(double length_m) const { return above(length_m / mode.flow.vehicle.speed_mps); }
+  void arrive(std::size_t section, Interval along_m, double length_m, bool) {
+    mode.sections.look_up(section, units_of(along_m, mode.flow.grid.cell_m), seconds(length_m),
+                          found);
+  }
+  void end(Verdict verdict, double length_m) { found.add(verdict, seconds(length_m)); }
+  void give_up() { found.add(Verdict::undecided, 0.0); }
+};
+
+}  // namespace
+
+HandOver hand_over(const Flow& flow, LeafPlace leaf, std::span<const ModeView> earlier,
+                   int most_crossings) {
+  constexpr auto reaches = static_cast<std::uint8_t>(1U << static_cast<unsigned>(Verdict::reach));
+  Front front = front_of_section(flow, leaf.section, along_of(leaf.range, flow.grid.cell_m));
+  front.hop = {};  // the section is not one of the earlier mode's
+  most_crossings = crossings_worth(leaf.range, most_crossings);
+  HandOver answer;
+  for (std::size_t k = 0; k < earlier.size(); ++k) {
+    Reader reader{earlier[k], {}};
+    follow_to_section(earlier[k].flow, front, most_crossings, reader);
+    if (reader.found.only() == Verdict::reach) {
+      return {static_cast<std::uint8_t>(k), reader.found.time_s, false};
+    }
+    answer.in_part = answer.in_part || (reader.found.bits & reaches) != 0;
+  }
+  return answer;
+}
+
+}  // namespace fairway

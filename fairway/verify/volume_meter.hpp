@@ -1,0 +1,40 @@
+// Shares of the configuration volume by verdict, measured by proved queries of sampled states.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fairway/verify/certify.hpp"
+#include "fairway/verify/images.hpp"
+#include "fairway/verify/prover.hpp"
+
+namespace fairway {
+
+/// Begins with the plan's first mode. Keeps references to `flow` and `is_free`.
+class VolumeMeter {
+ public:
+  VolumeMeter(const Flow& flow, const std::vector<bool>& is_free, const CertifyOptions& options);
+
+  /// Queries the states again that were not decided before.
+  VolumeFractions measure(const Prover& prover);
+
+  /// From now on, measures what a further mode adds: of the states that no mode before is proved to
+  /// bring. The others keep their verdict.
+  void begin_mode(const Flow& flow);
+
+  VolumeFractions fractions() const;
+  std::size_t bytes() const { return images_.bytes() + states_.size() * 48; }
+
+ private:
+  const Flow& flow_;
+  const std::vector<bool>& is_free_;
+  int most_crossings_;
+  std::vector<Place> states_;
+  std::vector<std::size_t> asked_;  // numbers of states, those of the images
+  ImageStore images_;
+  std::vector<VerdictSet> found_;   // [states]
+  std::vector<std::uint8_t> mode_;  // [states], the one that decides
+  std::uint8_t now_ = 0;            // mode
+};
+
+}  // namespace fairway
