@@ -1,0 +1,79 @@
+#include "fairway/inclusion/reach_boxes.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "fairway/inclusion/contract_lookup.hpp"
+#include "fairway/inclusion/part_pieces.hpp"
+
+namespace fairway {
+namespace {
+
+constexpr std::uint64_t bins = 64;
+constexpr double bin_rad = whole_turn_rad / bins;
+constexpr unsigned time_bits = 16;
+constexpr int least_log2 = 12;
+constexpr int most_log2 = 22;
+
+/// The upper half of a float that is not less.
+std::uint64_t code_of_time(double time_s) {
+  constexpr float infinite = std::numeric_limits<float>::infinity();
+  const auto bits =
+      std::bit_cast<std::uint32_t>(std::nextafter(static_cast<float>(time_s), infinite));
+  return (bits + 0xffffU) >> time_bits;
+}
+double time_of_code(std::uint64_t code) {
+  return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(code << time_bits)));
+}
+
+}  // namespace
+
+ReachBoxes::ReachBoxes(const Parts& parts, const ContractVerdictsView& verdicts,
+                       double speed_least_mps)
+    : parts_(parts),
+      verdicts_(verdicts),
+      speed_least_mps_(speed_least_mps),
+      size_log2_(std::clamp(static_cast<int>(std::bit_width(bins * parts.size() / 4)), least_log2,
+                            most_log2)),
+      known_(std::make_unique<std::atomic<std::uint64_t>[]>(std::size_t{1} << size_log2_)) {}
+
+double ReachBoxes::time_s(PartPlace part, const ConvexSet& set, const HeadingArc& headings) const {
+  const double from = std::floor(headings.lo_rad / bin_rad);
+  const double to = std::floor(headings.hi_rad() / bin_rad);
+  double worst_s = 0.0;
+  for (double k = from; k <= std::min(to, from + bins - 1.0); ++k) {
+    const auto bin = static_cast<std::uint64_t>(static_cast<std::int64_t>(k)) % bins;
+    worst_s = std::max(worst_s, box_time_s(part, bin));
+    if (worst_s == not_proved) return flown_time_s(part, set, headings);
+  }
+  return worst_s;
+}
+
+double ReachBoxes::box_time_s(PartPlace part, std::uint64_t bin) const {
+  const std::uint64_t key = 1 + parts_.index(part) * bins + bin;
+  std::uint64_t mixed = key * 0x9e3779b97f4a7c15U;
+  mixed ^= mixed >> 29U;
+  mixed *= 0xbf58476d1ce4e5b9U;
+  auto& known = known_[mixed >> static_cast<unsigned>(64 - size_log2_)];
+  std::uint64_t word = known.load(std::memory_order_relaxed);
+  if (word >> time_bits != key) {
+    const auto [low, high] = grown_box(part);
+    Vec2 corners[]{low, {high.x, low.y}, {low.x, high.y}, high};
+    const double time_s = flown_time_s(
+        part, ConvexSet::hull(corners),
+        HeadingArc{static_cast<double>(bin) * bin_rad, bin_rad}.widened(heading_slack_rad));
+    word = key << time_bits | code_of_time(time_s);
+    known.store(word, std::memory_order_relaxed);
+  }
+  return time_of_code(word & 0xffffU);
+}
+
+double ReachBoxes::flown_time_s(PartPlace part, const ConvexSet& set,
+                                const HeadingArc& headings) const {
+  const ContractAnswer answer =
+      contract_answer(parts_, verdicts_, speed_least_mps_, part, set, headings);
+  return answer.verdict == Verdict::reach ? answer.worst_time_s : not_proved;
+}
+
+}  // namespace fairway
