@@ -52,6 +52,20 @@ double time_of_states(const ReachBoxes& mode, const ConvexSet& set, const Headin
   return worst_s;
 }
 
+/// A hint: what is not so is hardly ever handed over.
+bool may_hand_over(const ReachBoxes& mode, const std::array<PartPlace, 2>& parts,
+                   const OutwardHeadings& headings) {
+  for (std::size_t k = 0; k < headings.count; ++k) {
+    const double middle = headings.range[k].lo_rad + 0.5 * headings.range[k].width_rad;
+    for (const PartPlace part : parts) {
+      if (mode.parts().kind(part) == PartKind::ordinary && !mode.may_reach(part, middle)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 ConvexSet grown_segment(const ConvexSet& segment, double by) {
@@ -75,7 +89,12 @@ ContractHandOver hand_over(const Parts& own, PartPlace part, PartSide side, doub
   const ConvexSet segment = segment_of_side(part, side, lo, hi);
   const ConvexSet set = grown_segment(segment, grown);
   const OutwardHeadings headings(own.arc(part), side, grown_rad);
+  // Most leaves that are not handed over are far from it: with an error of that size what is asked
+  // about holds the middles of both parts, or nearly so.
+  const bool hints_help = grown >= 0.5;
+  const PartPlace beyond = part_beyond(part, side);
   for (std::size_t mode = 0; mode < earlier.size(); ++mode) {
+    if (hints_help && !may_hand_over(*earlier[mode], {part, beyond}, headings)) continue;
     double worst_s = 0.0;
     // Most that fail do so at the leaf itself: one small set shows it.
     for (const ConvexSet* const asked : {&segment, &set}) {

@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::uint64_t bins = 64;
 constexpr double bin_rad = whole_turn_rad / bins;
+constexpr std::uint64_t hints = 256;
+constexpr std::uint64_t keys_in_part = bins + hints;
 constexpr unsigned time_bits = 16;
 constexpr int least_log2 = 12;
 constexpr int most_log2 = 22;
@@ -50,23 +52,41 @@ double ReachBoxes::time_s(PartPlace part, const ConvexSet& set, const HeadingArc
   return worst_s;
 }
 
-double ReachBoxes::box_time_s(PartPlace part, std::uint64_t bin) const {
-  const std::uint64_t key = 1 + parts_.index(part) * bins + bin;
+/// `key`: not 0. What is known under another key that takes its place is found again when asked.
+template <typename Find>
+double ReachBoxes::known_or(std::uint64_t key, const Find& find) const {
   std::uint64_t mixed = key * 0x9e3779b97f4a7c15U;
   mixed ^= mixed >> 29U;
   mixed *= 0xbf58476d1ce4e5b9U;
   auto& known = known_[mixed >> static_cast<unsigned>(64 - size_log2_)];
   std::uint64_t word = known.load(std::memory_order_relaxed);
   if (word >> time_bits != key) {
-    const auto [low, high] = grown_box(part);
-    Vec2 corners[]{low, {high.x, low.y}, {low.x, high.y}, high};
-    const double time_s = flown_time_s(
-        part, ConvexSet::hull(corners),
-        HeadingArc{static_cast<double>(bin) * bin_rad, bin_rad}.widened(heading_slack_rad));
-    word = key << time_bits | code_of_time(time_s);
+    word = key << time_bits | code_of_time(find());
     known.store(word, std::memory_order_relaxed);
   }
   return time_of_code(word & 0xffffU);
+}
+
+double ReachBoxes::box_time_s(PartPlace part, std::uint64_t bin) const {
+  return known_or(1 + parts_.index(part) * keys_in_part + bin, [&] {
+    const auto [low, high] = grown_box(part);
+    Vec2 corners[]{low, {high.x, low.y}, {low.x, high.y}, high};
+    const HeadingArc headings{static_cast<double>(bin) * bin_rad, bin_rad};
+    return flown_time_s(part, ConvexSet::hull(corners), headings.widened(heading_slack_rad));
+  });
+}
+
+bool ReachBoxes::may_reach(PartPlace part, double heading_rad) const {
+  constexpr double hint_rad = whole_turn_rad / hints;
+  const auto bin =
+      std::min(static_cast<std::uint64_t>(counted_from_zero(heading_rad) / hint_rad), hints - 1);
+  const double time_s = known_or(1 + parts_.index(part) * keys_in_part + bins + bin, [&] {
+    const Vec2 middle{part.ix + 0.5, part.iy + 0.5};
+    const ContractAnswer answer = contract_answer(parts_, verdicts_, speed_least_mps_, middle,
+                                                  (static_cast<double>(bin) + 0.5) * hint_rad);
+    return answer.verdict == Verdict::reach ? 0.0 : not_proved;
+  });
+  return time_s != not_proved;
 }
 
 double ReachBoxes::flown_time_s(PartPlace part, const ConvexSet& set,

@@ -32,7 +32,13 @@ class ReachBoxes {
   [[nodiscard]] double time_s(PartPlace part, const ConvexSet& set,
                               const HeadingArc& headings) const;
 
+  /// A hint that costs little: whether about the state in the middle of an ordinary part with about
+  /// this heading reaches.
+  [[nodiscard]] bool may_reach(PartPlace part, double heading_rad) const;
+
  private:
+  template <typename Find>
+  double known_or(std::uint64_t key, const Find& find) const;
   double box_time_s(PartPlace part, std::uint64_t bin) const;
   double flown_time_s(PartPlace part, const ConvexSet& set, const HeadingArc& headings) const;
 
