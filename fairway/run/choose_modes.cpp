@@ -10,6 +10,7 @@
 #include "fairway/base/heading.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/field/direction_field.hpp"
+#include "fairway/field/turning_field.hpp"
 #include "fairway/run/stratified_states.hpp"
 #include "fairway/run/verification.hpp"
 #include "fairway/verify/hand_over.hpp"
@@ -89,13 +90,37 @@ struct Candidate {
   std::vector<std::uint8_t> saves;  // [states that mode 0 does not bring]
 };
 
-std::vector<Candidate> candidates(const Plan& plan) {
-  std::vector<Candidate> all;
+/// Cells from which mode 0 is proved to bring the vehicle whichever way it faces, as far as eight
+/// headings in its middle tell.
+std::vector<std::uint8_t> turning_places(const ProofView& proof) {
+  constexpr int headings = 8;
+  constexpr double aside_rad = 0.1;  // off the axes, where flights meet ties
+  const Grid& grid = proof.flow.grid;
+  std::vector<std::uint8_t> places(grid.size(), 0);
+  for_ranges(grid.size(), 64, [&](std::size_t a, std::size_t b) {
+    for (std::size_t i = a; i < b; ++i) {
+      if (proof.flow.kind[i] != CellKind::ordinary) continue;
+      const Vec2 p = grid.center(grid.cell_at(i));
+      bool all = true;
+      for (int k = 0; all && k < headings; ++k) {
+        const double rad = Heading::from_rad(aside_rad + two_pi * k / headings).rad();
+        all = ask_mode(proof, 0, p.x, p.y, rad).only() == Verdict::reach;
+      }
+      places[i] = all ? 1 : 0;
+    }
+  });
+  return places;
+}
+
+std::vector<Candidate> candidates(const Plan& plan, const ProofView& proof) {
+  const double reach_m = bend_radii * plan.vehicle.turn_radius_m;
+  std::vector<Candidate> all{{{"turning_places"},
+                              turning_field(plan.grid, plan.region, turning_places(proof), reach_m),
+                              {}}};
   for (int k = 0; k < directions; ++k) {
     const double direction_rad = Heading::from_rad(two_pi * k / directions).rad();
     all.push_back({{"direction", direction_rad},
-                   direction_field(plan.grid, plan.region, direction_rad,
-                                   bend_radii * plan.vehicle.turn_radius_m),
+                   direction_field(plan.grid, plan.region, direction_rad, reach_m),
                    {}});
   }
   return all;
@@ -145,7 +170,7 @@ ChosenModes choose_modes(const Plan& plan, const std::string& where, const ModeO
   };
   chosen.alone = share(states.size() - rest.size());
 
-  std::vector<Candidate> all = candidates(plan);
+  std::vector<Candidate> all = candidates(plan, view);
   for (Candidate& candidate : all) {
     candidate.saves.assign(rest.size(), 0);
     Flow mode = view.flow;
@@ -168,7 +193,9 @@ ChosenModes choose_modes(const Plan& plan, const std::string& where, const ModeO
                               best->heading_rad.end());
     chosen.records.push_back(best->record);
     chosen.gain.push_back(gain);
-    for (std::size_t i = 0; i < lost.size(); ++i) lost[i] &= best->saves[i] != 0 ? 0 : 1;
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+      if (best->saves[i] != 0) lost[i] = 0;
+    }
   }
   return chosen;
 }

@@ -1,6 +1,7 @@
 // The further modes of a plan (docs/modes.md): of fields made by rule, those that earn states.
 //
-// Candidates go on in one of sixteen directions and bend along walls. Sampled states that mode 0 is
+// Candidates go on in one of sixteen directions and bend along walls, or lead to places from which
+// mode 0 is proved whichever way the vehicle faces. Sampled states that mode 0 is
 // not proved to bring fly each of them, and are handed over where mode 0 is proved from there. The
 // field that so saves most of them becomes the next mode, until none saves enough of the rest.
 //
