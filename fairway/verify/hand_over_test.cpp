@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "fairway/verify/mode_choice.hpp"
 #include "fairway/verify/proof_view.hpp"
 #include "fairway/verify/section_flight.hpp"
+#include "fairway/verify/state_flight.hpp"
 #include "fairway/verify/testing/plans_to_verify.hpp"
 
 namespace fairway {
@@ -123,6 +125,7 @@ TEST(HandOver, LeavesOfAllModesObeyTheRule) {
 /// Places inside leaves that are handed over, each on its own: what holds of a set holds of them.
 TEST(HandOver, EveryPlaceOfALeafThatIsHandedOverReachesInTime) {
   std::size_t places = 0;
+  std::size_t timed = 0;
   for (std::uint64_t seed = 100; seed < 140; ++seed) {
     SCOPED_TRACE("random plan " + std::to_string(seed));
     const Modal m(random_modal_plan(seed, 2), usual_options());
@@ -149,11 +152,21 @@ TEST(HandOver, EveryPlaceOfALeafThatIsHandedOverReachesInTime) {
         ++places;
         if (found.only() == Verdict::undecided) continue;
         EXPECT_EQ(found.only(), Verdict::reach);
+        // Where it is only within rounding of the border, a state may be in the cell that it
+        // leaves, and the set of such states may stay there.
+        const bool is_far = side == Side::right || side == Side::top;
+        const bool upright = side == Side::right || side == Side::left;
+        const Interval line =
+            upright ? state_flight::border(m.plan.grid.x0_m, cell.ix + (is_far ? 1 : 0), d)
+                    : state_flight::border(m.plan.grid.y0_m, cell.iy + (is_far ? 1 : 0), d);
+        if (line.lo != line.hi) continue;
+        ++timed;
         EXPECT_LE(found.time_s, s.time_s[leaf] * (1.0 + 1e-6));
       }
     });
   }
   EXPECT_GT(places, 1000U);
+  EXPECT_GT(timed, 300U);
 }
 
 TEST(HandOver, AModeLikeTheFirstAddsNothing) {
@@ -246,6 +259,68 @@ TEST(ModeChoice, NeverGoesUpAndNeverLater) {
     }
   }
   EXPECT_GT(changes, 10U);
+}
+
+/// A street to the right in which three modes differ. Left of x = 2, only mode 2 goes on along it;
+/// from there, only modes 0 and 1 do, and mode 0 weaves: it takes longer, and brings only those in
+/// the lower half.
+Plan plan_with_a_slower_first_mode() {
+  Plan plan = empty_plan(12, 3, 1.0, 1.5);
+  std::vector<float> straight(plan.grid.size(), 0.0F);
+  std::vector<float> at_first(plan.grid.size(), 0.0F);
+  for (std::size_t i = 0; i < plan.grid.size(); ++i) {
+    const Cell c = plan.grid.cell_at(i);
+    plan.region[i] = c.iy != 1 ? Region::obstacle : c.ix == 11 ? Region::goal : Region::free;
+    const bool is_left = c.ix < 2;
+    plan.heading_rad[i] = is_left ? 1.5F : c.ix % 4 < 2 ? -0.3F : 0.3F;
+    straight[i] = is_left ? 1.5F : 0.0F;
+    at_first[i] = is_left ? 0.0F : -1.5F;
+  }
+  for (const std::vector<float>& mode : {straight, at_first}) {
+    plan.mode_heading_rad.insert(plan.mode_heading_rad.end(), mode.begin(), mode.end());
+    plan.record.modes.push_back({"direction", 0.0});
+  }
+  return plan;
+}
+
+TEST(ModeChoice, IsNotLaterThanToldWhereAnEarlierModeIsProvedButSlower) {
+  const Modal m(plan_with_a_slower_first_mode(), usual_options());
+  constexpr double begin = 1.03125;
+  std::size_t slower = 0;
+  for (double y = 1.25; y < 1.5; y += 0x1p-12) {
+    ModeChoice choice(m.view());
+    const ProvedState told = choice.at(begin, y, 0.0);
+    // A leaf that mode 0 does not bring as a whole is handed over to mode 1: at some of its places
+    // both are proved.
+    const VerdictSet slow = ask_mode(m.view(), 0, 2.0, y, 0.0);
+    if (told.mode != 2 || slow.only() != Verdict::reach) continue;
+    if ((2.0 - begin) / m.plan.vehicle.speed_mps + slow.time_s < told.time_s + 0.003) continue;
+    ++slower;
+    for (const double x : {1.5, 1.75, 2.0}) {
+      const ProvedState now = choice.at(x, y, 0.0);
+      EXPECT_EQ(now.verdict, Verdict::reach) << x;
+      EXPECT_EQ(now.mode, x < 2.0 ? 2 : 1) << x;
+      const double flown_s = (x - begin) / m.plan.vehicle.speed_mps;
+      EXPECT_LE(flown_s + now.time_s, told.time_s * (1.0 + 1e-6)) << x << ", " << y;
+    }
+  }
+  EXPECT_GT(slower, 0U);
+}
+
+TEST(ModeChoice, SaysNothingOfAFurtherModeThatIsNotProved) {
+  const Modal m(plan_with_a_slower_first_mode(), usual_options());
+  ModeChoice choice(m.view());
+  ASSERT_EQ(choice.at(0.5, 1.2, 0.0).mode, 2);
+  // Blown off course, towards a wall: mode 0 is known to collide, but it is mode 2 that is flown.
+  ASSERT_EQ(ask_mode(m.view(), 0, 0.5, 1.8, 1.5).only(), Verdict::collide);
+  const ProvedState now = choice.at(0.5, 1.8, 1.5);
+  EXPECT_EQ(now.mode, 2);
+  EXPECT_EQ(now.verdict, Verdict::undecided);
+  EXPECT_EQ(now.time_s, std::numeric_limits<double>::infinity());
+  // Who begins there is told of mode 0, which it flies.
+  ModeChoice other(m.view());
+  EXPECT_EQ(other.at(0.5, 1.8, 1.5).verdict, Verdict::collide);
+  EXPECT_EQ(other.mode(), 0);
 }
 
 }  // namespace
