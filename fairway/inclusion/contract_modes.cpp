@@ -61,6 +61,37 @@ ContractModeAnswer answer_of_modes(std::span<const ContractMode> modes, double s
   return first;
 }
 
+ContractVerdicts joined(const ProvedContractModes& modes) {
+  ContractVerdicts all;
+  if (modes.empty()) return all;
+  const auto append = [](auto& to, const auto& from, std::ptrdiff_t after) {
+    to.insert(to.end(), from.begin() + after, from.end());
+  };
+  all.first.push_back(0);
+  for (const auto& mode : modes) {
+    const ContractVerdicts& v = mode->verdicts;
+    const auto leaves = static_cast<std::uint32_t>(all.leaves());
+    const bool is_first = all.group_time_s.empty();
+    const auto groups = static_cast<std::uint32_t>(is_first ? 0 : all.group_time_s.size() - 1);
+    require(v.leaves() < ~std::uint32_t{0} - leaves, "a plan has fewer than 2^32 leaves");
+    for (std::size_t s = 1; s < v.first.size(); ++s) all.first.push_back(leaves + v.first[s]);
+    for (const std::uint32_t group : v.group) all.group.push_back(group == 0 ? 0 : groups + group);
+    append(all.begin, v.begin, 0);
+    append(all.verdict, v.verdict, 0);
+    append(all.group_heading_rad, v.group_heading_rad, is_first ? 0 : 1);
+    append(all.group_time_s, v.group_time_s, is_first ? 0 : 1);
+    append(all.group_next_mode, v.group_next_mode, is_first ? 0 : 1);
+  }
+  return all;
+}
+
+ContractVerdictsView mode_of_joined(const ContractVerdicts& joined, std::size_t sections,
+                                    int mode) {
+  ContractVerdictsView of = joined;
+  of.first = of.first.subspan(sections * static_cast<std::size_t>(mode - 1), sections + 1);
+  return of;
+}
+
 ContractModesProof prove_contract_modes(const Flow& flow, std::span<const float* const> further_rad,
                                         const VehicleContract& contract, int per_cell,
                                         const EstimateError& error, const ContractMode& first,

@@ -40,11 +40,19 @@ struct ProvedContractMode {
   Parts parts;
   ContractVerdicts verdicts;
 };
+using ProvedContractModes = std::vector<std::unique_ptr<const ProvedContractMode>>;
 
 struct ContractModesProof {
-  std::vector<std::unique_ptr<const ProvedContractMode>> further;
+  ProvedContractModes further;
   bool stopped_by_limit = false;
 };
+
+/// Further modes one after another, as files have them: of `sections` sections a mode, section s of
+/// mode k is number sections (k - 1) + s. Groups are numbered on, behind one group 0 for all.
+[[nodiscard]] ContractVerdicts joined(const ProvedContractModes& modes);
+/// Those of one of them, 1 or more.
+[[nodiscard]] ContractVerdictsView mode_of_joined(const ContractVerdicts& joined,
+                                                  std::size_t sections, int mode);
 
 /// Proves further modes, [mode - 1][iy][ix], one after another. `flow`, `first`: of mode 0, which
 /// is proved, and outlives the call. `contract`: over ground (over_ground); `error`: that of the
