@@ -14,6 +14,7 @@
 #include <tbb/parallel_for.h>
 
 #include "check/contract_flight.hpp"
+#include "check/contract_hand_over.hpp"
 #include "check/follow_proof.hpp"
 #include "check/leaf_findings.hpp"
 
@@ -125,22 +126,43 @@ std::string defect_of_leaf(const ContractCertificate& c, Behaviours& behaviours,
   return {};
 }
 
-/// The rules for single leaves.
+/// The rule for a leaf of mode `m` that is handed over.
+std::string defect_of_hand_over(const ContractCertificate& c, const ContractCertificate& m,
+                                std::size_t section, std::size_t leaf, Share& share) {
+  const ContractCertificate& next = c.of_mode(m.group_next[m.group[leaf]]);
+  Behaviours behaviours(next.parts, next.contract);
+  std::string why = "is handed over from states that are not known";
+  const bool all = for_states_around(m, section, leaf, [&](const StatesOfPart& states) {
+    Outcome outcome(next, 0, reach);
+    behaviours.follow_states(states.part, states.at, states.least, states.most, outcome);
+    share.onwards_s = std::max(share.onwards_s, outcome.onwards_s);
+    if (outcome.verdict() == reach) return true;
+    why = fmt::format("is handed over to mode {}, but from there behaviours {}", next.mode,
+                      outcome.gave_up ? "cannot be followed" : told_instead(outcome.told));
+    return false;
+  });
+  return all ? "" : why;
+}
+
+/// The rules for single leaves of mode `m` of the certificate `whole`.
 class LeafRules {
  public:
-  explicit LeafRules(const ContractCertificate& c) : c_(c) {
+  LeafRules(const ContractCertificate& whole, const ContractCertificate& c) : whole_(whole), c_(c) {
     if (c.follow) core_.emplace(c);
   }
   std::string defect() const { return core_ ? core_->defect() : ""; }
   LapSums no_laps() const { return core_ ? LapSums(c_) : LapSums(); }
   std::string defect(Behaviours& behaviours, std::size_t section, std::size_t leaf, Share& share,
                      LapSums& laps) const {
+    share = {0.0, -1.0};
+    if (c_.hands_over(leaf)) return defect_of_hand_over(whole_, c_, section, leaf, share);
     return core_ && c_.follow->stage[leaf] != 0
                ? core_->defect_of_leaf(behaviours, section, leaf, share, laps)
                : defect_of_leaf(c_, behaviours, section, leaf, share);
   }
 
  private:
+  const ContractCertificate& whole_;
   const ContractCertificate& c_;
   std::optional<CoreProof> core_;
 };
@@ -212,6 +234,25 @@ std::string defect_of_groups(const ContractCertificate& c, const std::vector<Sha
   return "";
 }
 
+/// Of one mode: "" when it is as claimed.
+std::string defect_of_mode(const ContractCertificate& whole, const ContractCertificate& c,
+                           nlohmann::ordered_json& report) {
+  std::vector<Share> shares;
+  const LeafRules rules(whole, c);
+  if (std::string wrong = rules.defect(); !wrong.empty()) return wrong;
+  LapSums laps = rules.no_laps();
+  const std::vector<std::uint8_t> fails = failing_leaves(c, rules, shares, laps);
+  const auto why = [&](std::size_t section, std::size_t leaf) {
+    Behaviours behaviours(c.parts, c.contract);
+    LapSums none = rules.no_laps();
+    return rules.defect(behaviours, section, leaf, shares[leaf], none);
+  };
+  std::string wrong = defect_of_leaves(c, fails, why, report);
+  if (wrong.empty()) wrong = defect_of_groups(c, shares);
+  if (wrong.empty() && c.follow) wrong = laps.defect(c);
+  return wrong;
+}
+
 }  // namespace
 
 Told told_of_state(const ContractCertificate& c, std::size_t cell, double x, double y,
@@ -226,32 +267,29 @@ Told told_of_state(const ContractCertificate& c, std::size_t cell, double x, dou
   Cell part;
   const double place_x = split(x, part.x);
   const double place_y = split(y, part.y);
-  Outcome outcome(c);
-  Behaviours(c.parts, c.contract)
-      .follow_state(c.parts.index({in.x * k + part.x, in.y * k + part.y}), place_x, place_y,
-                    heading_rad, outcome);
-  return {outcome.verdict(), outcome.onwards_s};
+  Told told{undecided, 0.0};
+  for (std::size_t mode = 0; mode <= c.further.size(); ++mode) {
+    const ContractCertificate& m = c.of_mode(mode);
+    Outcome outcome(m);
+    Behaviours(m.parts, m.contract)
+        .follow_state(c.parts.index({in.x * k + part.x, in.y * k + part.y}), place_x, place_y,
+                      heading_rad, outcome);
+    if (outcome.verdict() == reach) return {reach, outcome.onwards_s, mode};
+    if (mode == 0) told = {outcome.verdict(), outcome.onwards_s};
+  }
+  return told;
 }
 
 std::string judge_contract(const std::string& path, const std::string& plan, std::size_t samples,
                            nlohmann::ordered_json& report) {
   const ContractCertificate c = read_contract_certificate(path, plan);
-  std::vector<Share> shares;
-  const LeafRules rules(c);
-  if (std::string wrong = rules.defect(); !wrong.empty()) return wrong;
-  LapSums laps = rules.no_laps();
-  const std::vector<std::uint8_t> fails = failing_leaves(c, rules, shares, laps);
-  const auto why = [&](std::size_t section, std::size_t leaf) {
-    Behaviours behaviours(c.parts, c.contract);
-    LapSums none = rules.no_laps();
-    return rules.defect(behaviours, section, leaf, shares[leaf], none);
-  };
-  std::string wrong = defect_of_leaves(c, fails, why, report);
-  if (wrong.empty()) wrong = defect_of_groups(c, shares);
-  if (wrong.empty() && c.follow) wrong = laps.defect(c);
+  std::string wrong;
+  for (std::size_t mode = 0; mode <= c.further.size() && wrong.empty(); ++mode) {
+    wrong = defect_of_mode(c, c.of_mode(mode), report);
+  }
   if (!wrong.empty() || !c.record.contains("volume_fraction")) return wrong;
   return defect_of_claims(
-      c.record, {c.loop, c.region, c.holding}, samples, true,
+      c.record, {c.loop, c.region, c.holding, c.further.size() + 1}, samples, true,
       [&c](std::size_t cell, double x, double y, double heading_rad) {
         return told_of_state(c, cell, x, y, heading_rad);
       },

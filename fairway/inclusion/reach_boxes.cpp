@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fairway/inclusion/contract_lookup.hpp"
+#include "fairway/inclusion/crossing_graph.hpp"
 #include "fairway/inclusion/part_pieces.hpp"
 
 namespace fairway {
@@ -91,8 +92,9 @@ bool ReachBoxes::may_reach(PartPlace part, double heading_rad) const {
 
 double ReachBoxes::flown_time_s(PartPlace part, const ConvexSet& set,
                                 const HeadingArc& headings) const {
+  // Of what is flown here, as of links: whoever checks may add it up in another way.
   const ContractAnswer answer =
-      contract_answer(parts_, verdicts_, speed_least_mps_, part, set, headings);
+      contract_answer(parts_, verdicts_, speed_least_mps_ / generous, part, set, headings);
   return answer.verdict == Verdict::reach ? answer.worst_time_s : not_proved;
 }
 
