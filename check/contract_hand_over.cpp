@@ -1,5 +1,7 @@
 #include "check/contract_hand_over.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -20,6 +22,44 @@ Shape octagon_around(const Box& segment, double by) {
 }
 
 }  // namespace
+
+KnownBoxes::KnownBoxes(std::size_t parts)
+    : size_log2_(std::clamp(static_cast<int>(std::bit_width(parts * per_turn / 4)), 12, 22)),
+      known_(std::make_unique<std::atomic<std::uint64_t>[]>(std::size_t{1} << size_log2_)) {}
+
+double KnownBoxes::seconds(const StatesOfPart& states,
+                           const std::function<double(const StatesOfPart&)>& find) const {
+  constexpr double box_rad = 2.0 * std::numbers::pi / per_turn;
+  constexpr unsigned time_bits = 24;  // of a float, rounded up
+  const auto from = static_cast<std::int64_t>(std::floor(states.least / box_rad));
+  const auto to = static_cast<std::int64_t>(std::floor(states.most / box_rad));
+  if (to - from >= static_cast<std::int64_t>(per_turn)) return HUGE_VAL;
+  double worst = 0.0;
+  for (std::int64_t k = from; k <= to && worst < HUGE_VAL; ++k) {
+    const std::uint64_t bin = static_cast<std::uint64_t>(k) % per_turn;
+    const std::uint64_t key = 1 + states.part * per_turn + bin;
+    std::uint64_t mixed = key * 0x9e3779b97f4a7c15U;
+    mixed ^= mixed >> 29U;
+    mixed *= 0xbf58476d1ce4e5b9U;
+    std::atomic<std::uint64_t>& known = known_[mixed >> static_cast<unsigned>(64 - size_log2_)];
+    std::uint64_t word = known.load(std::memory_order_relaxed);
+    if (word >> time_bits != key) {
+      const Box whole = Box{0.0, 0.0, 1.0, 1.0}.grown(touch);
+      const double least = box_rad * static_cast<double>(bin);
+      const double found = find(
+          {states.part,
+           {{whole.x0, whole.y0}, {whole.x1, whole.y0}, {whole.x1, whole.y1}, {whole.x0, whole.y1}},
+           least - angle_slack,
+           least + box_rad + angle_slack});
+      const auto rounded = std::nextafter(static_cast<float>(found), HUGE_VALF);
+      word = key << time_bits | (std::bit_cast<std::uint32_t>(rounded) + 0xffU) >> 8U;
+      known.store(word, std::memory_order_relaxed);
+    }
+    const auto code = static_cast<std::uint32_t>(word & 0xffffffU);
+    worst = std::max(worst, static_cast<double>(std::bit_cast<float>(code << 8U)));
+  }
+  return worst;
+}
 
 bool for_states_around(const ContractCertificate& c, std::size_t section, std::size_t leaf,
                        const std::function<bool(const StatesOfPart&)>& visit) {
