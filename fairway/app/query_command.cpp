@@ -125,8 +125,9 @@ int query_contract(const QueryArguments& a, const Session& session) {
   for (const ContractReply& reply : replies) {
     answers.push_back({reply.word(), {}});
     if (reply.verdict == Verdict::reach) answers.back().time_bound_s = reply.time_bound_s;
+    if (certificate.further_modes() > 0) answers.back().mode = reply.mode;
   }
-  tell(a, "certificate", frame, states, answers, session);
+  tell(a, "certificate", frame, states, answers, session, certificate.further_modes() > 0);
   if (a.witness.empty()) return exit_done;
   if (!replies.front().witness) {
     session.warn(

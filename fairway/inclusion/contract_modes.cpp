@@ -85,13 +85,6 @@ ContractVerdicts joined(const ProvedContractModes& modes) {
   return all;
 }
 
-ContractVerdictsView mode_of_joined(const ContractVerdicts& joined, std::size_t sections,
-                                    int mode) {
-  ContractVerdictsView of = joined;
-  of.first = of.first.subspan(sections * static_cast<std::size_t>(mode - 1), sections + 1);
-  return of;
-}
-
 ContractModesProof prove_contract_modes(const Flow& flow, std::span<const float* const> further_rad,
                                         const VehicleContract& contract, int per_cell,
                                         const EstimateError& error, const ContractMode& first,

@@ -61,4 +61,13 @@ struct ContractVerdictsView {
         group_time_s(v.group_time_s) {}
 };
 
+/// Of further modes joined (contract_modes.hpp), of `sections` sections each, those of one: 1 or
+/// more.
+inline ContractVerdictsView mode_of_joined(const ContractVerdicts& joined, std::size_t sections,
+                                           int mode) {
+  ContractVerdictsView of = joined;
+  of.first = of.first.subspan(sections * static_cast<std::size_t>(mode - 1), sections + 1);
+  return of;
+}
+
 }  // namespace fairway

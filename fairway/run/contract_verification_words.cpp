@@ -66,6 +66,11 @@ std::vector<Finding> findings(const Plan& plan, const ContractVerification& made
                        (exact ? ""
                               : std::string(ever.empty() ? "" : ",") +
                                     " whatever the vehicle does within its contract")});
+  if (const std::size_t modes = s.reach_by_mode.size(); modes > 1) {
+    found.push_back({percent_text(s.reach_by_mode.front(), decimals), all,
+                     fmt::format("do so by the plan's own field, the rest by {}",
+                                 plural(modes - 1, "further mode"))});
+  }
   if (is_goal || made.following) {
     for (Finding& finding : plan_findings(plan)) found.push_back(std::move(finding));
   }
