@@ -23,6 +23,8 @@ namespace {
 
 constexpr int arrays_in_file = 10;
 constexpr int arrays_to_follow = 7;  // and these, when a path is followed
+constexpr int arrays_of_modes = 8;   // and these, of a plan's further modes, which are not read:
+                                     // answers are those of the plan's own mode
 constexpr int most_parts_per_cell = 16;
 
 struct ContractRecord {
@@ -106,7 +108,9 @@ Status ContractCertificate::Opened::take(const void* bytes, std::size_t size) {
   FileArrays arrays;
   if (const Status status = arrays.open(bytes, size); status != Status::ok) return status;
   const int more = arrays.count() - arrays_in_file - (arrays.holds() ? 1 : 0);
-  if ((more != 0 && more != arrays_to_follow) || arrays.find("group_heading_rad") == nullptr) {
+  const bool has_modes = more == arrays_of_modes && arrays.find("mode_heading_rad") != nullptr;
+  if ((more != 0 && more != arrays_to_follow && !has_modes) ||
+      arrays.find("group_heading_rad") == nullptr) {
     return Status::not_certificate;
   }
   if (const Status status = arrays.take_flow(flow); status != Status::ok) return status;
