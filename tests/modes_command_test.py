@@ -80,8 +80,10 @@ class Modes(unittest.TestCase):
 
     def test_info_tells_the_modes_of_a_plan_and_what_each_serves(self):
         words, report = self.run_command("info", "p3"), json.loads(self.run_command("--json", "info", "p3"))
-        self.assertIn("3 further ones: 3 on towards ", words)
-        self.assertEqual([mode["rule"] for mode in report["modes"]], ["direction"] * 3)
+        self.assertRegex(words, r"modes +3 further ones: ")
+        directed = [mode for mode in report["modes"] if mode["rule"] == "direction"]
+        self.assertEqual(len(report["modes"]), 3)
+        self.assertIn(f"{len(directed)} on towards ", words)
         report = json.loads(self.run_command("--json", "info", "c3"))
         self.assertEqual(report["further_modes"], 3)
         self.assertEqual(len(report["reach_by_mode"]), 4)

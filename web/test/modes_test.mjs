@@ -77,7 +77,7 @@ test("the legend names the modes that serve a state, with their shares", async (
     const serving = record.styles.mode.filter((_, mode) => record.verdicts.mode_count.some((of) => of[mode] > 0));
     assert.equal(rows.length, serving.length + 3);  // none, obstacle, goal
     assert.match(rows[0], /^mode 0: the plan's own/);
-    assert.match(rows[1], /^mode \d+: on towards [\d.]+ degrees/);
+    assert.match(rows[1], /^mode \d+: (on towards [\d.]+ degrees|turning places)/);
     assert.match(rows[serving.length], /^no mode is proved to reach/);
     const share = Number(/([\d.]+) %/.exec(rows[0])[1]) / 100;
     assert.ok(Math.abs(share - counts[0] / all) < 0.0051, `${rows[0]}: ${counts[0]} of ${all}`);
@@ -143,7 +143,7 @@ test("live: the answer names the mode, and a moved goal withdraws the map of mod
   const answer = await (await fetch(`${server.address}api/state?x=${x}&y=${y}&h=${h}`)).json();
   assert.equal(answer.mode, mode);
   await type({ x, y, h: h * 180 / Math.PI });
-  await page.waitForFunction((mode) => new RegExp(`proved: reach within [\\d.]+ s, in mode ${mode}: on towards`).test(document.querySelector("#live .answer").innerText), mode, { timeout: 10_000 });
+  await page.waitForFunction((mode) => new RegExp(`proved: reach within [\\d.]+ s, in mode ${mode}: `).test(document.querySelector("#live .answer").innerText), mode, { timeout: 10_000 });
   await show(page, "mode");
   await page.getByRole("button", { name: "Move the goal" }).click();
   await type({ goal_x: 40, goal_y: 100 });
