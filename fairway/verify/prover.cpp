@@ -52,10 +52,12 @@ void Prover::fly(std::vector<Id> ids) {
 /// Hands leaves over to earlier modes where all their states are proved there: most are, so that is
 /// asked before their own flights. Returns the others.
 std::vector<Prover::Id> Prover::not_handed_over(const std::vector<Id>& ids) {
+  worth_asking_.resize(graph_.ids(), every_mode);
   std::vector<HandOver> found(ids.size());
   for_ranges(ids.size(), 64, [&](std::size_t a, std::size_t b) {
     for (std::size_t i = a; i < b && go_on_(); ++i) {
-      found[i] = hand_over(flow_, graph_.place(ids[i]), earlier_, most_crossings_);
+      found[i] =
+          hand_over(flow_, graph_.place(ids[i]), earlier_, most_crossings_, worth_asking_[ids[i]]);
     }
   });
   std::vector<Id> others;
@@ -67,6 +69,7 @@ std::vector<Prover::Id> Prover::not_handed_over(const std::vector<Id>& ids) {
       wake_dependents(id);
       continue;
     }
+    worth_asking_[id] = found[i].worth_asking;
     if (found[i].in_part) graph_.set_hands_over_in_part(id);
     others.push_back(id);
   }
@@ -108,7 +111,12 @@ void Prover::conclude(const std::vector<Id>& round, const std::vector<Finding>& 
     const Verdict verdict = findings[k].found.only();
     const float time_s = std::nextafter(static_cast<float>(findings[k].found.time_s), infinite);
     if (findings[k].cut) {
-      halves.insert(halves.end(), {round[k], graph_.cut(round[k])});
+      const Id upper = graph_.cut(round[k]);
+      halves.insert(halves.end(), {round[k], upper});
+      if (!earlier_.empty()) {
+        worth_asking_.resize(graph_.ids(), every_mode);
+        worth_asking_[upper] = worth_asking_[round[k]];
+      }
     } else if (verdict != Verdict::undecided && verdict != Verdict::trapped && time_s < infinite) {
       graph_.decide(round[k], verdict, rank_, time_s);  // in a time that a float can hold
     }
