@@ -88,7 +88,7 @@ TEST(CheckFlight, EveryFlightFromALeafMeetsWhatWasReported) {
 
 TEST(CheckFlight, EveryFlightHandedOverFromALeafMeetsWhatWasReported) {
   int flights = 0;
-  for (std::uint64_t seed = 0; seed < 60 && !HasFailure(); ++seed) {
+  for (std::uint64_t seed = 0; seed < 24 && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     fairway::Plan plan = fairway::random_plan(seed);
     add_odd_modes(plan, seed);
@@ -101,7 +101,7 @@ TEST(CheckFlight, EveryFlightHandedOverFromALeafMeetsWhatWasReported) {
       flights += fly_from_sections(owner.flow(), mode, random);
     }
   }
-  EXPECT_GT(flights, 20000);
+  EXPECT_GT(flights, 10000);
 }
 
 }  // namespace
