@@ -11,6 +11,26 @@
 
 namespace fairway {
 
+/// The mode to fly on in from a state to which `mode` was flown: it, or the first earlier one that
+/// is proved to arrive, and no later if `mode` is proved, too. Not `reach`: none of them is proved.
+inline ProvedState mode_from(const ProofView& proof, int mode, double x_m, double y_m,
+                             double heading_rad) {
+  const VerdictSet own = ask_mode(proof, mode, x_m, y_m, heading_rad);
+  const bool holds = own.only() == Verdict::reach;
+  for (int earlier = 0; earlier < mode; ++earlier) {
+    const VerdictSet found = ask_mode(proof, earlier, x_m, y_m, heading_rad);
+    if (found.only() != Verdict::reach || (holds && found.time_s > own.time_s)) continue;
+    return {Verdict::reach, found.time_s, earlier};
+  }
+  ProvedState known;
+  known.mode = mode;
+  if (holds) {
+    known.verdict = Verdict::reach;
+    known.time_s = own.time_s;
+  }
+  return known;
+}
+
 class ModeChoice {
  public:
   explicit ModeChoice(const ProofView& proof) : proof_(proof) {}
@@ -21,15 +41,9 @@ class ModeChoice {
   /// asked anew, and the present one goes on where none is proved.
   ProvedState at(double x_m, double y_m, double heading_rad) {
     if (!begun_) return begin(x_m, y_m, heading_rad);
-    const VerdictSet own = ask_mode(proof_, mode_, x_m, y_m, heading_rad);
-    const bool holds = own.only() == Verdict::reach;
-    for (int mode = 0; mode < mode_; ++mode) {
-      const VerdictSet found = ask_mode(proof_, mode, x_m, y_m, heading_rad);
-      if (found.only() != Verdict::reach || (holds && found.time_s > own.time_s)) continue;
-      mode_ = mode;
-      return {Verdict::reach, found.time_s, mode};
-    }
-    if (holds) return {Verdict::reach, own.time_s, mode_};
+    const ProvedState known = mode_from(proof_, mode_, x_m, y_m, heading_rad);
+    mode_ = known.mode;
+    if (known.verdict == Verdict::reach) return known;
     return begin(x_m, y_m, heading_rad);
   }
 
