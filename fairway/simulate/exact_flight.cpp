@@ -78,7 +78,8 @@ bool ExactFlights::is_hop(const Position& from, const CellExit& exit) const {
 /// end is near: nothing in a cell changes along its border but the distance to the next one. The
 /// commands on both sides only ever narrow such a weave, so it can take a million hops to pass one
 /// cell. Here they are one leap, which is the same motion. Lengths are 0 when there is none.
-ExactFlights::Leap ExactFlights::leap(Position& position, Side border) const {
+/// No longer than `most_m`.
+ExactFlights::Leap ExactFlights::leap(Position& position, Side border, double most_m) const {
   const double d = grid_.cell_m;
   const double r = vehicle_.turn_radius_m;
   const bool vertical = border == Side::right || border == Side::left;
@@ -88,10 +89,11 @@ ExactFlights::Leap ExactFlights::leap(Position& position, Side border) const {
   if (pair_m > d / 16.0) return {};
   double& along = vertical ? position.state.position_m.y : position.state.position_m.x;
   const bool upwards = (vertical ? u.y : u.x) > 0.0;
-  const double rest_m = upwards ? d - along : along;
+  const double to_corner_m = upwards ? d - along : along;
+  const double rest_m = std::min(to_corner_m, most_m);
   if (pair_m < 1e-12 * d) {
     // Hops below the resolution of a position would stand still: on to the corner.
-    along = upwards ? d : 0.0;
+    along = rest_m == to_corner_m ? (upwards ? d : 0.0) : along + (upwards ? rest_m : -rest_m);
     return {rest_m, rest_m};
   }
   const double pairs = std::floor(rest_m / pair_m) - 2.0;

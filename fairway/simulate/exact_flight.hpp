@@ -131,7 +131,7 @@ class ExactFlights {
   void prefetch_ahead(const Position& position) const;
   Kind enter_next(Position& position, const CellExit& exit) const;
   bool is_hop(const Position& from, const CellExit& exit) const;
-  Leap leap(Position& position, Side border) const;
+  Leap leap(Position& position, Side border, double most_m) const;
   FlightLimits with_defaults(FlightLimits limits) const;
   FlightLimits beyond_goal(FlightLimits limits, const FlightRun& run, double beyond_m) const;
   FlightResult result_of(const FlightRun& run) const;

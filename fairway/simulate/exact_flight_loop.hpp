@@ -4,7 +4,9 @@
 // What flies has one mode, or several. `Modes` tells:
 //     static constexpr bool may_change
 // and if so
-//     bool leaps() const                in the present mode weaves may be flown in one leap
+//     double weaves_m(const ExactFlights* now, const Position& from, const CellExit&,
+//                     const Position& position)
+//                                       how far along the border it may weave in one leap
 //     const ExactFlights* at_border(const ExactFlights* now, const Position& from, const CellExit&,
 //                                   const Position& position, const FlightRun& run)
 //                                       whose commands to fly from here; null: end the flight here
@@ -93,11 +95,12 @@ FlightRun ExactFlights::fly_on(Position position, Kind kind, FlightLimits limits
         if (next == nullptr) break;
         if (next != commands) change_to(next);
       }
-      if (!modes.leaps()) continue;  // whoever weaves may change at any border
     }
     if (hops >= 2) [[unlikely]] {
+      double most_m = never;
+      if constexpr (Modes::may_change) most_m = modes.weaves_m(commands, from, exit, position);
       const Position before = position;
-      const Leap leapt = leap(position, exit.side);
+      const Leap leapt = leap(position, exit.side, most_m);
       if (leapt.flown_m > 0.0) {
         record.add_leap(before, leapt.along_m, run.flown_m);
         run.flown_m += leapt.flown_m;

@@ -29,7 +29,11 @@ class ModalFlights::Decided {
     require(mode_ >= 0 && mode_ < flights.modes(), "a flight begins in a mode of the plan");
   }
 
-  bool leaps() const { return mode_ == 0; }
+  double weaves_m(const ExactFlights* now, const Position& from, const CellExit& exit,
+                  const Position& position) {
+    if (mode_ == 0) return infinity;
+    return decider_.weaves_m(crossing(*now, from, exit, position), mode_);
+  }
   const ExactFlights* at_border(const ExactFlights* now, const Position& from, const CellExit& exit,
                                 const Position& position, const FlightRun&) {
     if (mode_ == 0) return now;
@@ -165,7 +169,9 @@ class ModalFlights::Search {
     bool given_up = false;
     double tried_at_m = -infinity;
 
-    bool leaps() const { return false; }
+    double weaves_m(const ExactFlights*, const Position&, const CellExit&, const Position&) const {
+      return infinity;
+    }
     int mode() const { return number; }
     const ExactFlights* at_border(const ExactFlights* now, const Position&, const CellExit&,
                                   const Position& position, const FlightRun& run) {
@@ -228,5 +234,7 @@ int GivenModes::at_border(const BorderCrossing&, int mode) {
   borders_ = 0;
   return sequence_.changes[done_++].mode;
 }
+
+double GivenModes::weaves_m(const BorderCrossing&, int) { return infinity; }
 
 }  // namespace fairway

@@ -7,8 +7,9 @@
 //   2. Modes only go down. In mode 0 nobody is asked any more, and the rest of the flight is that
 //      of ExactFlights.
 //   3. A flight that begins in mode 0 is that of ExactFlights, to the bit.
-// Conventions: in further modes every border is flown and asked at, also those of a weave that mode
-// 0 would take in one leap. Beyond the first goal cell the vehicle flies mode 0.
+// Conventions: a weave over one border, of hops too fine to be flown one by one, is a leap, as in
+// exact flights, but goes no farther than the decider allows, and nobody is asked on the way.
+// Beyond the first goal cell the vehicle flies mode 0.
 // Cost: that of exact flights and of the questions; 24 bytes a cell and mode while the object
 // lives.
 #pragma once
@@ -44,9 +45,12 @@ class ModeDecider {
   virtual int begin(const State& start) = 0;
   /// The mode to fly from here: `mode`, the present one and not 0, or an earlier one.
   virtual int at_border(const BorderCrossing& crossing, int mode) = 0;
+  /// How far along this border the vehicle may weave in `mode`, not 0, without being asked again. A
+  /// fine weave can cross a border a million times.
+  virtual double weaves_m(const BorderCrossing& crossing, int mode) = 0;
 };
 
-/// After that many borders in the mode before, another one.
+/// After that many borders in the mode before, not counting those of a leap, another one.
 struct ModeChange {
   std::uint64_t borders = 0;
   int mode = 0;
@@ -119,6 +123,7 @@ class GivenModes final : public ModeDecider {
   explicit GivenModes(const ModeSequence& sequence) : sequence_(sequence) {}
   int begin(const State& start) override;
   int at_border(const BorderCrossing& crossing, int mode) override;
+  double weaves_m(const BorderCrossing& crossing, int mode) override;
 
  private:
   const ModeSequence& sequence_;

@@ -15,6 +15,7 @@
 #include "fairway/base/random.hpp"
 #include "fairway/run/proved_modes.hpp"
 #include "fairway/simulate/modal_flight.hpp"
+#include "fairway/verify/images.hpp"
 #include "tests/falsify/wide_modal_flight.hpp"
 
 namespace fairway {
@@ -64,6 +65,9 @@ class ByLeaves final : public ModeDecider {
     });
     return next == no_mode ? mode : static_cast<int>(next);
   }
+  double weaves_m(const BorderCrossing& crossing, int mode) override {
+    return weave_within_leaf_m(proof_, crossing, mode);
+  }
 
  private:
   const ProofView& proof_;
@@ -85,6 +89,9 @@ class ByProof final : public ModeDecider {
       claims_.push_back({p.x, p.y, h, next, ask_mode(proof_, next, p.x, p.y, h).time_s});
     }
     return next;
+  }
+  double weaves_m(const BorderCrossing& crossing, int mode) override {
+    return modes_.weaves_m(crossing, mode);
   }
 
  private:
@@ -207,7 +214,7 @@ class ModeAttacker {
     Asked a = from;
     Asked b{near(from.at, random), from.mode};
     if (attack(b, false, random, totals) == proved) return;
-    for (int halving = 0; halving < 40; ++halving) {
+    for (int halving = 0; halving < 40 && totals.wrong() == 0; ++halving) {
       const double turn =
           Heading::from_rad(a.at.heading_rad).turn_to(Heading::from_rad(b.at.heading_rad));
       const Asked middle{{0.5 * (a.at.x_m + b.at.x_m), 0.5 * (a.at.y_m + b.at.y_m),
@@ -318,13 +325,14 @@ std::string ModeAttackTotals::line() const {
 
 ModeAttackTotals attack_modes(const ProofView& proof, const ModeAttackOptions& options) {
   require(proof.further > 0, "a proof of several modes is attacked");
-  constexpr std::uint64_t blocks = 64;  // at a time, each with draws of its own
-  constexpr std::uint64_t draws = 250;
+  constexpr std::uint64_t blocks = 32;  // at a time, each with draws of its own
+  constexpr std::uint64_t draws = 64;
+  constexpr std::uint64_t wrong_enough = 4;  // of a block: the judge takes its time
   ModeAttacker attacker(proof);
   ModeAttackTotals totals;
   std::uint64_t first = 0;
   const auto goes_on = [&] {
-    return totals.hand_overs < options.hand_overs &&
+    return totals.hand_overs < options.hand_overs && totals.wrong() < options.wrong_enough &&
            (options.states == 0 || totals.states < options.states);
   };
   // A proof that says nothing of further modes hands nothing over.
@@ -333,7 +341,9 @@ ModeAttackTotals attack_modes(const ProofView& proof, const ModeAttackOptions& o
     for_ranges(blocks, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t block = begin; block < end; ++block) {
         Random random = Random::stream(options.seed, first + block);
-        for (std::uint64_t k = 0; k < draws; ++k) attacker.attack_some(random, each[block]);
+        for (std::uint64_t k = 0; k < draws && each[block].wrong() < wrong_enough; ++k) {
+          attacker.attack_some(random, each[block]);
+        }
       }
     });
     const std::uint64_t before = totals.hand_overs;

@@ -24,6 +24,7 @@ namespace fairway {
 struct ModeAttackOptions {
   std::uint64_t hand_overs = 10000;  ///< go on until so many flights have changed modes
   std::uint64_t states = 0;          ///< or so many states were asked; 0: no limit
+  std::uint64_t wrong_enough = 50;   ///< or so many contradicted the proof
   std::uint64_t seed = 1;
 };
 

@@ -107,13 +107,13 @@ TEST(ModeAttack, FliesInManyBitsAsInDoubles) {
   const ProofView view = proved.view();
   const WideModalFlights wide(view);
   // Away from the goal in the street: into the square by mode 1, and back.
-  const VerdictSet found = ask_mode(view, 1, 20.0, 24.0, 0.0);
+  const VerdictSet found = ask_mode(view, 1, 20.0, 25.0, 0.0);
   ASSERT_EQ(found.only(), Verdict::reach);
-  ASSERT_NE(ask_mode(view, 0, 20.0, 24.0, 0.0).only(), Verdict::reach);
-  const WideJudgement judged = wide.judge({20.0, 24.0, 0.0, 1, found.time_s});
+  ASSERT_NE(ask_mode(view, 0, 20.0, 25.0, 0.0).only(), Verdict::reach);
+  const WideJudgement judged = wide.judge({20.0, 25.0, 0.0, 1, found.time_s});
   EXPECT_FALSE(judged.contradicted || judged.late || judged.unknown) << judged.ends;
-  EXPECT_TRUE(wide.judge({20.0, 24.0, 0.0, 0, found.time_s}).contradicted);
-  EXPECT_TRUE(wide.judge({20.0, 24.0, 0.0, 1, 0.1}).late);
+  EXPECT_TRUE(wide.judge({20.0, 25.0, 0.0, 0, found.time_s}).contradicted);
+  EXPECT_TRUE(wide.judge({20.0, 25.0, 0.0, 1, 0.1}).late);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ namespace fairway {
 namespace {
 
 constexpr std::uint64_t most_crossings = 40000;
+constexpr std::uint64_t most_in_further_modes = 4000;
 
 }  // namespace
 
@@ -55,13 +56,13 @@ WideMeeting<Wide> WideModalFlights::fly(
     int next = mode;
     WideMeeting<Wide> met;
     while (next == mode) {
-      met = flight.fly(most_crossings - crossings);
+      met = flight.fly(most_in_further_modes - crossings);
       crossings += met.crossings + 1;
       if (met.section == WideMeeting<Wide>::none) {
         met.length_m += flown_m;
         return met;
       }
-      if (crossings >= most_crossings) return {};
+      if (crossings >= most_in_further_modes) return {};
       next = next_mode(mode, met, choice);
     }
     flown_m += met.length_m;

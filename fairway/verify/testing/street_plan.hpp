@@ -13,23 +13,24 @@
 
 namespace fairway {
 
-/// 46 x 24 cells of 2 m, turning radius 6 m, street of 4 cells. `directions` further modes.
+/// 46 x 25 cells of 2 m, turning radius 6 m, street of 5 cells. `directions` further modes.
 inline Plan street_plan(int directions) {
   Plan plan;
-  plan.grid = {46, 24, 0.0, 0.0, 2.0};
+  plan.grid = {46, 25, 0.0, 0.0, 2.0};
   plan.vehicle = {10.0, 6.0};
   plan.region.assign(plan.grid.size(), Region::obstacle);
   plan.cost_m.assign(plan.grid.size(), 1.0F);
   plan.heading_rad.assign(plan.grid.size(), std::nanf(""));
   for (std::size_t i = 0; i < plan.grid.size(); ++i) {
     const Cell c = plan.grid.cell_at(i);
-    const bool street = c.ix >= 1 && c.ix < 27 && c.iy >= 10 && c.iy < 14;
-    const bool square = c.ix >= 27 && c.ix < 45 && c.iy >= 1 && c.iy < 23;
+    const bool street = c.ix >= 1 && c.ix < 27 && c.iy >= 10 && c.iy < 15;
+    const bool square = c.ix >= 27 && c.ix < 45 && c.iy >= 1 && c.iy < 24;
     if (!street && !square) continue;
     plan.region[i] = street && c.ix < 4 ? Region::goal : Region::free;
     const Vec2 p = plan.grid.center(c);
-    // Along the middle of the street; in the square towards its mouth.
-    const Vec2 to = street ? Vec2{-8.0, 24.0 - p.y} : Vec2{50.0 - p.x, 24.0 - p.y};
+    // To the middle of the street, which no border runs along: a weave over it takes long to prove;
+    // in the square towards its mouth.
+    const Vec2 to = street ? Vec2{-8.0, 25.0 - p.y} : Vec2{50.0 - p.x, 25.0 - p.y};
     plan.heading_rad[i] = Heading::stored(std::atan2(to.y, to.x));
   }
   for (int k = 0; k < directions; ++k) {
