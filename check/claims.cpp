@@ -31,6 +31,7 @@ struct Claims {
   Shares shares{};  ///< 0 without cells
   double samples = 0.0;
   double worst_time_s = 0.0;
+  std::vector<double> reach_by_mode;  ///< [mode], the first in which states reach; or empty
 };
 
 /// Who reaches the core follows the path, or has reached the goal, where it stays.
@@ -40,8 +41,25 @@ const char* name_in(const nlohmann::json& record, std::size_t word) {
   return word == reach && follows ? "follow" : verdict_name[word];
 }
 
-Claims claims_of(const nlohmann::json& record) {
-  Claims claims{.samples = record.at("samples"), .worst_time_s = record.at("worst_time_s")};
+/// Evidence that a record may have.
+std::vector<double> reach_by_mode_in(const nlohmann::json& record, std::size_t modes) {
+  if (!record.contains("reach_by_mode")) return {};
+  const auto shares = record["reach_by_mode"].get<std::vector<double>>();
+  require(shares.size() == modes, "reach_by_mode: expected a share for every mode");
+  double sum = 0.0;
+  for (const double share : shares) {
+    require(share >= 0.0, "reach_by_mode: negative share");
+    sum += share;
+  }
+  const double reaching = record.at("volume_fraction").at("reach");
+  require(std::abs(sum - reaching) < 1e-9, "reach_by_mode: does not sum to the share that reaches");
+  return shares;
+}
+
+Claims claims_of(const nlohmann::json& record, std::size_t modes) {
+  Claims claims{.samples = record.at("samples"),
+                .worst_time_s = record.at("worst_time_s"),
+                .reach_by_mode = reach_by_mode_in(record, modes)};
   for (std::size_t p = 0; p < claims.shares.size(); ++p) {
     double sum = 0.0;
     const nlohmann::json& named = record.at(portion_name[p]);
@@ -66,16 +84,38 @@ struct Measured {
   std::array<double, 3> states{};  // by Portion
   Shares shares{};
   double slower_than_claimed = 0.0;  // states that reach, with a bound above worst_time_s
+  std::vector<double> reach_by_mode;
+};
+
+/// A share as it is claimed, by that many states, and as it was found.
+struct Compared {
+  double claimed;
+  double found;
+  double error = 0.0;  ///< the standard error of their difference
+  bool apart = false;
+
+  Compared(double claimed_, double there, double found_, double here)
+      : claimed(claimed_), found(found_) {
+    const double both = (claimed * there + found * here) / (there + here);
+    error = std::sqrt(both * (1.0 - both) * (1.0 / here + 1.0 / there));
+    // A share close to zero is only known to a few states, in either sample.
+    apart = std::abs(claimed - found) > 5.0 * error + 5.0 / here + 5.0 / there;
+  }
+  std::string text(const std::string& name) const {
+    return fmt::format("{} is claimed as {:.6f}, measured as {:.6f} +- {:.6f}", name, claimed,
+                       found, error);
+  }
 };
 
 Measured measure(const ClaimedCells& of, std::size_t samples, double worst_time_s,
                  const TellState& tell) {
-  const auto& [loop, region, holding] = of;
+  const auto& [loop, region, holding, modes] = of;
   std::vector<std::size_t> cells;
   for (std::size_t i = 0; i < loop.kind.size(); ++i) {
     if (loop.kind[i] == ordinary) cells.push_back(i);
   }
   Measured m;
+  m.reach_by_mode.assign(modes, 0.0);
   std::mt19937_64 random(1);
   const auto unit = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   for (std::size_t i = 0; i < samples && !cells.empty(); ++i) {
@@ -86,6 +126,7 @@ Measured measure(const ClaimedCells& of, std::size_t samples, double worst_time_
     const bool holds = told.verdict == trapped && !holding.empty() && holding[cell] != 0;
     const std::size_t word = holds ? hold : static_cast<std::size_t>(told.verdict);
     m.slower_than_claimed += told.verdict == reach && told.worst_s > worst_time_s ? 1.0 : 0.0;
+    m.reach_by_mode[told.mode] += told.verdict == reach ? 1.0 : 0.0;
     for (const Portion portion : {all_cells, region[cell] == 0 ? free_cells : buffer_cells}) {
       m.states[portion] += 1.0;
       m.shares[portion][word] += 1.0;
@@ -94,6 +135,7 @@ Measured measure(const ClaimedCells& of, std::size_t samples, double worst_time_
   for (std::size_t p = 0; p < m.shares.size(); ++p) {
     for (double& share : m.shares[p]) share /= std::max(1.0, m.states[p]);
   }
+  for (double& share : m.reach_by_mode) share /= std::max(1.0, m.states[all_cells]);
   return m;
 }
 
@@ -102,7 +144,7 @@ Measured measure(const ClaimedCells& of, std::size_t samples, double worst_time_
 std::string defect_of_claims(const nlohmann::json& record, const ClaimedCells& of,
                              std::size_t samples, bool may_prove_more, const TellState& tell,
                              nlohmann::ordered_json& report) {
-  const Claims claims = claims_of(record);
+  const Claims claims = claims_of(record, of.modes);
   const Measured m = measure(of, samples, claims.worst_time_s, tell);
   report["samples"] = m.states[all_cells];
   for (std::size_t v = 0; v < word_count; ++v) {
@@ -114,17 +156,16 @@ std::string defect_of_claims(const nlohmann::json& record, const ClaimedCells& o
     const double there = claims.samples * here / std::max(1.0, m.states[all_cells]);
     if (here < 100.0) continue;
     for (std::size_t v = 0; v < word_count; ++v) {
-      const double claimed = claims.shares[p][v];
-      const double found = m.shares[p][v];
-      const double both = (claimed * there + found * here) / (there + here);
-      const double error = std::sqrt(both * (1.0 - both) * (1.0 / here + 1.0 / there));
-      // A share close to zero is only known to a few states, in either sample.
-      const bool is_modest = may_prove_more && (claimed < found) == (v != undecided);
-      if (is_modest || std::abs(claimed - found) <= 5.0 * error + 5.0 / here + 5.0 / there)
-        continue;
-      return fmt::format("{}: {} is claimed as {:.6f}, measured as {:.6f} +- {:.6f}",
-                         portion_name[p], name_in(record, v), claimed, found, error);
+      const Compared share(claims.shares[p][v], there, m.shares[p][v], here);
+      const bool is_modest = may_prove_more && (share.claimed < share.found) == (v != undecided);
+      if (is_modest || !share.apart) continue;
+      return fmt::format("{}: {}", portion_name[p], share.text(name_in(record, v)));
     }
+  }
+  const double drawn = m.states[all_cells];
+  for (std::size_t k = 0; k < claims.reach_by_mode.size() && drawn >= 100.0; ++k) {
+    const Compared share(claims.reach_by_mode[k], claims.samples, m.reach_by_mode[k], drawn);
+    if (share.apart) return "reach_by_mode: " + share.text(fmt::format("mode {}", k));
   }
   // None of the states behind the claim was slower: that has a probability of exp(-20) if a share
   // of 20 / samples is. Allow as many of the states drawn here as such a share gives, and some

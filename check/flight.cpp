@@ -176,6 +176,14 @@ class Follower {
   std::vector<Way> ways_;
 };
 
+/// The states of a section, on their way into the cell beyond.
+Part beyond_section(const Loop& loop, std::size_t section, const Real& place) {
+  return {.cell = loop.beyond(section),
+          .set = {.at = from_frame(static_cast<int>(section % 4), {Real(-0.5), place}),
+                  .heading = loop.direction[section / 4]},
+          .flown_rad = loop.command_rad[section / 4]};
+}
+
 }  // namespace
 
 void Loop::take_directions(double turn_radius_m, double cell_m) {
@@ -189,12 +197,14 @@ void Loop::take_directions(double turn_radius_m, double cell_m) {
 }
 
 void follow_section(const Loop& loop, std::size_t section, const Real& place, Listener& listener) {
-  const Vec at = from_frame(static_cast<int>(section % 4), {Real(-0.5), place});
-  Follower(loop, listener)
-      .follow({.cell = loop.beyond(section),
-               .set = {.at = at, .heading = loop.direction[section / 4]},
-               .flown_rad = loop.command_rad[section / 4],
-               .began_at = section});
+  Part first = beyond_section(loop, section, place);
+  first.began_at = section;
+  Follower(loop, listener).follow(first);
+}
+
+void follow_handed_over(const Loop& from, const Loop& loop, std::size_t section, const Real& place,
+                        Listener& listener) {
+  Follower(loop, listener).follow(beyond_section(from, section, place));
 }
 
 void follow_states(const Loop& loop, std::size_t cell, const Vec& at, const Vec& heading,

@@ -70,6 +70,11 @@ class Listener {
 /// is ordinary.
 void follow_section(const Loop& loop, std::size_t section, const Real& place, Listener& listener);
 
+/// The same states where they are handed over: their last command is one of `from`, but from there
+/// on they fly by those of `loop`, of whose own sections theirs is none.
+void follow_handed_over(const Loop& from, const Loop& loop, std::size_t section, const Real& place,
+                        Listener& listener);
+
 /// Follows states inside an ordinary cell.
 void follow_states(const Loop& loop, std::size_t cell, const Vec& at, const Vec& heading,
                    Listener& listener);

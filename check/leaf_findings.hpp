@@ -29,20 +29,26 @@ inline std::string told_instead(unsigned told) {
   return text;
 }
 
-/// "" when no leaf fails, else which does first, and why. `fails`: 1 or 0 for every leaf of `c`.
-template <typename Certificate, typename Why>
-std::string defect_of_leaves(const Certificate& c, const std::vector<std::uint8_t>& fails, Why why,
+/// "" when no leaf fails, else which does first, and why. `fails`: 1 or 0 for every leaf of
+/// `proof`. Adds to the counts of the report.
+template <typename Proof, typename Why>
+std::string defect_of_leaves(const Proof& proof, const std::vector<std::uint8_t>& fails, Why why,
                              nlohmann::ordered_json& report) {
+  const auto add = [](nlohmann::ordered_json& count, std::ptrdiff_t more) {
+    count = (count.is_null() ? 0 : count.get<std::ptrdiff_t>()) + more;
+  };
   for (std::size_t v = 0; v < verdict_count; ++v) {
-    report["leaves"][verdict_name[v]] = std::count(c.verdict.begin(), c.verdict.end(), v);
+    add(report["leaves"][verdict_name[v]],
+        std::count(proof.verdict.begin(), proof.verdict.end(), v));
   }
+  const auto failing = std::count(fails.begin(), fails.end(), 1);
+  add(report["leaves_not_reproved"], failing);
+  if (failing == 0) return "";
   const auto first =
       static_cast<std::size_t>(std::find(fails.begin(), fails.end(), 1) - fails.begin());
-  report["leaves_not_reproved"] = std::count(fails.begin(), fails.end(), 1);
-  if (first == fails.size()) return "";
   return fmt::format("{} of {} leaves could not be re-proved, the first is {}, claimed to {}: {}",
-                     report["leaves_not_reproved"].dump(), fails.size(), c.name_of(first),
-                     verdict_name[c.verdict[first]], why(c.section_of(first), first));
+                     failing, fails.size(), proof.name_of(first),
+                     verdict_name[proof.verdict[first]], why(proof.section_of(first), first));
 }
 
 }  // namespace fairway_check

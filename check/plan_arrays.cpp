@@ -11,6 +11,13 @@ namespace {
 
 using nlohmann::json;
 
+/// The commands of a plan's further modes: an array that few plans have.
+constexpr const char* modes_name = "mode_heading_rad";
+
+bool is_command(float rad) {
+  return std::isnan(rad) || (rad > -std::numbers::pi && rad <= std::numbers::pi);
+}
+
 void require_geometry(const Geometry& g) {
   const auto in = [](double x, double least, double most) { return x >= least && x <= most; };
   const double far = std::min(1e15, 1e9 * g.cell_m);
@@ -100,14 +107,25 @@ void require_digests(const TensorFile& file) {
           "heading_rad and region are not those of the plan that it names");
 }
 
+void require_modes_of_plan(const TensorFile& file) {
+  const json& of_plan = file.record.at("plan_sha256");
+  const bool has_modes = file.tensors.contains(modes_name);
+  require(of_plan.contains(modes_name) == has_modes &&
+              (!has_modes || of_plan[modes_name] == file.record.at("sha256").at(modes_name)),
+          "mode_heading_rad is not that of the plan that it names");
+}
+
 void require_plan(const TensorFile& file, const Geometry& g, const std::string& plan_path) {
   const json& of_plan = file.record.at("plan_sha256");
   const TensorFile plan = read_tensors(plan_path);
-  bool same =
-      plan.tensors.size() == 3 && of_plan.size() == 3 && same_frame(plan.record, file.record);
+  const std::size_t arrays = of_plan.contains(modes_name) ? 4 : 3;
+  bool same = plan.tensors.size() == arrays && of_plan.size() == arrays &&
+              same_frame(plan.record, file.record);
   for (const auto& [name, tensor] : plan.tensors) {
+    std::vector<std::uint64_t> shape = tensor.shape;
+    if (name == modes_name && !shape.empty()) shape.erase(shape.begin());  // how many modes
     same = same && of_plan.at(name) == sha256(tensor.bytes) &&
-           tensor.shape == file.tensors.at("region").shape;
+           shape == file.tensors.at("region").shape;
   }
   const json& p = plan.record;
   same = same && p.at("origin_m") == json{g.x0_m, g.y0_m} && p.at("cell_m") == g.cell_m &&
@@ -130,7 +148,6 @@ void require_cells(const Geometry& geometry, const Loop& loop,
     const Cell cell = loop.cell_at(i);
     const double x = geometry.x0_m + cell.x * d;
     const double y = geometry.y0_m + cell.y * d;
-    const double h = loop.command_rad[i];
     const bool said = loop.kind[i] == target;
     const bool is_target = of_goal        ? region[i] == 2
                            : of_obstacles ? region[i] == 1
@@ -139,12 +156,17 @@ void require_cells(const Geometry& geometry, const Loop& loop,
                                             lies_within(y, d, box[1], box[3], said);
     const CellKind kind = is_target ? target : region[i] == 1 ? obstacle : ordinary;
     if (region[i] >= -1 && region[i] <= 2 && loop.kind[i] == kind &&
-        (std::isnan(h) || (h > -std::numbers::pi && h <= std::numbers::pi))) {
+        is_command(loop.command_rad[i])) {
       continue;
     }
     throw Defect(1, fmt::format("cell ({}, {}): has an invalid command, region or cell_kind",
                                 cell.x, cell.y));
   }
+}
+
+void require_commands(const Loop& loop) {
+  require(std::all_of(loop.command_rad.begin(), loop.command_rad.end(), is_command),
+          "mode_heading_rad: has an invalid command");
 }
 
 }  // namespace fairway_check

@@ -11,7 +11,8 @@
 
 namespace fairway_check {
 
-/// What the leaves say about the state at (x, y), in cells from the centre of an ordinary cell.
+/// What the leaves say about the state at (x, y), in cells from the centre of an ordinary cell: the
+/// first mode in which it reaches; where there is none, what the plan's own mode does.
 Told told_of_state(const Certificate& c, std::size_t cell, double x, double y, double heading_rad);
 
 /// For certificates of either kind: "" when it is accepted, else why it is refused; the findings go

@@ -26,6 +26,7 @@
 #include "fairway/run/ask_certificate.hpp"
 #include "fairway/run/checker.hpp"
 #include "fairway/run/failing_states.hpp"
+#include "fairway/vehicle/modes.hpp"
 #include "fairway/verify/sample_verdicts.hpp"
 #include "fairway/verify/verdict.hpp"
 
@@ -34,24 +35,50 @@ namespace {
 
 using namespace pybind11::literals;
 
-py::tuple query(const HeldCertificate& held, const py::object& rows) {
+void require_finite(double heading_rad) {
+  if (!std::isfinite(heading_rad)) throw py::value_error("heading_rad: is not finite");
+  require_heading(heading_rad, "heading_rad");
+}
+
+py::tuple query_modes(const HeldCertificate& held, const py::object& rows) {
   const std::vector<State> states = states_of(rows, "states");
   std::vector<std::int8_t> verdict(states.size());
   std::vector<double> time_s(states.size());
+  std::vector<std::int8_t> mode(states.size());
   {
     const py::gil_scoped_release unlocked;
     const std::vector<runtime::Answer> answers = ask(held.certificate, states);
     for (std::size_t i = 0; i < answers.size(); ++i) {
       verdict[i] = static_cast<std::int8_t>(answers[i].verdict);
       time_s[i] = answers[i].time_bound_s;
+      mode[i] = static_cast<std::int8_t>(answers[i].mode);
     }
   }
-  return py::make_tuple(owning(std::move(verdict)), owning(std::move(time_s)));
+  return py::make_tuple(owning(std::move(verdict)), owning(std::move(time_s)),
+                        owning(std::move(mode)));
+}
+
+py::tuple query(const HeldCertificate& held, const py::object& rows) {
+  const py::tuple all = query_modes(held, rows);
+  return py::make_tuple(all[0], all[1]);
+}
+
+/// As int8, to which all modes convert, and no_mode to -1.
+py::array mode_map(const HeldCertificate& held, double heading_rad) {
+  require_finite(heading_rad);
+  std::vector<std::uint8_t> modes;
+  {
+    const py::gil_scoped_release unlocked;
+    modes = modes_at(held.certificate, Heading::from_rad(heading_rad));
+  }
+  std::vector<std::int8_t> codes;
+  for (const std::uint8_t mode : modes) codes.push_back(static_cast<std::int8_t>(mode));
+  const Grid& grid = held.certificate.grid;
+  return owning(std::move(codes)).reshape({grid.ny, grid.nx});
 }
 
 py::array verdict_map(const HeldCertificate& held, double heading_rad) {
-  if (!std::isfinite(heading_rad)) throw py::value_error("heading_rad: is not finite");
-  require_heading(heading_rad, "heading_rad");
+  require_finite(heading_rad);
   std::vector<Verdict> verdicts;
   {
     const py::gil_scoped_release unlocked;
@@ -169,6 +196,19 @@ states  float64 [n, 3]: x_m, y_m, heading_rad
 
 Returns (verdict int8 [n], time_bound_s float64 [n]): codes of Verdict; a bound in seconds
 for states that reach, else +inf.)")
+      .def("query_modes", &query_modes, "states"_a,
+           R"(The same, and which mode of the plan to fly (docs/modes.md).
+
+Returns (verdict int8 [n], time_bound_s float64 [n], mode int8 [n]): the first mode that is
+proved to reach; 0 where none is, or where the plan has one.)")
+      .def_property_readonly(
+          "modes", [](const HeldCertificate& held) { return held.certificate.further_modes() + 1; },
+          "Number of modes of the plan, the first included: 1, unless it has further ones.")
+      .def("mode_map", &mode_map, "heading_rad"_a,
+           R"(The first mode that is proved to reach from near every cell's middle, for one heading.
+
+Returns int8 [ny, nx], the lowest row first: -1 where none is, and in obstacles; 0 in the goal. Of
+the same states as verdict_map.)")
       .def("verdict_map", &verdict_map, "heading_rad"_a,
            R"(The verdict of a vehicle near every cell's middle, for one heading.
 
@@ -215,7 +255,8 @@ states last. Fly them with Plan.fly to see why they fail.)")
       .def("save_geotiff", &save_geotiff, "path"_a, "headings_rad"_a = py::none(), py::kw_only(),
            "force"_a = true,
            "verdict_map() of each heading (default: eight, evenly spaced) as the bands of a "
-           "GeoTIFF, georeferenced if the map was (docs/exchange.md).")
+           "GeoTIFF, then the mode that serves each place if the plan has several; georeferenced "
+           "if the map was (docs/exchange.md).")
       .def("_repr_png_",
            [](const HeldCertificate& held) {
              return py::bytes(picture(held, VerdictMapOptions{}.headings, "").png);

@@ -40,6 +40,20 @@ void bind_plan(py::module_& m) {
           "float32 [ny, nx]: commanded heading, radians counter-clockwise from east, in (-pi, pi]; "
           "NaN: no command, the cell is crossed straight.")
       .def_property_readonly(
+          "mode_heading_rad",
+          [](const py::object& self) {
+            const Plan& plan = self.cast<const HeldPlan&>().plan;
+            constexpr auto size = static_cast<py::ssize_t>(sizeof(float));
+            const py::ssize_t nx = plan.grid.nx;
+            const py::ssize_t ny = plan.grid.ny;
+            return view(plan.mode_heading_rad.data(),
+                        {static_cast<py::ssize_t>(plan.further_modes()), ny, nx},
+                        {ny * nx * size, nx * size, size}, self);
+          },
+          "float32 [modes, ny, nx]: the commands of the modes after the first, as heading_rad "
+          "(docs/modes.md); [0, ny, nx] for a plan with one mode. record[\"modes\"] tells how "
+          "each was made.")
+      .def_property_readonly(
           "cost_m",
           [](const py::object& self) { return array_of<float, float>(self, &Plan::cost_m); },
           "float32 [ny, nx]: cost to go, metres; +inf where the goal cannot be reached.")
@@ -98,8 +112,8 @@ void bind_plan(py::module_& m) {
             write_plan_raster(p.plan, path, force ? Existing::replace : Existing::keep);
           },
           "path"_a, py::kw_only(), "force"_a = true,
-          "Writes heading, cost and region as the bands of a GeoTIFF, georeferenced if the map was "
-          "(docs/exchange.md).")
+          "Writes heading, cost and region as the bands of a GeoTIFF, and the headings of further "
+          "modes, georeferenced if the map was (docs/exchange.md).")
       .def(
           "states_from_deg",
           [](const HeldPlan& p, const py::object& rows) {

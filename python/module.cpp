@@ -46,6 +46,7 @@ void translate(std::exception_ptr thrown) {
 }  // namespace
 
 void bind_picture(py::module_& m);
+void bind_modes(py::module_& m);
 void bind_contract_certificate(py::module_& m);
 void bind_cellular(py::module_& m);
 void bind_bitmap(py::module_& m);
@@ -71,6 +72,7 @@ PYBIND11_MODULE(_fairway, m) {
   bind_field(m);
   bind_simulate(m);
   bind_certificate(m);  // before verify, whose answer it is
+  bind_modes(m);
   bind_contract_certificate(m);
   bind_verify(m);
   bind_cellular(m);

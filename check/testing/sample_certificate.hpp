@@ -31,8 +31,11 @@ inline void write_sample(const fairway::Plan& plan, const std::filesystem::path&
   c.region = plan.region;
   c.kind = fairway::cell_kinds(plan.grid, plan.region, {});
   const fairway::PlanFlow loop(plan);
-  fairway::Certified proved = fairway::certify(loop.flow(), loop.is_free, options);
+  fairway::Certified proved =
+      fairway::certify(loop.flow(), loop.is_free, options, {}, {}, plan.further_rad());
   c.sections = std::move(proved.sections);
+  c.mode_heading_rad = plan.mode_heading_rad;
+  c.mode_sections = std::move(proved.further);
   json record{{"program", "test"},
               {"samples", proved.volume.samples},
               {"worst_time_s", proved.volume.worst_time_s}};
@@ -45,6 +48,7 @@ inline void write_sample(const fairway::Plan& plan, const std::filesystem::path&
   claim("volume_fraction", proved.volume.all);
   claim("volume_fraction_free", proved.volume.free);
   claim("volume_fraction_buffer", proved.volume.buffer);
+  if (plan.further_modes() > 0) record["reach_by_mode"] = proved.volume.reach_by_mode;
   c.plan = fairway::plan_digests(plan);
   c.frame = plan.record.frame;
   c.evidence_json = record.dump();

@@ -67,8 +67,9 @@ struct TakenApart {
   /// With digests of the current content.
   void sign() {
     for (const auto& [name, bytes] : arrays) record["sha256"][name] = sha256(bytes);
-    for (const char* name : {"heading_rad", "region"})
-      record["plan_sha256"][name] = record["sha256"][name];
+    for (const char* name : {"heading_rad", "region", "mode_heading_rad"}) {
+      if (arrays.contains(name)) record["plan_sha256"][name] = record["sha256"][name];
+    }
   }
   std::string file() const {
     nlohmann::json now = header;

@@ -11,6 +11,7 @@
 #include "fairway/app/command.hpp"
 #include "fairway/app/places.hpp"
 #include "fairway/base/error.hpp"
+#include "fairway/base/share_text.hpp"
 #include "fairway/bitmap/bitmap_file.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/certificate/contract_certificate_file.hpp"
@@ -74,7 +75,8 @@ Exported export_product(const ExportArguments& a, const std::vector<Heading>& he
     const Frame frame = certificate.frame.value_or(Frame{});
     write_verdict_raster(certificate.grid, frame, verdict_layers(certificate, headings), a.output,
                          existing);
-    return {"verdicts", layers_words("the verdicts", headings.size()), frame};
+    const char* what = certificate.further_modes() > 0 ? "the verdicts and modes" : "the verdicts";
+    return {"verdicts", layers_words(what, headings.size()), frame};
   }
   if (kind == ProductKind::contract_certificate) {
     const ContractCertificate certificate = read_contract_certificate(a.product);
@@ -96,6 +98,10 @@ Exported export_product(const ExportArguments& a, const std::vector<Heading>& he
   write_plan_raster(plan, a.output, existing);
   Exported of_plan;
   of_plan.frame = frame_in(plan.record);
+  if (plan.further_modes() > 0) {
+    of_plan.words = fmt::format("heading, cost and region of the plan, and the headings of {}",
+                                plural(plan.further_modes(), "further mode"));
+  }
   return of_plan;
 }
 
@@ -159,9 +165,11 @@ Action declare_export(CLI::App& options) {
       ->check(heading_argument())
       ->allow_extra_args(false);
   options.footer(fmt::format(
-      "A plan becomes the bands heading_rad, cost_m and region; a certificate, one band of\n"
-      "verdicts for each heading: {},\n"
-      "and of a contract certificate {} at_risk (some milliseconds a cell that is undecided);\n"
+      "A plan becomes the bands heading_rad, cost_m and region, and one for the commands of each\n"
+      "further mode; a certificate, one band of verdicts for each heading:\n"
+      "{},\n"
+      "and, if the plan has further modes, as many bands of the mode that serves each place;\n"
+      "a contract certificate has {} at_risk, too (some milliseconds a cell that is undecided);\n"
       "a bitmap, one band of sampled answers for each heading: 0 undecided, 1 sampled_reach,\n"
       "2 sampled_other. QGIS shows them all at the map's place.\n"
       "Example: fairway export out/demo/plan.safetensors -o demo.tif",

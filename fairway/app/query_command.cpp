@@ -42,6 +42,7 @@ struct QueryArguments {
 struct Answer {
   const char* word = "";
   std::optional<double> time_bound_s;
+  std::optional<int> mode = {};  ///< where the plan has several
 };
 
 std::vector<Answer> answers_of(const runtime::Certificate& certificate,
@@ -53,6 +54,7 @@ std::vector<Answer> answers_of(const runtime::Certificate& certificate,
       const auto found = certificate.query(s.position_m.x, s.position_m.y, s.heading.rad());
       answers[i].word = name_of(found.verdict);
       if (found.verdict == Verdict::reach) answers[i].time_bound_s = found.time_bound_s;
+      if (certificate.modes() > 1) answers[i].mode = found.mode;
     }
   });
   return answers;
@@ -68,7 +70,7 @@ std::vector<Answer> answers_of(const Bitmap& bitmap, const std::vector<State>& s
 
 void tell(const QueryArguments& a, const char* kind, const Frame& frame,
           const std::vector<State>& states, const std::vector<Answer>& answers,
-          const Session& session) {
+          const Session& session, bool has_modes = false) {
   if (session.json) {
     json all = json::array();
     std::optional<EarthFrame> earth;
@@ -80,19 +82,22 @@ void tell(const QueryArguments& a, const char* kind, const Frame& frame,
                      {"heading_rad", states[i].heading.rad()},
                      {"verdict", answers[i].word},
                      {"time_bound_s", bound_s ? json(*bound_s) : json()}});
+      if (answers[i].mode) all.back()["mode"] = *answers[i].mode;
       if (earth) add_degrees(all.back(), states[i], *earth);
     }
     session.tell({{kind, a.certificate.string()}, {"states", std::move(all)}}, "");
     return;
   }
   fmt::memory_buffer text;
-  fmt::format_to(std::back_inserter(text), "x_m,y_m,heading_rad,verdict,time_bound_s\n");
+  fmt::format_to(std::back_inserter(text), "x_m,y_m,heading_rad,verdict,time_bound_s{}\n",
+                 has_modes ? ",mode" : "");
   for (std::size_t i = 0; i < states.size(); ++i) {
     fmt::format_to(std::back_inserter(text), "{},{},{},{},", states[i].position_m.x,
                    states[i].position_m.y, states[i].heading.rad(), answers[i].word);
     if (const auto& bound_s = answers[i].time_bound_s) {
       fmt::format_to(std::back_inserter(text), "{}", *bound_s);
     }
+    if (has_modes) fmt::format_to(std::back_inserter(text), ",{}", answers[i].mode.value_or(0));
     text.push_back('\n');
   }
   print({text.data(), text.size()});
@@ -164,7 +169,8 @@ int query_command(const QueryArguments& a, const Session& session) {
     throw InputError(a.certificate.string(), "is not a certificate");
   }
   const std::vector<State> states = states_of(a, certificate.flow().grid, frame, session);
-  tell(a, "certificate", frame, states, answers_of(certificate, states), session);
+  tell(a, "certificate", frame, states, answers_of(certificate, states), session,
+       certificate.modes() > 1);
   return exit_done;
 }
 
@@ -192,10 +198,11 @@ Action declare_query(CLI::App& options) {
   });
   options.footer(
       "Prints CSV x_m,y_m,heading_rad,verdict,time_bound_s (the bound is empty unless the verdict\n"
-      "is reach). A certificate gives proved verdicts. A bitmap gives what its samples show at "
-      "the\n"
-      "first border that the state's flight meets: sampled_reach, sampled_other, or undecided\n"
-      "where they disagree. That is a picture, not a proof.\n"
+      "is reach). A certificate gives proved verdicts; if its plan has further modes, a sixth\n"
+      "column, mode, names the one to fly: the first that is proved to reach, 0 where none is.\n"
+      "A bitmap gives what its samples show at the first border that the state's flight meets:\n"
+      "sampled_reach, sampled_other, or undecided where they disagree. That is a picture, not a\n"
+      "proof.\n"
       "Example: fairway query demo.cert.safetensors --state 100,100,90deg");
   return [arguments](const Session& session) { return query_command(*arguments, session); };
 }

@@ -11,6 +11,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/exchange/write_geotiff.hpp"
+#include "fairway/vehicle/modes.hpp"
 
 namespace fairway {
 
@@ -25,10 +26,15 @@ void write_plan_raster(const Plan& plan, const std::filesystem::path& path, Exis
   constexpr const char* heading_meaning =
       "heading to steer, radians counter-clockwise from the grid's x axis (east unless the grid is "
       "rotated); no value: no command";
-  const std::vector<RasterBand> bands{
+  std::vector<RasterBand> bands{
       {"heading_rad", "rad", heading_meaning, plan.heading_rad},
       {"cost_m", "m", "cost to go, metres; no value: the goal cannot be reached", cost_m},
       {"region", "", "0 free (safe start), 1 obstacle, -1 buffer, 2 goal", region}};
+  const std::span<const float> further(plan.mode_heading_rad);
+  for (std::size_t mode = 1; mode <= plan.further_modes(); ++mode) {
+    const auto field = further.subspan((mode - 1) * plan.grid.size(), plan.grid.size());
+    bands.push_back({fmt::format("heading_rad of mode {}", mode), "rad", heading_meaning, field});
+  }
   write_geotiff(plan.grid, frame_in(plan.record), bands, path, existing);
 }
 
@@ -64,6 +70,14 @@ void write_verdict_raster(const Grid& grid, const Frame& frame,
         band_of("verdict", layer.heading,
                 "what is proved for a vehicle there: " + codes_text<Verdict>(verdict_count),
                 layer.verdict));
+  }
+  static_assert(no_mode == no_value_byte);
+  for (const VerdictLayer& layer : layers) {
+    if (layer.mode.empty()) continue;
+    bands.push_back(band_of("mode", layer.heading,
+                            "the first mode of the plan that is proved to reach from there; no "
+                            "value: none is",
+                            layer.mode));
   }
   write_geotiff(grid, frame, bands, path, existing);
 }

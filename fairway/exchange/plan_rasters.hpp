@@ -16,17 +16,20 @@
 
 namespace fairway {
 
-/// Bands heading (rad), cost (m), region (code), as floats. No command, no way to the goal: no
-/// value.
+/// Bands heading (rad), cost (m), region (code), as floats, then the heading of each further mode.
+/// No command, no way to the goal: no value.
 void write_plan_raster(const Plan& plan, const std::filesystem::path& path, Existing existing);
 
 /// The verdicts of a grid at one heading, [iy][ix].
 struct VerdictLayer {
   Heading heading;
   std::vector<Verdict> verdict;
+  /// The first mode that is proved to reach, no_mode where none is; empty: the plan has one mode.
+  std::vector<std::uint8_t> mode = {};
 };
 
-/// A band of bytes for each layer, at least one: the verdicts by code.
+/// A band of bytes for each layer, at least one: the verdicts by code. After these, in the same
+/// order, a band of modes for each layer that has them.
 void write_verdict_raster(const Grid& grid, const Frame& frame,
                           std::span<const VerdictLayer> layers, const std::filesystem::path& path,
                           Existing existing);

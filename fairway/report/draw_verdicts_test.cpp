@@ -9,7 +9,9 @@
 #include "fairway/base/error.hpp"
 #include "fairway/base/heading.hpp"
 #include "fairway/base/random.hpp"
+#include "fairway/report/draw_modes.hpp"
 #include "fairway/report/map_panels.hpp"
+#include "fairway/report/mode_style.hpp"
 #include "fairway/report/testing/reading_pictures.hpp"
 #include "fairway/report/verdict_style.hpp"
 
@@ -320,6 +322,87 @@ TEST(DrawVerdicts, CallerMistakesAreReported) {
   without = stripes();
   without.states_per_sample = 0;
   EXPECT_THROW(static_cast<void>(draw_proved_shares(without, {})), PreconditionViolation);
+}
+
+/// Columns served by modes 0 to 3, two each; the last two by none.
+VerdictMap served_by_columns() {
+  VerdictMap map = map_of(10, 10, 2, with_rock_and_goal, [](int, int ix, int) {
+    return ix < 8 ? Verdict::reach : Verdict::collide;
+  });
+  map.modes = 5;
+  for (std::size_t k = 0; k < map.verdict.size(); ++k) {
+    const bool reaches = map.verdict[k] == Verdict::reach;
+    map.mode.push_back(reaches ? static_cast<std::uint8_t>(k % 10 / 2) : no_mode);
+  }
+  return map;
+}
+
+const std::vector<ModeRecord> four_modes{
+    {"direction", 0.0}, {"direction", pi / 2}, {"turning_places", {}}, {"direction", -pi / 4}};
+
+TEST(DrawModes, PaintsEachStateByTheModeThatServesIt) {
+  const VerdictMap map = served_by_columns();
+  const auto looks = mode_looks(map.modes, four_modes);
+  ASSERT_EQ(looks.size(), 5U);
+  const Picture picture = draw_modes(map, looks, {.title = "M", .panel_pt = 300.0});
+  const auto png = read_png(picture.png);
+  for (int ix = 0; ix < 8; ++ix) {
+    const Color painted = color_at(png, map, 300.0, {ix + 0.25, 2.5});
+    int same = 0;
+    int own = 0;
+    for (int dy = 1; dy < 8; ++dy) {  // most of a cell is ground, whatever its pattern
+      const Color c = color_at(png, map, 300.0, {ix + 0.5, 2.0 + dy / 8.0});
+      own += c == looks[static_cast<std::size_t>(ix / 2)].style.ground ? 1 : 0;
+      same += c == painted ? 1 : 0;
+    }
+    EXPECT_GT(own, 2) << ix << " " << same;
+  }
+  for (const char* words :
+       {"mode 0: the plan's own", "mode 1: on towards 0 degrees", "mode 2: on towards 90 degrees",
+        "mode 3: turning places", "no mode is proved to reach"}) {
+    EXPECT_TRUE(has_text(picture.svg, words)) << words;
+  }
+  EXPECT_FALSE(has_text(picture.svg, looks[4].name)) << "it serves no state";
+  // Of 10 x 10 samples 1 is a rock, 4 are the goal, all of them served by none.
+  EXPECT_TRUE(has_text(picture.svg, "62.1 % by further modes"));
+}
+
+TEST(DrawModes, OfAPlanWithoutModesIsWhatReaches) {
+  VerdictMap map = served_by_columns();
+  map.mode.clear();
+  map.modes = 1;
+  const Picture picture = draw_modes(map, mode_looks(1, {}), {.title = "M"});
+  EXPECT_TRUE(has_text(picture.svg, "mode 0: the plan's own"));
+  EXPECT_TRUE(has_text(picture.svg, "0 % by further modes"));
+}
+
+TEST(DrawModes, RejectsLooksAndModesThatDoNotFit) {
+  VerdictMap map = served_by_columns();
+  EXPECT_THROW((void)draw_modes(map, mode_looks(4, four_modes), {}), PreconditionViolation);
+  map.mode[0] = 5;
+  EXPECT_THROW((void)draw_modes(map, mode_looks(5, four_modes), {}), PreconditionViolation);
+  map.mode.pop_back();
+  EXPECT_THROW((void)draw_modes(map, mode_looks(5, four_modes), {}), PreconditionViolation);
+}
+
+TEST(ModeLooks, AreHuesOfDirectionsAndNeighboursDifferInPattern) {
+  std::vector<ModeRecord> records;
+  for (int k = 0; k < 8; ++k) records.push_back({"direction", pi / 4 * k});
+  const auto looks = mode_looks(9, records);
+  for (std::size_t a = 1; a < looks.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      EXPECT_FALSE(looks[a].style.ground == looks[b].style.ground) << a << " " << b;
+    }
+    const VerdictStyle& one = looks[a].style;
+    const VerdictStyle& last = looks[a - 1].style;
+    EXPECT_FALSE(a > 1 && one.rising == last.rising && one.falling == last.falling) << a;
+  }
+  // A whole turn more is the same direction; a record may lack some.
+  records[2].direction_rad = *records[2].direction_rad - two_pi;
+  EXPECT_EQ(mode_looks(9, records)[3].name, looks[3].name);
+  EXPECT_EQ(looks[3].name, "mode 3: on towards 90 degrees");
+  EXPECT_EQ(mode_looks(3, {}).size(), 3U);
+  EXPECT_EQ(mode_looks(3, {})[2].name, "mode 2");
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "fairway/base/error.hpp"
 #include "fairway/base/markup_text.hpp"
 #include "fairway/report/color.hpp"
+#include "fairway/report/mode_style.hpp"
 #include "fairway/report/outcome_style.hpp"
 #include "fairway/report/page_arrays.hpp"
 #include "fairway/report/page_frame.hpp"
@@ -162,6 +163,15 @@ json record_of(const PageContent& content) {
       {"words", content.words},
       {"assumptions", content.assumptions},
       {"summary", json::parse(content.summary_json)}};
+  if (content.verdicts != nullptr && !content.verdicts->mode.empty()) {
+    json looks = json::array();
+    for (const ModeLook& look : mode_looks(content.verdicts->modes, content.plan.record.modes)) {
+      looks.push_back(style_json(look.name.c_str(), look.style));
+    }
+    record["styles"]["mode"] = std::move(looks);
+    record["styles"]["no_mode"] = style_json("no mode is proved to reach", no_mode_style());
+    record["codes"]["no_mode"] = no_mode;
+  }
   if (content.contract_verdicts != nullptr) {
     record["contract_verdicts"] =
         json::parse(page_verdicts_json(*content.contract_verdicts, content.witnesses));
@@ -201,7 +211,10 @@ std::string inert(const json& value) {
 std::string page_html(const PageContent& content, std::string_view html) {
   PagePayload payload;
   add_plan_arrays(content.plan, payload);
-  if (content.verdicts != nullptr) add_verdict_arrays(*content.verdicts, payload);
+  if (content.verdicts != nullptr) {
+    add_verdict_arrays(*content.verdicts, payload);
+    add_mode_arrays(*content.verdicts, content.plan, payload);
+  }
   if (content.contract_verdicts != nullptr) {
     const VerdictMap& map = *content.contract_verdicts;
     add_verdict_arrays(map, payload, "contract_verdict", content.witnesses);

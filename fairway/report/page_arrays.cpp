@@ -138,6 +138,14 @@ std::uint16_t page_turn_code(double heading_rad) {
   return static_cast<std::uint16_t>(std::lround((turns < 0.0 ? turns + 1.0 : turns) * none) % none);
 }
 
+std::uint8_t page_mode_turn_code(double heading_rad) {
+  constexpr int no_command = 255;
+  if (!std::isfinite(heading_rad)) return no_command;
+  const double turns = heading_rad / two_pi;
+  const long code = std::lround((turns - std::floor(turns)) * no_command);
+  return static_cast<std::uint8_t>(code % no_command);
+}
+
 void add_plan_arrays(const Plan& plan, PagePayload& payload) {
   const Grid& g = plan.grid;
   require(plan.heading_rad.size() == g.size() && plan.cost_m.size() == g.size() &&
@@ -214,6 +222,34 @@ void add_verdict_arrays(const VerdictMap& map, PagePayload& payload, const std::
   payload.add(name + "_count",
               {verdict_count, static_cast<std::size_t>(map.ny), static_cast<std::size_t>(map.nx)},
               std::span<const std::uint8_t>(count));
+}
+
+void add_mode_arrays(const VerdictMap& map, const Plan& plan, PagePayload& payload) {
+  if (map.mode.empty()) return;
+  require(
+      map.kind.size() == map.samples() && map.mode.size() == map.heading_rad.size() * map.samples(),
+      "a verdict map's arrays fit its samples and headings");
+  const auto nx = static_cast<std::size_t>(map.nx);
+  const auto ny = static_cast<std::size_t>(map.ny);
+  std::vector<std::uint8_t> code(map.mode.size());
+  for (std::size_t k = 0; k < code.size(); ++k) {
+    const CellKind kind = map.kind[k % map.samples()];
+    code[k] = kind == CellKind::obstacle ? page_obstacle
+              : kind == CellKind::target ? page_target
+                                         : map.mode[k];
+  }
+  payload.add_layers("mode", {map.heading_rad.size(), ny, nx}, code);
+  const std::size_t further = plan.further_modes();
+  require(further + 1 == static_cast<std::size_t>(map.modes), "the verdicts are the plan's");
+  std::vector<std::uint8_t> heading(further * map.samples());
+  for (std::size_t mode = 0; mode < further; ++mode) {
+    const float* field = plan.mode_heading_rad.data() + mode * plan.grid.size();
+    for (std::size_t i = 0; i < map.samples(); ++i) {
+      const auto rad = static_cast<double>(field[plan.grid.index(map.cell_of_sample(i))]);
+      heading[mode * map.samples() + i] = page_mode_turn_code(rad);
+    }
+  }
+  payload.add_layers("mode_heading", {further, ny, nx}, heading);
 }
 
 void add_flight_arrays(const PageContent& content, PagePayload& payload) {

@@ -8,6 +8,7 @@
 #include "fairway/report/page.hpp"
 #include "fairway/report/page_payload.hpp"
 #include "fairway/report/page_witnesses.hpp"
+#include "fairway/vehicle/modes.hpp"
 #include "fairway/verify/verdict.hpp"
 
 namespace fairway {
@@ -30,7 +31,7 @@ inline constexpr std::uint8_t page_obstacle = 250;
 inline constexpr std::uint8_t page_target = 249;
 /// Undecided, and a behaviour within the contract is known that fails.
 inline constexpr std::uint8_t page_at_risk = 248;
-static_assert(verdict_count <= page_at_risk);
+static_assert(verdict_count <= page_at_risk && most_modes <= page_at_risk);
 
 /// `tube_*`: the outline of the proved tube about the path.
 void add_tube_arrays(const FollowProof& proof, const Grid& grid, PagePayload& payload);
@@ -40,6 +41,14 @@ void add_tube_arrays(const FollowProof& proof, const Grid& grid, PagePayload& pa
 void add_verdict_arrays(const VerdictMap& map, PagePayload& payload,
                         const std::string& name = "verdict",
                         const PageWitnesses* witnesses = nullptr);
+
+/// Of a plan with several modes: `mode` [headings][ny][nx], the first mode that is proved to reach,
+/// 255 where none is, page_obstacle or page_target; `mode_heading` [modes after the first][ny][nx],
+/// their commands at the samples (page_mode_turn_code). Nothing when the map has no modes.
+void add_mode_arrays(const VerdictMap& map, const Plan& plan, PagePayload& payload);
+
+/// A heading in 255ths of a turn, below 255; 255: no command.
+[[nodiscard]] std::uint8_t page_mode_turn_code(double heading_rad);
 
 /// A heading in 65535ths of a turn, below 65535.
 [[nodiscard]] std::uint16_t page_turn_code(double heading_rad);

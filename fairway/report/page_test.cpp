@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -257,6 +258,64 @@ TEST(Page, EveryVerdictLayerIsThatOfTheMap) {
   const Vec2 middle = map.grid.center(map.cell_of_sample(17));
   EXPECT_NEAR(info["offset_m"][0].get<double>(), place.x - middle.x, 1e-9);
   EXPECT_NEAR(info["offset_m"][1].get<double>(), place.y - middle.y, 1e-9);
+}
+
+TEST(Page, OfAPlanWithModesTellsWhichServesEachSampleAndWhatItCommands) {
+  Plan plan = island_plan({14, 12, -3.0, 5.0, 6.0}, {60.0, 40.0}, {4, 6});
+  VerdictMap map = verdicts_of(plan);
+  const std::string without = page_html({"t", plan, goal, {}, &map}, bare);
+  EXPECT_FALSE(arrays_of(without).header.contains("mode"));
+  EXPECT_FALSE(record_of(without)["verdicts"].contains("mode_count"));
+  EXPECT_FALSE(record_of(without)["styles"].contains("mode"));
+
+  Random random = Random::stream(4, 0);
+  map.modes = 3;
+  for (std::size_t k = 0; k < map.verdict.size(); ++k) {
+    const bool serves =
+        map.kind[k % map.samples()] == CellKind::ordinary && map.verdict[k] == Verdict::reach;
+    map.mode.push_back(serves ? static_cast<std::uint8_t>(random.below(3)) : no_mode);
+  }
+  for (std::size_t i = 0; i < 2 * plan.grid.size(); ++i) {
+    plan.mode_heading_rad.push_back(random.below(5) == 0
+                                        ? std::numeric_limits<float>::quiet_NaN()
+                                        : Heading::stored(random.uniform(-pi, pi)));
+  }
+  plan.record.modes = {{"direction", 0.0}, {"<b>", {}}};
+  const std::string page = page_html({"t", plan, goal, {}, &map}, bare);
+  const Decoded arrays = arrays_of(page);
+  const json record = record_of(page);
+  ASSERT_EQ(record["styles"]["mode"].size(), 3U);
+  EXPECT_EQ(record["styles"]["mode"][1]["words"], "mode 1: on towards 0 degrees");
+  EXPECT_EQ(page.find("<b>"), std::string::npos);
+  EXPECT_EQ(record["codes"]["no_mode"], no_mode);
+  for (std::size_t h = 0; h < 3; ++h) {
+    const auto layer = arrays.array<std::uint8_t>("mode", h);
+    ASSERT_EQ(layer.size(), map.samples());
+    std::array<std::size_t, 3> seen{};
+    for (std::size_t i = 0; i < layer.size(); ++i) {
+      if (map.kind[i] != CellKind::ordinary) {
+        EXPECT_EQ(layer[i], map.kind[i] == CellKind::obstacle ? page_obstacle : page_target);
+        continue;
+      }
+      EXPECT_EQ(layer[i], map.mode[h * map.samples() + i]);
+      if (layer[i] != no_mode) ++seen[layer[i]];
+    }
+    EXPECT_EQ(record["verdicts"]["mode_count"][h], json(seen));
+  }
+  for (std::size_t mode = 0; mode < 2; ++mode) {
+    const auto layer = arrays.array<std::uint8_t>("mode_heading", mode);
+    ASSERT_EQ(layer.size(), plan.grid.size());
+    for (std::size_t i = 0; i < layer.size(); ++i) {
+      const float rad = plan.mode_heading_rad[mode * plan.grid.size() + i];
+      EXPECT_EQ(layer[i] == 255, std::isnan(rad));
+      if (layer[i] == 255) continue;
+      const double told = two_pi * layer[i] / 255.0;
+      EXPECT_LT(std::abs(Heading::from_rad(told).turn_to(Heading::from_rad(rad))),
+                1.001 * pi / 255.0);
+    }
+  }
+  plan.mode_heading_rad.resize(plan.grid.size());
+  EXPECT_THROW((void)page_html({"t", plan, goal, {}, &map}, bare), PreconditionViolation);
 }
 
 TEST(Page, VerdictsUnderAContractAreASecondLayerAndWithoutThemNothingChanges) {

@@ -2,12 +2,29 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 namespace fairway {
+namespace {
+
+/// [heading][mode]: how many samples each mode serves.
+std::vector<std::vector<std::size_t>> mode_counts(const VerdictMap& map) {
+  std::vector<std::vector<std::size_t>> counts(
+      map.heading_rad.size(), std::vector<std::size_t>(static_cast<std::size_t>(map.modes)));
+  for (std::size_t h = 0; h < counts.size(); ++h) {
+    for (std::size_t i = 0; i < map.samples(); ++i) {
+      const std::uint8_t mode = map.mode_at(h, i);
+      if (map.kind[i] == CellKind::ordinary && mode < counts[h].size()) ++counts[h][mode];
+    }
+  }
+  return counts;
+}
+
+}  // namespace
 
 std::string page_verdicts_json(const VerdictMap& map, const PageWitnesses* witnesses) {
   using nlohmann::json;
@@ -29,6 +46,7 @@ std::string page_verdicts_json(const VerdictMap& map, const PageWitnesses* witne
                {"heading_rad", map.heading_rad},
                {"offset_m", {offset.x, offset.y}},
                {"count", std::move(counts)}};
+  if (!map.mode.empty()) info["mode_count"] = mode_counts(map);
   if (witnesses != nullptr) {
     std::vector<std::size_t> at_risk(map.heading_rad.size());
     for (std::size_t k = 0; k < witnesses->at_risk.size(); ++k) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "fairway/base/parallel.hpp"
+#include "fairway/vehicle/modes.hpp"
 #include "fairway/verify/verdict_map.hpp"
 
 namespace fairway {
@@ -32,19 +33,39 @@ std::vector<State> states_asked_at(const Grid& grid, Heading heading) {
   return states;
 }
 
-std::vector<Verdict> verdicts_at(const Certificate& certificate, Heading heading) {
+namespace {
+
+/// What is known beside the cells' middles.
+VerdictLayer layer_at(const Certificate& certificate, Heading heading) {
   const std::vector<runtime::Answer> answers =
       ask(certificate, states_asked_at(certificate.grid, heading));
-  std::vector<Verdict> verdicts(answers.size());
-  for (std::size_t i = 0; i < verdicts.size(); ++i) verdicts[i] = answers[i].verdict;
-  return verdicts;
+  VerdictLayer layer{heading, {}, {}};
+  layer.verdict.reserve(answers.size());
+  layer.mode.reserve(answers.size());
+  for (const runtime::Answer& answer : answers) {
+    const bool reaches = answer.verdict == Verdict::reach;
+    layer.verdict.push_back(answer.verdict);
+    layer.mode.push_back(reaches ? static_cast<std::uint8_t>(answer.mode) : no_mode);
+  }
+  return layer;
+}
+
+}  // namespace
+
+std::vector<Verdict> verdicts_at(const Certificate& certificate, Heading heading) {
+  return layer_at(certificate, heading).verdict;
+}
+
+std::vector<std::uint8_t> modes_at(const Certificate& certificate, Heading heading) {
+  return layer_at(certificate, heading).mode;
 }
 
 std::vector<VerdictLayer> verdict_layers(const Certificate& certificate,
                                          std::span<const Heading> headings) {
   std::vector<VerdictLayer> layers;
   for (const Heading heading : headings) {
-    layers.push_back({heading, verdicts_at(certificate, heading)});
+    layers.push_back(layer_at(certificate, heading));
+    if (certificate.further_modes() == 0) layers.back().mode.clear();
   }
   return layers;
 }

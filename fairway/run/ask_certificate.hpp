@@ -4,6 +4,7 @@
 // Cost: about a microsecond per state and core.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -24,9 +25,14 @@ namespace fairway {
 /// volume. In an obstacle: collide; in the goal: reach.
 [[nodiscard]] std::vector<Verdict> verdicts_at(const Certificate& certificate, Heading heading);
 
-/// verdicts_at() each of the headings.
+/// verdicts_at() each of the headings; of a plan with several modes also the one that serves a
+/// state.
 [[nodiscard]] std::vector<VerdictLayer> verdict_layers(const Certificate& certificate,
                                                        std::span<const Heading> headings);
+
+/// [iy][ix]: the first mode that is proved to reach from the states of verdicts_at(), no_mode where
+/// none is and in obstacles; in the goal 0.
+[[nodiscard]] std::vector<std::uint8_t> modes_at(const Certificate& certificate, Heading heading);
 
 /// The states that verdicts_at() asks for, [iy][ix].
 [[nodiscard]] std::vector<State> states_asked_at(const Grid& grid, Heading heading);

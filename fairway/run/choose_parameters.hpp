@@ -30,6 +30,7 @@ namespace fairway {
 struct OpenParameters {
   bool alpha = false;
   bool sigma_cells = false;
+  bool modes = false;
 };
 
 /// What is tried, the paper's first, each different; `asked` alone where nothing is open.

@@ -17,6 +17,7 @@
 #include "fairway/exchange/plan_rasters.hpp"
 #include "fairway/exchange/qgc_mission.hpp"
 #include "fairway/exchange/track.hpp"
+#include "fairway/field/direction_field.hpp"
 #include "fairway/map/degrees_from_frame.hpp"
 #include "fairway/map/frame_from_degrees.hpp"
 #include "fairway/map/read_map.hpp"
@@ -132,6 +133,57 @@ TEST_F(Exchange, VerdictsAtAHeadingAreQueriesOfItsStates) {
     EXPECT_EQ(plan.grid.index(plan.grid.cell_of(asked)), i);
     if (i == 100) break;  // the places are alike
   }
+}
+
+/// With further modes in eight directions.
+Plan plan_with_modes() {
+  Plan plan = plan_on(walled({}));
+  for (int k = 0; k < 8; ++k) {
+    const double direction_rad = two_pi * k / 8;
+    const auto field = direction_field(plan.grid, plan.region, direction_rad, 16.0);
+    plan.mode_heading_rad.insert(plan.mode_heading_rad.end(), field.begin(), field.end());
+    plan.record.modes.push_back({"direction", direction_rad});
+  }
+  return plan;
+}
+
+TEST_F(Exchange, CommandsOfFurtherModesAreBandsAfterThePlansOwn) {
+  const Plan plan = plan_with_modes();
+  write_plan_raster(plan, folder_.file("p.tif"), Existing::keep);
+  const std::vector<ReadBand> bands = bands_of(folder_.file("p.tif"), plan.grid);
+  ASSERT_EQ(bands.size(), 3U + 8U);
+  EXPECT_TRUE(same_bits(bands[0].values, plan.heading_rad));
+  for (std::size_t k = 0; k < 8; ++k) {
+    const float* field = plan.further_rad()[k];
+    EXPECT_TRUE(same_bits(bands[3 + k].values, {field, field + plan.grid.size()}));
+  }
+  EXPECT_EQ(bands[3].name, "heading_rad of mode 1");
+}
+
+TEST_F(Exchange, TheModesThatServeAreBandsAfterTheVerdicts) {
+  const Plan plan = plan_with_modes();
+  CertifyOptions options;
+  options.undecided_max = 0.1;
+  options.samples = 1000;
+  const Certificate certificate = verify_plan(plan, "plan", {}, options).certificate;
+  ASSERT_EQ(certificate.further_modes(), 8);
+  const std::vector<Heading> headings = even_headings(4);
+  write_verdict_raster(plan.grid, {}, verdict_layers(certificate, headings), folder_.file("v.tif"),
+                       Existing::keep);
+  const std::vector<ReadBand> bands = bands_of(folder_.file("v.tif"), plan.grid);
+  ASSERT_EQ(bands.size(), 8U);
+  EXPECT_EQ(bands[4].name, "mode at heading 0 rad");
+  std::size_t by_further = 0;
+  for (std::size_t h = 0; h < 4; ++h) {
+    const auto answers = ask(certificate, states_asked_at(plan.grid, headings[h]));
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      const bool reaches = answers[i].verdict == Verdict::reach;
+      ASSERT_EQ(bands[h].values[i], static_cast<float>(answers[i].verdict));
+      ASSERT_EQ(bands[4 + h].values[i], reaches ? static_cast<float>(answers[i].mode) : 255.0F);
+      by_further += answers[i].mode > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(by_further, 0U);
 }
 
 TEST_F(Exchange, MissionsReadBackAsLinesWithinTheToleranceOfTheFlight) {

@@ -52,6 +52,11 @@ std::vector<Place> candidates(const Certificate& certificate, std::uint64_t seed
   return states;
 }
 
+bool is_brought_by_a_further_mode(const Certificate& certificate, const Place& s) {
+  return certificate.further_modes() > 0 &&
+         ask_all_modes(certificate.view(), s.x_m, s.y_m, s.heading_rad).verdict == Verdict::reach;
+}
+
 }  // namespace
 
 std::vector<FailingState> failing_states(const Certificate& certificate, std::size_t of_each,
@@ -70,6 +75,7 @@ std::vector<FailingState> failing_states(const Certificate& certificate, std::si
     if (is_safe(verdict) || !certificate.grid.contains(at)) continue;
     const std::size_t cell = certificate.grid.index(at);
     if (certificate.kind[cell] != CellKind::ordinary) continue;
+    if (is_brought_by_a_further_mode(certificate, states[k])) continue;
     const StartGround ground = ground_of(certificate, cell);
     auto& alike = found[static_cast<std::size_t>(ground)][static_cast<std::size_t>(verdict)];
     if (alike.size() < of_each) alike.push_back({start, verdict, ground, k < flown.size()});

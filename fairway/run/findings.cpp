@@ -104,6 +104,11 @@ std::vector<Finding> findings(const Plan& plan, const Verification& v) {
   const auto& counted = of_usable ? volume.usable : volume.all;
   const char* of = of_usable ? usable_states : all_states;
   std::vector<Finding> found{line(counted, Verdict::reach, of)};
+  if (const std::size_t modes = volume.reach_by_mode.size(); modes > 1 && !of_usable) {
+    found.push_back({percent_text(volume.reach_by_mode.front(), decimals), of,
+                     fmt::format("do so by the plan's own field, the rest by {}",
+                                 plural(modes - 1, "further mode"))});
+  }
   if (is_goal) {
     for (Finding& finding : plan_findings(plan)) found.push_back(std::move(finding));
   }

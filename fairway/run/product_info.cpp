@@ -1,12 +1,16 @@
 #include "fairway/run/product_info.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <optional>
 #include <variant>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "fairway/base/heading.hpp"
 #include "fairway/base/number_text.hpp"
 #include "fairway/base/share_text.hpp"
 #include "fairway/bitmap/bitmap_file.hpp"
@@ -97,6 +101,21 @@ class Description {
     }
     made_by(known);
   }
+  /// The share of all states that each mode serves, if the record says it.
+  void modes(const json& record) {
+    const auto shares = record.find("reach_by_mode");
+    if (shares == record.end() || !shares->is_array()) return;
+    std::string words;
+    std::size_t mode = 0;
+    for (const json& share : *shares) {
+      if (!share.is_number()) return;
+      words += fmt::format("{}{} by mode {}", words.empty() ? "" : ", ",
+                           percent_text(share.get<double>(), decimals_in(record)), mode++);
+    }
+    if (words.empty()) return;
+    line("reach", words);
+    info_.report["reach_by_mode"] = *shares;
+  }
   void made_by(const json& record) {
     if (const auto by = record.find("program"); by != record.end() && by->is_string()) {
       line("made by", by->get<std::string>());
@@ -112,9 +131,7 @@ class Description {
   bool tell_shares(const json& known, const char* title, const char* key, const char* risk_key) {
     const auto shares = known.find(key);
     if (shares == known.end() || !shares->is_object()) return false;
-    const auto samples = known.find("samples");
-    const bool sampled = samples != known.end() && samples->is_number_unsigned();
-    const int decimals = sampled ? decimals_of_sample(samples->get<std::size_t>()) : 0;
+    const int decimals = decimals_in(known);
     std::string words;
     const auto add = [&](const char* name, double share) {
       if (!(share > 0.0)) return;
@@ -129,6 +146,11 @@ class Description {
     }
     if (!words.empty()) line(title, words);
     return !words.empty();
+  }
+  static int decimals_in(const json& record) {
+    const auto samples = record.find("samples");
+    const bool sampled = samples != record.end() && samples->is_number_unsigned();
+    return sampled ? decimals_of_sample(samples->get<std::size_t>()) : 0;
   }
   /// 0 when there is none.
   static double number_in(const json& object, const char* key) {
@@ -147,6 +169,26 @@ std::string mission_words(const std::optional<Mission>& mission) {
   }
   const Vec2 at = std::get<GoalMission>(*mission).goal_m;
   return fmt::format("a goal at ({:g}, {:g})", at.x, at.y);
+}
+
+/// "12 further ones: 8 on towards 0, 45, ... degrees, 4 by turning_places".
+std::string mode_words(const std::vector<ModeRecord>& modes) {
+  std::vector<double> degrees;
+  std::map<std::string, std::size_t> others;
+  for (const ModeRecord& mode : modes) {
+    const bool directed = mode.rule == "direction" && mode.direction_rad.has_value();
+    if (directed) degrees.push_back(std::round(*mode.direction_rad * 1800.0 / pi) / 10.0);
+    if (!directed) ++others[mode.rule];
+  }
+  std::string words = plural(modes.size(), "further one") + ":";
+  if (!degrees.empty()) {
+    words += fmt::format(" {} on towards {:g} degrees", degrees.size(), fmt::join(degrees, ", "));
+  }
+  for (const auto& [rule, count] : others) {
+    words += fmt::format("{} {} by {}", words.back() == ':' ? "" : ";", count,
+                         rule.empty() ? "a rule without name" : rule);
+  }
+  return words;
 }
 
 ProductInfo describe(const std::filesystem::path& file, const Plan& plan) {
@@ -168,6 +210,10 @@ ProductInfo describe(const std::filesystem::path& file, const Plan& plan) {
                                 {"goal", cells.goal}};
   d.report()["unreachable_free_cells"] = cells.unreachable;
   const json record = json::parse(json_text(plan.record));
+  if (plan.further_modes() > 0) {
+    d.line("modes", mode_words(plan.record.modes));
+    d.report()["modes"] = record.at("modes");
+  }
   if (plan.record.program) d.report()["program"] = *plan.record.program;
   d.made_by(record);
   return d.info();
@@ -180,7 +226,16 @@ ProductInfo describe(const std::filesystem::path& file, const Certificate& c) {
   d.region(c.region_of_interest);
   d.line("leaves", grouped(c.sections.verdict.size()));
   d.report()["leaves"] = c.sections.verdict.size();
-  d.evidence(json::parse(record_text(c)));
+  const json record = json::parse(record_text(c));
+  if (c.further_modes() > 0) {
+    const auto further = static_cast<std::size_t>(c.further_modes());
+    d.line("modes", fmt::format("{}, of {} leaves", plural(further, "further one"),
+                                grouped(c.mode_sections.leaves())));
+    d.report()["further_modes"] = further;
+    d.report()["mode_leaves"] = c.mode_sections.leaves();
+    d.modes(record);
+  }
+  d.evidence(record);
   return d.info();
 }
 

@@ -67,6 +67,7 @@ std::variant<Plan, MissionRefusal> replan(const Plan& plan, const Mission& missi
   PlanRecord record = plan.record;
   record.mission = mission;
   record.improved = {};
+  record.modes = {};  // they were chosen for the other mission
   return plan_of_field(std::move(std::get<Field>(answer)), plan.vehicle, std::move(record));
 }
 

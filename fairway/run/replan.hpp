@@ -3,7 +3,8 @@
 // Properties that always hold:
 //   1. With the plan's own mission the answer is the plan, bit for bit, when this program made it
 //      and its commands are the field's: of a map the field takes no more than its obstacle cells,
-//      and a plan has those. Commands that were improved are not improved again.
+//      and a plan has those. Commands that were improved are not improved again,
+//      and there are no further modes.
 //   2. Vehicle, options and inputs are the plan's; the record names the new mission.
 // Cost: that of the field, about 0.2 microseconds per cell and core.
 #pragma once

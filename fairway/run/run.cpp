@@ -8,25 +8,18 @@
 
 #include "fairway/base/digest.hpp"
 #include "fairway/exchange/flight_files.hpp"
-#include "fairway/field/compute_field.hpp"
 #include "fairway/map/degrees_from_frame.hpp"
-#include "fairway/map/read_map.hpp"
 #include "fairway/plan/plan_file.hpp"
-#include "fairway/plan/plan_of_field.hpp"
 #include "fairway/run/ceiling_summary.hpp"
 #include "fairway/run/closing.hpp"
 #include "fairway/run/contract_pictures.hpp"
-#include "fairway/run/design_warnings.hpp"
 #include "fairway/run/failing_flights.hpp"
 #include "fairway/run/find_at_risk.hpp"
 #include "fairway/run/findings.hpp"
 #include "fairway/run/flight_costs.hpp"
 #include "fairway/run/flight_engine.hpp"
 #include "fairway/run/flight_summary.hpp"
-#include "fairway/run/improvement.hpp"
 #include "fairway/run/mission_on_map.hpp"
-#include "fairway/run/only_connected.hpp"
-#include "fairway/run/plan_record.hpp"
 #include "fairway/run/plan_warnings.hpp"
 #include "fairway/run/product_picture.hpp"
 #include "fairway/run/products.hpp"
@@ -57,40 +50,6 @@ RunResult unreachable(const Scenario& scenario, const MissionRefusal& refusal) {
 }
 
 }  // namespace
-
-std::variant<Planned, MissionRefusal> plan_scenario(const Scenario& asked, StageClock& clock) {
-  Scenario scenario = asked;
-  clock.begin("reading the map", unknown_time);
-  ObstacleMap map = read_map(map_request(scenario));
-  Mission mission = mission_on_map(scenario, map);
-  for (std::string& warning : design_warnings(scenario, mission)) {
-    map.warnings.push_back(std::move(warning));
-  }
-  if (scenario.only_connected) keep_only_connected(map, mission, scenario.map.file.string());
-
-  ChosenParameters chosen{scenario.plan, {}};
-  if (scenario.open.alpha || scenario.open.sigma_cells) {
-    clock.begin("choosing parameters", estimate(scenario, map.grid).from_field());
-    chosen = choose_parameters(
-        map, scenario.vehicle, mission,
-        candidate_options(scenario.plan, scenario.open, scenario.vehicle, map.grid.cell_m));
-    scenario.plan = chosen.options;
-    scenario.open = {};
-  }
-  clock.begin("computing the field", estimate(scenario, map.grid).from_field());
-  FieldOrRefusal answer = compute_field(map, scenario.vehicle, mission, scenario.plan);
-  if (auto* refusal = std::get_if<MissionRefusal>(&answer)) {
-    if (refusal->reason != MissionRefusal::Reason::unreachable) {
-      throw_refusal(scenario, map.frame, *refusal);
-    }
-    return std::move(*refusal);
-  }
-  Plan plan = plan_of_field(std::move(std::get<Field>(answer)), scenario.vehicle,
-                            plan_record(scenario, map, mission));
-  if (scenario.improve) plan = improved(plan, scenario.file.string(), {}, clock).plan;
-  return Planned{std::move(map), std::move(mission), std::move(plan), std::move(scenario),
-                 std::move(chosen.tried)};
-}
 
 namespace {
 

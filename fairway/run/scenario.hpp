@@ -91,8 +91,9 @@ struct Scenario {
   MissionRequest mission;
   ParameterPreset preset = ParameterPreset::by_map;
   FieldOptions plan;
-  OpenParameters open;   ///< of `plan`: not given, and not yet chosen
-  bool improve = false;  ///< plan.improve: change commands where verdicts confirm that it helps
+  OpenParameters open;    ///< of `plan`: not given, and not yet chosen
+  std::size_t modes = 0;  ///< plan.modes: at most so many further ones (choose_modes.hpp)
+  bool improve = false;   ///< plan.improve: change commands where verdicts confirm that it helps
   SimulateRequest simulate;
   VerifyRequest verify;
   std::map<std::string, int, std::less<>> lines;  ///< line of every key that was given; 0: below

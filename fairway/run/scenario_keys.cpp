@@ -11,6 +11,7 @@
 #include "fairway/run/region_key.hpp"
 #include "fairway/run/scenario_key_kinds.hpp"
 #include "fairway/run/scenario_values.hpp"
+#include "fairway/vehicle/modes.hpp"
 
 namespace fairway {
 namespace {
@@ -193,6 +194,13 @@ std::vector<ScenarioKey> plan_keys() {
           "plan.axis_capture_rad", Range{0.0, 0.1}, FAIRWAY_MEMBER(plan.axis_capture_rad),
           "commands this close to a grid axis are snapped to it, so that vehicles do not weave "
           "along a border in tiny hops between opposing commands; not used with metric \"paper\""),
+      unless(&OpenParameters::modes,
+             whole("plan.modes", Range{0.0, static_cast<double>(most_modes - 1)},
+                   FAIRWAY_MEMBER(modes),
+                   "at most so many further fields, flown from where the plan alone fails until it "
+                   "does not; 0: one heading a cell, as in the papers. Not given: up to 16 where "
+                   "they bring two per cent of all states or more, but none with preset \"paper\" "
+                   "or a contract")),
       key("plan.improve", "true or false", any_finite, FAIRWAY_MEMBER(improve),
           "change commands cell by cell where verdicts confirm that more states then arrive; takes "
           "much longer than the plan itself"),
@@ -259,7 +267,7 @@ const std::vector<ScenarioKey>& scenario_keys() {
 std::string scenario_keys_markdown() {
   std::string text = "| key | value | default | meaning |\n|---|---|---|---|\n";
   Scenario defaults;
-  defaults.open = {true, true};
+  defaults.open = {true, true, true};
   for (const ScenarioKey& k : scenario_keys()) {
     const json value = k.shown(defaults);
     const std::string fallback = k.required        ? "required"
@@ -282,6 +290,7 @@ json effective_values(const Scenario& scenario, std::string_view table) {
   // Records name only what they named before there was a choice, and what was chosen.
   if (table == "plan" && scenario.plan.fallback == FallbackRule::hold) values.erase("fallback");
   if (table == "plan" && !scenario.improve) values.erase("improve");
+  if (table == "plan" && scenario.modes == 0) values.erase("modes");
   if (table == "mission" && !scenario.mission.hold) {
     values.erase("hold");
     values.erase("hold_radius_m");

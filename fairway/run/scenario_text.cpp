@@ -131,6 +131,7 @@ Scenario keys_of_text(std::string_view bytes, const fs::path& file,
   // paper's wide buffers prove more (docs/tuning.md).
   const bool may_choose = scenario.preset == ParameterPreset::by_map && !scenario.contract;
   scenario.open.alpha = may_choose && !scenario.lines.contains("plan.alpha");
+  scenario.open.modes = may_choose && !scenario.contract && !scenario.lines.contains("plan.modes");
   scenario.open.sigma_cells = may_choose && !scenario.lines.contains("plan.sigma_cells");
   return scenario;
 }

@@ -119,6 +119,9 @@ json plan_summary(const Scenario& scenario, const Plan& plan) {
       {"inputs", json::parse(json_text(plan.record)).value("inputs", json::array())},
       {"options", options},
   };
+  if (!plan.record.modes.empty()) {
+    summary["modes"] = json::parse(json_text(plan.record))["modes"];
+  }
   if (plan.record.improved) {
     summary["improved"] = json::parse(json_text(plan.record))["improved"];
   }
@@ -135,6 +138,10 @@ std::string grid_words(const Plan& plan) {
                   plural(regions.goal, "goal cell"));
   if (plan.record.contract) {
     words += fmt::format(" Its vehicle {}.", contract_words(*plan.record.contract));
+  }
+  if (const std::size_t modes = plan.record.modes.size(); modes > 0) {
+    words += fmt::format(" It has {} for states that its own field does not bring.",
+                         plural(modes, "further mode"));
   }
   if (const auto& improved = plan.record.improved) {
     words += fmt::format(

@@ -4,6 +4,7 @@
 
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/report/draw_flights.hpp"
+#include "fairway/report/draw_modes.hpp"
 #include "fairway/report/draw_verdicts.hpp"
 #include "fairway/verify/sample_verdicts.hpp"
 
@@ -37,8 +38,8 @@ Plan as_verified(Plan plan, const std::vector<CellKind>& kind) {
 }
 
 std::vector<std::string> verdict_picture_files() {
-  return {"verdicts.svg", "verdicts.png",        "proved.svg",
-          "proved.png",   "counterexamples.svg", "counterexamples.png"};
+  return {"verdicts.svg", "verdicts.png", "proved.svg",          "proved.png",
+          "modes.svg",    "modes.png",    "counterexamples.svg", "counterexamples.png"};
 }
 
 void write_verdict_pictures(const Plan& plan, const Certificate& certificate,
@@ -51,6 +52,11 @@ void write_verdict_pictures(const Plan& plan, const Certificate& certificate,
         "verdicts");
   write(draw_proved_shares(map, {.title = titled(title, "verdicts over all headings")}), folder,
         "proved");
+  if (map.modes > 1) {
+    const auto looks = mode_looks(map.modes, plan.record.modes);
+    write(draw_modes(map, looks, {.title = titled(title, "modes that are proved to reach")}),
+          folder, "modes");
+  }
   if (counterexamples.empty()) return;
   write(
       draw_flights(

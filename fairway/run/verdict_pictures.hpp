@@ -23,9 +23,9 @@ namespace fairway {
 /// The same by what the cells mean, [iy][ix].
 [[nodiscard]] Plan as_verified(Plan plan, const std::vector<CellKind>& kind);
 
-/// Writes NAME.svg and NAME.png into `folder` for every picture; "counterexamples" only when there
-/// are some. `plan`: as verified; `counterexamples`: a flight over it to each kind of failure;
-/// `seed`: of the states sampled for "proved".
+/// Writes NAME.svg and NAME.png into `folder` for every picture; "modes" only of a plan with
+/// several, "counterexamples" only when there are some. `plan`: as verified; `counterexamples`: a
+/// flight over it to each kind of failure; `seed`: of the states sampled for "proved".
 void write_verdict_pictures(const Plan& plan, const Certificate& certificate,
                             std::span<const Flight> counterexamples, std::uint64_t seed,
                             const std::string& title, const std::filesystem::path& folder);

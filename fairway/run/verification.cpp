@@ -51,15 +51,19 @@ json evidence_of(const CertifyOptions& options, const Certified& outcome) {
                       {"undecided_leaves", level.undecided},
                       {"undecided_volume", level.undecided_volume}});
   }
-  return {{"program", program_version},
-          {"options", options_json(options)},
-          {"volume_fraction", shares_json(outcome.volume.all)},
-          {"volume_fraction_free", shares_json(outcome.volume.free)},
-          {"volume_fraction_buffer", shares_json(outcome.volume.buffer)},
-          {"samples", outcome.volume.samples},
-          {"worst_time_s", outcome.volume.worst_time_s},
-          {"levels", std::move(levels)},
-          {"stopped_by", name_of(outcome.stopped_by)}};
+  json evidence = {{"program", program_version},
+                   {"options", options_json(options)},
+                   {"volume_fraction", shares_json(outcome.volume.all)},
+                   {"volume_fraction_free", shares_json(outcome.volume.free)},
+                   {"volume_fraction_buffer", shares_json(outcome.volume.buffer)},
+                   {"samples", outcome.volume.samples},
+                   {"worst_time_s", outcome.volume.worst_time_s},
+                   {"levels", std::move(levels)},
+                   {"stopped_by", name_of(outcome.stopped_by)}};
+  if (outcome.volume.reach_by_mode.size() > 1) {
+    evidence["reach_by_mode"] = outcome.volume.reach_by_mode;
+  }
+  return evidence;
 }
 
 /// Seconds of a limit that are left after `so_far_s`; 0 is no limit, so at least next to nothing.

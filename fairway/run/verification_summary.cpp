@@ -70,6 +70,7 @@ json verification_json(const Verification& v) {
   summary["method"] = "certified";
   summary["cells"] = {c.grid.nx, c.grid.ny};
   summary["leaves"] = c.sections.leaves();
+  if (c.further_modes() > 0) summary["mode_leaves"] = c.mode_sections.leaves();
   return summary;
 }
 

@@ -25,8 +25,8 @@ class Sampler {
   Sampler(const ProofView& proof, const VerdictMapOptions& options)
       : proof_(proof), options_(options) {}
 
-  Verdict verdict(Vec2 p, double heading_rad) const {
-    return ask_all_modes(proof_, p.x, p.y, heading_rad, options_.most_crossings).verdict;
+  ProvedState proved(Vec2 p, double heading_rad) const {
+    return ask_all_modes(proof_, p.x, p.y, heading_rad, options_.most_crossings);
   }
 
   /// One heading in each of equal slices; positions from a Halton sequence, shifted at random so
@@ -42,8 +42,8 @@ class Sampler {
       const Vec2 within{fraction(shift_x + radical_inverse(n, 2)),
                         fraction(shift_y + radical_inverse(n, 3))};
       const double turn = (k + random.unit()) / options_.states_per_sample;
-      const Verdict found = verdict(corner + grid.cell_m * within, pi * (2.0 * turn - 1.0));
-      ++count[static_cast<std::size_t>(found)];
+      const ProvedState found = proved(corner + grid.cell_m * within, pi * (2.0 * turn - 1.0));
+      ++count[static_cast<std::size_t>(found.verdict)];
     }
     return count;
   }
@@ -62,6 +62,8 @@ VerdictMap verdict_map_of(const ProofView& proof, const VerdictMapOptions& optio
           "0 to 65535 states per sample");
   VerdictMap map = VerdictMap::over(proof.flow.grid, options.headings, options.most_across);
   map.states_per_sample = options.states_per_sample;
+  map.modes = proof.modes();
+  if (map.modes > 1) map.mode.assign(map.verdict.size(), no_mode);
   const Sampler sampler(proof, options);
   for_ranges(map.samples(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -69,7 +71,12 @@ VerdictMap verdict_map_of(const ProofView& proof, const VerdictMapOptions& optio
       map.kind[i] = proof.flow.kind_at({cell.ix, cell.iy});
       if (map.kind[i] != CellKind::ordinary) continue;
       for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
-        map.verdict[h * map.samples() + i] = sampler.verdict(map.place_m(i), map.heading_rad[h]);
+        const ProvedState found = sampler.proved(map.place_m(i), map.heading_rad[h]);
+        const std::size_t k = h * map.samples() + i;
+        map.verdict[k] = found.verdict;
+        if (!map.mode.empty() && found.verdict == Verdict::reach) {
+          map.mode[k] = static_cast<std::uint8_t>(found.mode);
+        }
       }
       map.count[i] = sampler.counts(map.grid, cell);
     }

@@ -7,6 +7,7 @@
 #include <tbb/global_control.h>
 
 #include "fairway/base/error.hpp"
+#include "fairway/field/direction_field.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/verify/certify.hpp"
 #include "fairway/verify/images.hpp"
@@ -26,7 +27,7 @@ SectionVerdicts proved(const PlanFlow& pf, int last_level = 7) {
 
 VerdictMap map_of(const PlanFlow& pf, const SectionVerdicts& sections,
                   const VerdictMapOptions& options = {}) {
-  return verdict_map_of(pf.flow(), sections.view(), options);
+  return verdict_map_of({pf.flow(), sections.view(), 0, nullptr, {}}, options);
 }
 
 /// Random plans by number: every style of field, with and without obstacles and uncommanded cells.
@@ -112,6 +113,73 @@ TEST_P(VerdictMapOf, ACoarserOneIsTheFineOneAtTheMiddleCells) {
       ASSERT_TRUE(coarse.verdict_at(h, i) == fine.verdict_at(h, same));
     }
   }
+}
+
+/// A random plan with further modes in four directions, and what is proved of all.
+struct WithModes {
+  static constexpr int further = 4;
+  Plan plan;
+  PlanFlow pf;
+  Certified made;
+
+  explicit WithModes(std::uint64_t seed) : plan(planned(seed)), pf(plan) {
+    CertifyOptions options;
+    options.undecided_max = 0.0;
+    options.samples = 2000;
+    options.last_level = 6;
+    made = certify(pf.flow(), pf.is_free, options, {}, {}, plan.further_rad());
+  }
+  ProofView view() const {
+    return {pf.flow(), made.sections.view(), further, plan.mode_heading_rad.data(),
+            made.further.view()};
+  }
+
+  static Plan planned(std::uint64_t seed) {
+    Plan plan = random_plan(seed);
+    for (int k = 0; k < further; ++k) {
+      const std::vector<float> field =
+          direction_field(plan.grid, plan.region, 0.3 + two_pi * k / further, 3 * plan.grid.cell_m);
+      plan.mode_heading_rad.insert(plan.mode_heading_rad.end(), field.begin(), field.end());
+      plan.record.modes.push_back({"direction", 0.3 + two_pi * k / further});
+    }
+    return plan;
+  }
+};
+
+TEST(VerdictMap, NamesTheFirstModeThatIsProvedToReach) {
+  std::vector<int> served(WithModes::further + 1);
+  for (std::uint64_t seed = 0; seed < 18; ++seed) {
+    const WithModes known(seed);
+    const VerdictMap map = verdict_map_of(known.view(), {});
+    ASSERT_EQ(map.modes, WithModes::further + 1);
+    ASSERT_EQ(map.mode.size(), map.verdict.size());
+    const VerdictMap alone = map_of(known.pf, known.made.sections);
+    EXPECT_TRUE(alone.mode.empty());
+    for (std::size_t k = 0; k < map.mode.size(); ++k) {
+      const std::size_t i = k % map.samples();
+      const std::uint8_t mode = map.mode[k];
+      if (map.kind[i] != CellKind::ordinary) {
+        ASSERT_EQ(mode, no_mode);
+        continue;
+      }
+      const double heading = map.heading_rad[k / map.samples()];
+      const auto reaches = [&](int asked) {
+        const Vec2 p = map.place_m(i);
+        return ask_mode(known.view(), asked, p.x, p.y, heading).only() == Verdict::reach;
+      };
+      ASSERT_EQ(map.verdict[k] == Verdict::reach, mode != no_mode);
+      ASSERT_TRUE(mode == no_mode || reaches(mode));
+      for (int earlier = 0; earlier < std::min<int>(mode, map.modes); ++earlier) {
+        ASSERT_FALSE(reaches(earlier));
+      }
+      // Where none serves, the verdict is what the plan without modes does.
+      if (mode == no_mode || mode == 0) {
+        ASSERT_EQ(map.verdict[k], alone.verdict[k]);
+      }
+      if (mode != no_mode) ++served[mode];
+    }
+  }
+  for (const int count : served) EXPECT_GT(count, 0);
 }
 
 TEST(VerdictMap, OfAMirroredPlanIsMirroredExceptForTheOffset) {

@@ -18,6 +18,7 @@
 
 #include "fairway/base/grid.hpp"
 #include "fairway/base/heading.hpp"
+#include "fairway/vehicle/modes.hpp"
 #include "fairway/verify/flow.hpp"
 #include "fairway/verify/verdict.hpp"
 
@@ -31,6 +32,10 @@ struct VerdictMap {
   std::vector<double> heading_rad;  ///< [headings], of the sampled states
   std::vector<CellKind> kind;       ///< [ny][nx], of the sampled cell
   std::vector<Verdict> verdict;     ///< [headings][ny][nx], at place_m
+  /// [headings][ny][nx]: the first mode that is proved to reach from that state; no_mode where none
+  /// is, and outside ordinary cells. Empty: the plan has one mode.
+  std::vector<std::uint8_t> mode;
+  int modes = 1;  ///< of the plan
   int states_per_sample = 0;
   /// [ny][nx][Verdict]: verdicts of states spread evenly over the cell's places and all headings.
   std::vector<std::array<std::uint16_t, verdict_count>> count;
@@ -64,6 +69,11 @@ struct VerdictMap {
   }
   Verdict verdict_at(std::size_t heading, std::size_t sample) const {
     return verdict[heading * samples() + sample];
+  }
+  /// no_mode where none is proved to reach.
+  std::uint8_t mode_at(std::size_t heading, std::size_t sample) const {
+    if (!mode.empty()) return mode[heading * samples() + sample];
+    return verdict_at(heading, sample) == Verdict::reach ? 0 : no_mode;
   }
   /// The cell that a sample stands for.
   Cell cell_of_sample(std::size_t sample) const {

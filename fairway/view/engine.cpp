@@ -72,6 +72,7 @@ json state_json(const FlightEngine& flights, const Grid& grid,
         certificate->query(start.position_m.x, start.position_m.y, start.heading.rad());
     answer["verdict"] = name_of(found.verdict);
     answer["time_bound_s"] = finite_or_null(found.time_bound_s);
+    if (certificate->modes() > 1) answer["mode"] = found.mode;
   }
   const Flight flight =
       is_on(grid, start.position_m) ? flights.record(start, 0, one_lap) : left_at_once(start);
@@ -182,11 +183,13 @@ json LiveEngine::proof(Vec2 goal_m) const {
   if (const auto* refused = std::get_if<MissionRefusal>(&answer)) {
     throw BadQuestion(refused->message);
   }
-  const auto proof = moved_.proof_of(*std::get<std::shared_ptr<const LivePlan>>(answer));
+  const LivePlan& live_plan = *std::get<std::shared_ptr<const LivePlan>>(answer);
+  const auto proof = moved_.proof_of(live_plan);
   const Certificate& certificate = proof->certificate;
   const VerdictMap map = verdict_map_of(certificate.view(), quick_sampling(certificate.grid));
   PagePayload arrays;
   add_verdict_arrays(map, arrays);
+  add_mode_arrays(map, live_plan.plan, arrays);
   return {{"volume_fraction", shares_json(proof->volume.all)},
           {"volume_fraction_free", shares_json(proof->volume.free)},
           {"volume_fraction_free_commanded", shares_json(proof->volume.commanded)},

@@ -95,6 +95,15 @@ export function verdictLooks(record: PageRecord): Look[] {
   return looks;
 }
 
+/** By the codes of the array `mode`: modes, those that none serves, and cells without states. */
+export function modeLooks(record: PageRecord): Look[] {
+  const looks = (record.styles.mode ?? []).map(lookOf);
+  if (record.styles.no_mode) looks[record.codes.no_mode!] = lookOf(record.styles.no_mode);
+  looks[record.codes.obstacle] = obstacleLook(record);
+  looks[record.codes.target] = goalLook(record);
+  return looks;
+}
+
 // Cost: ramp steps of free cells, the same of buffer cells, then obstacle, goal, unreachable.
 export function costLooks(record: PageRecord): Look[] {
   const ramp = record.styles.cost_ramp;

@@ -2,7 +2,7 @@
 import { byId, el, grouped, percent, short } from "./dom";
 import { paintSample } from "./base_map";
 import { share_classes, type Tiles } from "./layers";
-import { codesInOrder, countsAt, no_value, verdictWords, type PageRecord, type VerdictInfo } from "./record";
+import { codesInOrder, countsAt, modeWords, no_value, verdictWords, type PageRecord, type VerdictInfo } from "./record";
 
 function entries(items: { code: number; name: string; numbers?: string[] }[], tiles: Tiles): { list: HTMLElement; paint: () => void } {
   const samples: [HTMLCanvasElement, number][] = [];
@@ -55,6 +55,46 @@ export function updateVerdictLegend(record: PageRecord, shown: ShownVerdict[]): 
   document.querySelectorAll("#legend li:not(.head)").forEach((row, k) => {
     row.querySelectorAll(".num").forEach((number, c) => { number.textContent = shares[c].get(order[k]) ?? ""; });
   });
+}
+
+/** The modes that serve a sample at some heading, and how many at this one. */
+export function showModeLegend(record: PageRecord, info: VerdictInfo, tiles: Tiles, heading: number): void {
+  const { mode, no_mode } = record.styles;
+  const { obstacle, target } = record.codes;
+  const serving = modesThatServe(info);
+  const shares = modeShares(record, info, heading);
+  const { list, paint } = entries([
+    ...serving.map((code) => ({ code, name: modeWords(record, code), numbers: [shares.get(code)!] })),
+    { code: record.codes.no_mode!, name: no_mode!.words, numbers: [shares.get(record.codes.no_mode!)!] },
+    { code: obstacle, name: "obstacle" }, { code: target, name: "goal" }], tiles);
+  const idle = mode!.length - serving.length;
+  byId("legend").replaceChildren(list, el("p", {},
+    "The first mode that is proved to bring the vehicle from each cell's sample point at the slider's heading; it flies that one, and changes to earlier ones on the way." +
+    (idle > 0 ? ` ${idle === 1 ? "One more mode serves" : `${idle} more modes serve`} no sample, at any heading.` : "") +
+    " The arrows of the field are those of the mode that serves the place."));
+  paint();
+}
+
+/** The shares at another heading, in the legend that showModeLegend made. */
+export function updateModeLegend(record: PageRecord, info: VerdictInfo, heading: number): void {
+  const shares = modeShares(record, info, heading);
+  const codes = [...modesThatServe(info), record.codes.no_mode!];
+  document.querySelectorAll("#legend li").forEach((row, k) => {
+    row.querySelectorAll(".num").forEach((number) => { number.textContent = shares.get(codes[k]) ?? ""; });
+  });
+}
+
+function modesThatServe(info: VerdictInfo): number[] {
+  const modes = info.mode_count![0].map((_, mode) => mode);
+  return modes.filter((mode) => info.mode_count!.some((of) => of[mode] > 0));
+}
+
+/** Of all samples at a heading, by mode, and of those that none serves. */
+function modeShares(record: PageRecord, info: VerdictInfo, heading: number): Map<number, string> {
+  const all = total(info.count[heading]);
+  const count = info.mode_count![heading];
+  const served = count.reduce((sum, n) => sum + n, 0);
+  return new Map([...count.map((n, mode): [number, string] => [mode, percent(n / all)]), [record.codes.no_mode!, percent((all - served) / all)]]);
 }
 
 export function showShareLegend(record: PageRecord, info: VerdictInfo, tiles: Tiles, kind: number, words: string): void {

@@ -4,7 +4,7 @@ import { byId, degrees, el, short, turnOf } from "./dom";
 import { bearingWords, earthWords } from "./earth";
 import { drawVehicle, lineOf, strokeTrack, Track, type Pose } from "./flights";
 import { MovedGoal, type PlanView } from "./moved_goal";
-import type { PageRecord } from "./record";
+import { modeWords, type PageRecord } from "./record";
 import { linkable, writeLink, type LinkedState } from "./state_link";
 import type { Viewport } from "./viewport";
 import { verdictNames } from "./whose";
@@ -14,7 +14,7 @@ type Piece = [number, number, number, number, number];
 interface FlightAnswer { outcome: string; time_s: number | null; length_m: number | null; cut: boolean; pieces: Piece[]; leg?: SteerAnswer }
 type WitnessStep = [...Piece, number, number, number];  // and the command in force: heading, place
 interface ContractAnswer { verdict: string; time_bound_s: number | null; witness: { end: string; steps: WitnessStep[] } | null }
-interface StateAnswer { verdict: string | null; time_bound_s: number | null; flight: FlightAnswer; contract: ContractAnswer | null }
+interface StateAnswer { verdict: string | null; time_bound_s: number | null; mode?: number; flight: FlightAnswer; contract: ContractAnswer | null }
 interface SteerAnswer { state: string; word: string; length_m: number; time_s: number; pieces: Piece[]; shortest?: { word: string; length_m: number; pieces: Piece[] } }
 type Mode = "look" | "fly" | "steer" | "goal";
 type Held = "start" | "target" | "goal";
@@ -279,6 +279,7 @@ class LiveTool implements Live {
     const parts: (Node | string)[] = [el("b", {}, verdict)];
     if (answer.verdict === null && this.moved.goal) parts.push(": this plan has not been verified");
     if (answer.time_bound_s !== null) parts.push(` within ${answer.time_bound_s.toFixed(1)} s`);
+    if (answer.mode !== undefined && answer.verdict === "reach") parts.push(`, in ${modeWords(this.record, answer.mode)}`);
     if (answer.contract) parts.push(el("br"), ...contractWords(answer.contract, names.after));
     this.page.showWitness(answer.contract?.witness ? this.witnessOf(answer.contract.witness) : null);
     parts.push(el("br"), `flown: ${flight.outcome}` +

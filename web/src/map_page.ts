@@ -6,13 +6,14 @@ import { byId, el, fitted, grouped, headingWords, isPrinting, pixelRatio, turnOf
 import type { ShownFlight } from "./flights";
 import { bearingWords } from "./earth";
 import { HeadingSlider } from "./heading";
-import { costLayer, costLooks, regionLayer, regionLooks, share_kinds, shareLooks, Tiles, VerdictLayers, verdictLooks, type CodeLayer, type Shares } from "./layers";
-import { showCostLegend, showRegionLegend, showShareLegend, showVerdictLegend, updateVerdictLegend, type ShownVerdict } from "./legend";
+import { costLayer, costLooks, modeLooks, regionLayer, regionLooks, share_kinds, shareLooks, Tiles, VerdictLayers, verdictLooks, type CodeLayer, type Shares } from "./layers";
+import { showCostLegend, showModeLegend, showRegionLegend, showShareLegend, showVerdictLegend, updateModeLegend, updateVerdictLegend, type ShownVerdict } from "./legend";
 import type { Live } from "./live";
 import { MapInput, type MapHands } from "./map_input";
 import { mapSize, placeExplained, placeTable, wide_window } from "./map_size";
 import { drawChokes, Overlay, type FieldArrays, type LayerChoice } from "./overlay";
-import { cellAt, showReadout, type ReadVerdicts } from "./readout";
+import { Modes } from "./modes";
+import { cellAt, showReadout, type ReadMode, type ReadVerdicts } from "./readout";
 import { nearestHeading, sampleIndex, type Choke, type PageRecord, type VerdictInfo } from "./record";
 import type { MovedPlan, PlanView } from "./moved_goal";
 import { linkable, writeLink, type LinkedState } from "./state_link";
@@ -22,16 +23,16 @@ import { reachWord, verdictNames, type VerdictNames, type Whose } from "./whose"
 import { Witnesses, type Witness } from "./witness";
 import { poseWords, WitnessPlay } from "./witness_play";
 
-type View = "verdict" | "share" | "cost" | "region";
+type View = "verdict" | "mode" | "share" | "cost" | "region";
 type Part = "base" | "lines" | "marks" | "readout";
 
 const view_names: [View, string][] = [
-  ["verdict", "Verdicts at a heading"], ["share", "Share of headings proved"], ["cost", "Cost to go"], ["region", "Regions"]];
+  ["verdict", "Verdicts at a heading"], ["mode", "Modes at a heading"], ["share", "Share of headings proved"], ["cost", "Cost to go"], ["region", "Regions"]];
 const layer_names: [keyof LayerChoice, string][] = [
   ["streamlines", "Field (streamlines)"], ["arrows", "Field (arrows)"], ["contours", "Cost contours"], ["tube", "Proved tube"], ["flights", "Flights"], ["chokes", "Chokes"], ["mission", "Mission"]];
 
 /** What is set aside while another plan is shown. */
-interface Own { moved: MovedPlan; info: VerdictInfo | null; verdicts: VerdictLayers | null; arrays: Arrays; shown: View; flights: boolean }
+interface Own { moved: MovedPlan; info: VerdictInfo | null; verdicts: VerdictLayers | null; modes: Modes | null; arrays: Arrays; shown: View; flights: boolean }
 
 export class MapPage implements MapHands, PlanView {
   readonly grid;
@@ -60,6 +61,8 @@ export class MapPage implements MapHands, PlanView {
   private own: Own | null = null;
   private readonly exact: VerdictLayers | null;
   private readonly contract: VerdictLayers | null = null;  // besides `exact`, where the vehicle has one
+  private modes: Modes | null;  // of the exact vehicle's plan, if it has several
+  private mode_tiles!: Tiles;
   private whose: Whose = "exact";
   private readonly names: VerdictNames;
   private readonly vehicles: HTMLElement;
@@ -77,6 +80,7 @@ export class MapPage implements MapHands, PlanView {
     this.beside = new BaseMap(byId<HTMLCanvasElement>("map-beside"), record.grid);
     this.overlay = new Overlay(record, field);
     this.exact = this.verdicts = record.verdicts ? new VerdictLayers(arrays, record.verdicts) : null;
+    this.modes = Modes.of(record, arrays, record.verdicts);
     if (record.verdicts && record.contract_verdicts) {
       this.contract = new VerdictLayers(arrays, record.contract_verdicts, "contract_verdict");
     }
@@ -91,7 +95,8 @@ export class MapPage implements MapHands, PlanView {
     this.paintTiles();
     this.shown = record.verdicts ? "verdict" : "cost";
     this.slider = new HeadingSlider(record, () => this.verdict_tiles, () => this.shownVerdicts().map(({ info }) => info), () => {
-      this.redraw("base", "readout");
+      this.redraw("base", "readout", ...(this.shown === "mode" ? ["lines"] as const : []));
+      if (this.shown === "mode" && record.verdicts) updateModeLegend(record, record.verdicts, nearestHeading(record.verdicts, this.slider.rad));
       if (this.shown === "verdict" && record.verdicts) updateVerdictLegend(record, this.shownVerdicts());
       this.nameShown();
       if (!this.own && this.whose === "exact") this.turned(this.slider.index);
@@ -112,6 +117,7 @@ export class MapPage implements MapHands, PlanView {
     const { record, field } = this;
     const ratio = pixelRatio();
     this.verdict_tiles = new Tiles(verdictLooks(record), ratio);
+    this.mode_tiles = new Tiles(modeLooks(record), ratio);
     this.share_tiles = share_kinds.map((_, kind) => new Tiles(shareLooks(record, kind), ratio));
     this.pictures = {
       cost: { layer: costLayer(record, field.region, field.cost), tiles: new Tiles(costLooks(record), ratio) },
@@ -259,11 +265,12 @@ export class MapPage implements MapHands, PlanView {
     this.witness.hide();
     const { record, field } = this;
     this.own ??= { moved: { mission: record.mission, cost_step_m: record.cost_step_m, field: { ...field } }, info: record.verdicts,
-      verdicts: this.verdicts, arrays: this.arrays, shown: this.shown, flights: this.choice.flights };
+      verdicts: this.verdicts, modes: this.modes, arrays: this.arrays, shown: this.shown, flights: this.choice.flights };
     this.replay.stop();
+    this.modes = null;
     this.take(plan, null, null);
     this.setLayer("flights", false);
-    if (this.shown === "verdict" || this.shown === "share") this.choose("cost");
+    if (this.shown !== "cost" && this.shown !== "region") this.choose("cost");
   }
 
   async showProof(info: VerdictInfo, arrays: Arrays): Promise<void> {
@@ -271,6 +278,7 @@ export class MapPage implements MapHands, PlanView {
     const { mission, cost_step_m } = record;
     this.arrays = arrays;
     record.verdicts = info;
+    this.modes = Modes.of(record, arrays, info);
     this.take({ mission, cost_step_m, field: this.field }, info, new VerdictLayers(arrays, info));
     await this.verdicts!.ask(this.slider.index);
     await this.needCounts();
@@ -283,6 +291,7 @@ export class MapPage implements MapHands, PlanView {
     this.own = null;
     this.vehicles.hidden = this.contract === null;
     this.arrays = own.arrays;
+    this.modes = own.modes;
     this.take(own.moved, own.info, own.verdicts);
     this.setLayer("flights", own.flights);
     void this.needCounts().then(() => this.choose(own.shown));
@@ -299,9 +308,9 @@ export class MapPage implements MapHands, PlanView {
     this.verdicts = verdicts;
     this.paintTiles();
     this.slider.reset(rad);
-    for (const name of ["verdict", "share"]) {
+    for (const name of ["verdict", "mode", "share"]) {
       const input = byId("views").querySelector<HTMLInputElement>(`input[value=${name}]`);
-      if (input) input.disabled = info === null;
+      if (input) input.disabled = name === "mode" ? this.modes === null : info === null;
     }
     const flights = this.boxes.get("flights");
     if (flights) flights.disabled = this.own !== null;
@@ -316,12 +325,13 @@ export class MapPage implements MapHands, PlanView {
     input.dispatchEvent(new Event("change"));
   }
 
-  /** What the shares of headings are made of; the readout shows them too. */
+  /** What the shares of headings are made of, and what modes command; the readout shows them too. */
   async needCounts(): Promise<void> {
     const needed = this.whose === "both" ? [this.exact, this.verdicts] : [this.verdicts];
     for (const layers of needed) {
       if (layers && !this.shares.has(layers)) this.shares.set(layers, await layers.shares(this.record));
     }
+    await this.modes?.askCommands();
   }
 
   /** Draws what changed in the next frame, once. */
@@ -339,6 +349,7 @@ export class MapPage implements MapHands, PlanView {
   private paint(parts: Set<Part>): void {
     if (parts.has("base")) this.drawBase();
     if (parts.has("lines")) {
+      this.overlay.command = this.shown === "mode" ? (ix, iy) => this.commandAt(ix, iy) : null;
       this.inEach(this.cleared("map-lines"), (context, contract) => {
         this.overlay.draw(context, this.view, this.choice, this.flown, this.replay.selected);
         if (contract && this.choice.chokes && !this.own) drawChokes(context, this.view, this.chokes);
@@ -350,7 +361,9 @@ export class MapPage implements MapHands, PlanView {
 
   private drawBase(): void {
     const { shown, verdicts } = this;
-    if (shown === "cost" || shown === "region") {
+    if (shown === "mode" && this.modes) {
+      this.drawLayer(this.base, this.modes.layers, this.mode_tiles);
+    } else if (shown === "cost" || shown === "region") {
       this.base.paint(this.pictures[shown].layer, this.pictures[shown].tiles, this.view);
     } else if (this.split) {
       this.drawCells(this.base, this.exact!);
@@ -366,11 +379,18 @@ export class MapPage implements MapHands, PlanView {
       if (layer) base.paint(layer, this.share_tiles[this.share_kind], this.view);
       return;
     }
-    const k = nearestHeading(verdicts.info, this.slider.rad);
-    const codes = verdicts.at(k);
-    if (codes) base.paint(verdicts.layer(codes), this.verdict_tiles, this.view);
-    else void verdicts.ask(k).then(() => this.redraw("base", "readout"));
+    this.drawLayer(base, verdicts, this.verdict_tiles);
   }
+
+  private drawLayer(base: BaseMap, layers: VerdictLayers, tiles: Tiles): void {
+    const k = nearestHeading(layers.info, this.slider.rad);
+    const codes = layers.at(k);
+    if (codes) base.paint(layers.layer(codes), tiles, this.view);
+    else void layers.ask(k).then(() => this.redraw("base", "lines", "readout"));
+  }
+
+  /** The command of the mode that serves a cell, where it is not the plan's own. */
+  private commandAt(ix: number, iy: number): number | null { return this.modes?.at([ix, iy], this.slider.rad)?.heading_rad ?? null; }
 
   /** On both maps, when they are side by side; `contract`: on that of the vehicle that keeps it. */
   private inEach(context: CanvasRenderingContext2D, draw: (context: CanvasRenderingContext2D, contract: boolean) => void): void {
@@ -417,7 +437,19 @@ export class MapPage implements MapHands, PlanView {
     const { exact, contract } = this;
     // Of the run's own plan both vehicles', whichever is shown.
     const layers = this.own || !exact ? [this.verdicts] : [exact, contract];
-    showReadout(this.record, this.field, this.cross, layers.flatMap((its) => its ? this.readVerdicts(its) : []));
+    showReadout(this.record, this.field, this.cross, layers.flatMap((its) => its ? this.readVerdicts(its) : []), this.readMode());
+  }
+
+  private readMode(): ReadMode | null {
+    const { modes, slider } = this;
+    const cell = this.cross && cellAt(this.record, this.cross);
+    if (!modes || !cell) return null;
+    const k = nearestHeading(modes.layers.info, slider.rad);
+    if (!modes.layers.at(k)) {
+      void modes.layers.ask(k).then(() => this.redraw("readout"));
+      return null;
+    }
+    return { served: modes.at(cell, slider.rad), heading_rad: modes.layers.info.heading_rad[k] };
   }
 
   private readVerdicts(layers: VerdictLayers): ReadVerdicts[] {
@@ -437,6 +469,7 @@ export class MapPage implements MapHands, PlanView {
     const { record, shown, share_kind } = this;
     this.nameShown();
     if (shown === "verdict" && record.verdicts) showVerdictLegend(record, this.verdict_tiles, this.shownVerdicts());
+    if (shown === "mode" && record.verdicts && this.modes) showModeLegend(record, record.verdicts, this.mode_tiles, nearestHeading(record.verdicts, this.slider.rad));
     if (shown === "share" && record.verdicts) showShareLegend(record, record.verdicts, this.share_tiles[share_kind], share_kind, this.shareWords(share_kind));
     if (shown === "cost") showCostLegend(record, this.pictures.cost.tiles);
     if (shown === "region") showRegionLegend(this.pictures.region.tiles);
@@ -455,14 +488,14 @@ export class MapPage implements MapHands, PlanView {
     shares.id = "share-kinds";
     shares.hidden = true;
     shares.lastElementChild!.toggleAttribute("hidden", true);  // at risk: under a contract alone
-    const offered = view_names.filter(([name]) => this.verdicts || name === "cost" || name === "region");
+    const offered = view_names.filter(([name]) => name === "mode" ? this.modes : this.verdicts || name === "cost" || name === "region");
     radios(byId("views"), "view", offered, this.shown, (name) => {
       this.shown = name;
       shares.hidden = name !== "share";
       void this.needCounts().then(() => {
         this.fit();
         this.showLegend();
-        this.redraw("base", "readout");
+        this.redraw("base", "lines", "readout");
       });
     });
     byId("views").querySelector("input[value=share]")?.parentElement!.after(shares);
@@ -487,6 +520,7 @@ export class MapPage implements MapHands, PlanView {
   private nameShown(): void {
     const view = view_names.find(([name]) => name === this.shown)![1];
     const what = this.shown === "verdict" ? `Verdicts at heading ${bearingWords(this.record, this.slider.rad)}, ${wind(this.slider.rad)}`
+      : this.shown === "mode" ? `Modes at heading ${bearingWords(this.record, this.slider.rad)}, ${wind(this.slider.rad)}`
       : this.shown === "share" ? `${view}: ${this.shareWords(this.share_kind)}` : view;
     const layers = layer_names.filter(([name]) => this.choice[name] && this.boxes.has(name)).map(([, words]) => words.toLowerCase());
     const whose = this.under_contract && (this.shown === "verdict" || this.shown === "share") ? `, ${this.names.after}${this.split ? `, next to those ${this.record.follow ? "of touching it" : "of the exact vehicle"}` : ""}` : "";

@@ -32,7 +32,13 @@ function arrowHead(context: CanvasPath, x: number, y: number, ux: number, uy: nu
   context.closePath();
 }
 
+/** What a cell commands, radians, NaN none; null: what the plan's own field does. */
+export type CommandAt = (ix: number, iy: number) => number | null;
+
 export class Overlay {
+  /** In place of the plan's own commands; null: these. */
+  command: CommandAt | null = null;
+
   constructor(private readonly record: PageRecord, private readonly field: FieldArrays) {}
 
   draw(context: CanvasRenderingContext2D, view: Viewport, choice: LayerChoice, flights: ShownFlight[], selected: number): void {
@@ -173,8 +179,9 @@ export class Overlay {
     for (let iy = first(bottom, y0_m); iy < ny && y0_m + (iy - 1) * cell_m < top; iy += stride) {
       for (let ix = first(left, x0_m); ix < nx && x0_m + (ix - 1) * cell_m < right; ix += stride) {
         const i = valueIndex(this.record, ix, iy);
-        if (heading[i] === no_value || region[i] === RegionCode.obstacle) continue;
-        const h = headingOfCode(heading[i]);
+        if (region[i] === RegionCode.obstacle) continue;
+        const h = this.command?.(ix, iy) ?? (heading[i] === no_value ? NaN : headingOfCode(heading[i]));
+        if (Number.isNaN(h)) continue;
         const ux = Math.cos(h), uy = -Math.sin(h);
         const [x, y] = view.toScreen(x0_m + (ix + 0.5) * cell_m, y0_m + (iy + 0.5) * cell_m);
         context.moveTo(x - ux * length / 2, y - uy * length / 2);

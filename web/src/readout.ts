@@ -1,13 +1,17 @@
 // What the plan and the certificate say about the place under the cross.
 import { byId, el, headingWords, short, term } from "./dom";
 import { bearingWords, earthWords } from "./earth";
+import type { Served } from "./modes";
 import { headingOfCode, type FieldArrays } from "./overlay";
-import { no_value, RegionCode, sampleIndex, valueIndex, verdictWords, type PageRecord, type VerdictInfo } from "./record";
+import { modeWords, no_value, RegionCode, sampleIndex, valueIndex, verdictWords, type PageRecord, type VerdictInfo } from "./record";
 
 const region_names = ["buffer", "safe start", "obstacle", "goal"];
 
 /** What a vehicle's verdicts say at a heading, once their layer is inflated, and for how many headings each sample reaches. */
 export interface ReadVerdicts { info: VerdictInfo; codes: Uint8Array; heading_rad: number; reaching: Uint16Array | null; whose: string; reach: string }
+
+/** Which mode serves the state, of a plan with several; null: none is proved to reach. */
+export interface ReadMode { served: Served | null; heading_rad: number }
 
 type Cell = [number, number];
 
@@ -27,12 +31,18 @@ function verdictTerms(record: PageRecord, cell: Cell, { info, codes, heading_rad
   return [term(name, verdictWords(record, code, word)), ...(reach ? [term(`headings that ${word}`, reach)] : [])];
 }
 
+function modeTerms(record: PageRecord, { served, heading_rad }: ReadMode): HTMLElement[] {
+  const command = served?.heading_rad ?? null;
+  const commands = command === null ? "" : `, commands ${Number.isNaN(command) ? "nothing: straight on" : bearingWords(record, command)}`;
+  return [wide(term(`mode at ${headingWords(heading_rad)}`, served ? modeWords(record, served.mode) + commands : record.styles.no_mode!.words))];
+}
+
 function wide(element: HTMLElement): HTMLElement {
   element.className = "wide";
   return element;
 }
 
-export function showReadout(record: PageRecord, field: FieldArrays, place: [number, number] | null, verdicts: ReadVerdicts[]): void {
+export function showReadout(record: PageRecord, field: FieldArrays, place: [number, number] | null, verdicts: ReadVerdicts[], mode: ReadMode | null = null): void {
   const cell = place && cellAt(record, place);
   if (!place || !cell) {
     byId("readout").replaceChildren(term("place", "point at the map to read values"));
@@ -53,5 +63,6 @@ export function showReadout(record: PageRecord, field: FieldArrays, place: [numb
     term("commanded heading", commanded ? bearingWords(record, headingOfCode(heading[i])) : open ? "none: straight on" : "none"),
     // Where the mission is out of reach, who is safe holds.
     ...verdicts.flatMap((its) => verdictTerms(record, cell, cut_off ? { ...its, reach: "hold" } : its)),
+    ...(mode && open ? modeTerms(record, mode) : []),
     ...(per > 1 ? [term("values", `of one cell in ${per} × ${per}`)] : []));
 }

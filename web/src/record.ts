@@ -19,6 +19,7 @@ export interface Codes {
   obstacle: number;
   target: number;
   at_risk?: number;  // undecided, and a behaviour within the contract is known that fails
+  no_mode?: number;  // of the array `mode`: none is proved to reach
 }
 
 /** A line of the findings: "97.0 %" of "free cells" "are cut off"; without a share, a sentence. */
@@ -47,6 +48,7 @@ export interface VerdictInfo {
   heading_rad: number[];
   offset_m: [number, number];
   count: number[][];  // [heading][code]
+  mode_count?: number[][];  // [heading][mode]: how many samples it serves; only of a plan with several
   at_risk?: number[];  // [heading]: of the undecided ones; only under a contract, where witnesses were searched for
   not_searched?: number;  // undecided states where none was, at all headings
 }
@@ -64,6 +66,8 @@ export interface PageRecord {
   styles: {
     verdict: VerdictStyle[];  // [code]
     at_risk?: VerdictStyle;
+    mode?: VerdictStyle[];  // of a plan with several modes, the plan's own first
+    no_mode?: VerdictStyle;
     outcome: Record<string, Line>;  // by the outcome's name
     cost_ramp: string[];
     share: string[][];
@@ -131,6 +135,11 @@ export function verdictWords(record: PageRecord, code: number, reach: string): s
   const { codes, styles } = record;
   if (code === codes.at_risk) return styles.at_risk!.words;
   return (code === codes.undecided ? "" : "proved: ") + (code === codes.reach ? reach : styles.verdict[code].words);
+}
+
+/** "mode 3: on towards 90 degrees"; a goal moved on the page may have made more modes than the run. */
+export function modeWords({ styles }: PageRecord, mode: number): string {
+  return styles.mode?.[mode]?.words ?? `mode ${mode}`;
 }
 
 /** Codes of the array `region`: those of a plan file plus 1. */
