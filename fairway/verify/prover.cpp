@@ -92,7 +92,8 @@ bool Prover::is_worth_cutting(Id id) const {
 Prover::Finding Prover::examine(Id id, double least_units) const {
   Finding finding{image_verdicts(graph_, id, [this](Id other) { return graph_.verdict(other); })};
   // An unknown leaf keeps everything that leads to it waiting: cut it finer, ahead of the rest.
-  constexpr double ahead = 1.0 / 64.0;
+  // Not so in a further mode, which is there for what it does in a few turns.
+  const double ahead = earlier_.empty() ? 1.0 / 64.0 : 1.0;
   const double least = graph_.gave_up(id) ? std::max(ahead * least_units, 64.0) : least_units;
   // Before it fails as a whole, a part that can be handed over is cut off, down to a small one.
   constexpr double least_part = 0x1p24;

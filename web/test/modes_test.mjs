@@ -6,7 +6,7 @@ import { test } from "node:test";
 import { frames, opened, openedFile, picture, readout, turnTo } from "./browser.mjs";
 import { bytesOf, FAIRWAY, hasPage, recordOf, rocks, run, scenario, SOURCE, view } from "./runs.mjs";
 
-const text = (modes, random = 5) => `[map]\nfile = ${JSON.stringify(join(SOURCE, "demo/town.map"))}\nresolution_m = 4.0\n` +
+const text = (modes, random = 5) => `[map]\nfile = ${JSON.stringify(join(SOURCE, "demo/town.map"))}\nresolution_m = 4.0\ncell_m = 4.0\n` +
   "[vehicle]\nspeed_mps = 10.0\nturn_radius_m = 9.0\n[mission]\nkind = \"goal\"\ngoal_m = [220.0, 32.0]\n" +
   `[plan]\npreset = "paper"\nalpha = 0.5\nbeta = 1.5\nmodes = ${modes}\n[verify]\nundecided_max = 0.05\n[simulate]\nrandom = ${random}\nsample = 200\n`;
 const town = run("town", text(4));
