@@ -12,6 +12,7 @@
 #include "fairway/run/fly_many.hpp"
 #include "fairway/run/proved_modes.hpp"
 #include "fairway/simulate/start_states.hpp"
+#include "fairway/verify/ask_modes.hpp"
 #include "fairway/verify/certify.hpp"
 #include "fairway/verify/testing/plans_to_verify.hpp"
 #include "fairway/verify/testing/street_plan.hpp"

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "fairway/plan/plan.hpp"
-#include "fairway/verify/proof_view.hpp"
+#include "fairway/verify/ask_modes.hpp"
 
 namespace fairway {
 

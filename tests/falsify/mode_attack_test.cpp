@@ -8,6 +8,7 @@
 
 #include <tbb/global_control.h>
 
+#include "fairway/verify/ask_modes.hpp"
 #include "fairway/verify/certify.hpp"
 #include "fairway/verify/testing/plans_to_verify.hpp"
 #include "fairway/verify/testing/street_plan.hpp"

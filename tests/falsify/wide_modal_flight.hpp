@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "fairway/verify/proof_view.hpp"
+#include "fairway/verify/ask_modes.hpp"
 #include "fairway/verify/testing/wide_flight.hpp"
 
 namespace fairway {
