@@ -13,7 +13,7 @@
 #include "fairway/field/direction_field.hpp"
 #include "fairway/verify/certify.hpp"
 #include "fairway/verify/mode_choice.hpp"
-#include "fairway/verify/proof_view.hpp"
+#include "fairway/verify/ask_modes.hpp"
 #include "fairway/verify/section_flight.hpp"
 #include "fairway/verify/state_flight.hpp"
 #include "fairway/verify/testing/plans_to_verify.hpp"
