@@ -108,7 +108,7 @@ TEST(ModalFlights, ResultRecordAndMeasureAreOneFlight) {
   by_proof.decide_by(proved.proof());
   const FlightEngine by_trials(proved.plan);
   int further = 0;
-  for (const FlightEngine* engine : {&by_proof, &by_trials}) {
+  for (const FlightEngine* engine : std::array<const FlightEngine*, 2>{&by_proof, &by_trials}) {
     for (const State& start : starts(proved.plan, 150)) {
       const FlightResult result = engine->fly(start, 0);
       const Flight record = engine->record(start, 0);

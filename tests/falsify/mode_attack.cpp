@@ -327,7 +327,8 @@ ModeAttackTotals attack_modes(const ProofView& proof, const ModeAttackOptions& o
   require(proof.further > 0, "a proof of several modes is attacked");
   constexpr std::uint64_t blocks = 32;  // at a time, each with draws of its own
   constexpr std::uint64_t draws = 64;
-  constexpr std::uint64_t wrong_enough = 4;  // of a block: the judge takes its time
+  // Of a block: the judge takes its time.
+  const std::uint64_t judged_enough = std::min<std::uint64_t>(4, options.wrong_enough);
   ModeAttacker attacker(proof);
   ModeAttackTotals totals;
   std::uint64_t first = 0;
@@ -341,8 +342,9 @@ ModeAttackTotals attack_modes(const ProofView& proof, const ModeAttackOptions& o
     for_ranges(blocks, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t block = begin; block < end; ++block) {
         Random random = Random::stream(options.seed, first + block);
-        for (std::uint64_t k = 0; k < draws && each[block].wrong() < wrong_enough; ++k) {
-          attacker.attack_some(random, each[block]);
+        ModeAttackTotals& one = each[block];
+        for (std::uint64_t k = 0; k < draws && one.wrong() + one.unknown < judged_enough; ++k) {
+          attacker.attack_some(random, one);
         }
       }
     });
