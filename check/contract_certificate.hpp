@@ -15,7 +15,12 @@
 
 namespace fairway_check {
 
+/// In group_next: the leaves are not handed over.
+inline constexpr std::uint8_t not_handed_over = 0xff;
+
+/// Of a further mode: the same with its commands; what is not of a mode is empty.
 struct ContractCertificate {
+  std::size_t mode = 0;
   Geometry geometry{};
   Loop loop;                             ///< without radius and directions
   std::vector<std::int8_t> region;       ///< [iy][ix]
@@ -26,7 +31,9 @@ struct ContractCertificate {
   std::vector<std::uint8_t> verdict;     ///< [leaves], Verdict
   std::vector<float> group_heading_rad;  ///< [groups], of progress; NaN: no links inside
   std::vector<float> group_time_s;       ///< [groups]
-  std::optional<FollowClaims> follow;    ///< then verdict reach is: joins the core, and follows
+  std::vector<std::uint8_t> group_next;  ///< [groups], the earlier mode that takes over; or empty
+  std::vector<ContractCertificate> further;  ///< modes after the plan's own
+  std::optional<FollowClaims> follow;        ///< then verdict reach is: joins the core, and follows
   nlohmann::json record;
   Contract contract{};
   Parts parts;
@@ -35,6 +42,12 @@ struct ContractCertificate {
   double begin_of(std::size_t leaf) const { return begin[leaf] * 0x1p-32; }
   double end_of(std::size_t section, std::size_t leaf) const {
     return leaf + 1 < first[section + 1] ? begin[leaf + 1] * 0x1p-32 : 1.0;
+  }
+  bool hands_over(std::size_t leaf) const {
+    return !group_next.empty() && group_next[group[leaf]] != not_handed_over;
+  }
+  const ContractCertificate& of_mode(std::size_t number) const {
+    return number == 0 ? *this : further[number - 1];
   }
   /// "leaf 3 (0 on side 2 of part (4, 5))".
   std::string name_of(std::size_t leaf) const;

@@ -64,10 +64,14 @@ void Behaviours::follow_leaf(std::size_t part, int side, double low, double high
 
 void Behaviours::follow_state(std::size_t part, double x, double y, double heading_rad,
                               Sightings& sightings) {
+  follow_states(part, Shape{{x, y}}, heading_rad, heading_rad, sightings);
+}
+
+void Behaviours::follow_states(std::size_t part, const Shape& at, double least, double most,
+                               Sightings& sightings) {
   following_.begin(parts_.part_at(part), sightings);
   const Memory memory{.nothing = true, .side = false};
-  begin({0, 0}, Shape{{x, y}}, heading_rad, heading_rad, memory, memory, everywhere,
-        Past{}.with(heading_rad, heading_rad, 0.0, 0.0));
+  begin({0, 0}, at, least, most, memory, memory, everywhere, Past{}.with(least, most, 0.0, 0.0));
   turning_.follow();
 }
 

@@ -25,6 +25,10 @@ class Behaviours : private Roaming {
 
   /// All that leave the part aligned at [low, high] of a side.
   void follow_leaf(std::size_t part, int side, double low, double high, Sightings& sightings);
+  /// At a place of `at`, from the corner of an ordinary part and in it, with a heading in
+  /// [least, most]; no side in memory.
+  void follow_states(std::size_t part, const Shape& at, double least, double most,
+                     Sightings& sightings);
   /// At (x, y) in an ordinary part, from its corner; no side in memory.
   void follow_state(std::size_t part, double x, double y, double heading_rad, Sightings& sightings);
 

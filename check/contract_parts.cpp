@@ -79,6 +79,7 @@ Contract contract_of(const nlohmann::json& c) {
   const double part = wind / speed[0];
   return {.command_error = number("command_error_m", 0.0, 1e15) + number("look_ahead_m", 0.0, 1e15),
           .heading_error = number("heading_error_rad", 0.0, pi),
+          .estimate_error = number("command_error_m", 0.0, 1e15),
           .least_radius = radius[0] * (1.0 - part) * (1.0 - part),
           .most_radius = radius[1] * (1.0 + part) * (1.0 + part),
           .least_speed = speed[0] - wind,

@@ -17,6 +17,8 @@ namespace fairway_check {
 struct Contract {
   double command_error;  ///< metres, as are the radii
   double heading_error;  ///< rad
+  /// Metres: that of the vehicle's estimate of its place, without look-ahead.
+  double estimate_error;
   double least_radius;
   double most_radius;
   double least_speed;  ///< m/s

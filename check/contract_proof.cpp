@@ -14,6 +14,8 @@
 #include <tbb/parallel_for.h>
 
 #include "check/contract_flight.hpp"
+#include "check/contract_groups.hpp"
+#include "check/contract_hand_over.hpp"
 #include "check/follow_proof.hpp"
 #include "check/leaf_findings.hpp"
 
@@ -22,8 +24,6 @@ namespace {
 
 /// Progress is claimed only by headings that are this much less than 90 degrees from its direction.
 constexpr double least_margin = 1e-3;
-/// Above all rounding in sums of a few hundred times.
-constexpr double time_margin = 1.0 + 1e-9;
 
 /// What is claimed about all places where the behaviours of a set cross or end.
 class Outcome : public Sightings {
@@ -125,23 +125,54 @@ std::string defect_of_leaf(const ContractCertificate& c, Behaviours& behaviours,
   return {};
 }
 
-/// The rules for single leaves.
+/// The rule for a leaf of mode `m` that is handed over.
+std::string defect_of_hand_over(const ContractCertificate& c, const ContractCertificate& m,
+                                const std::vector<KnownBoxes>& known, std::size_t section,
+                                std::size_t leaf, Share& share) {
+  const ContractCertificate& next = c.of_mode(m.group_next[m.group[leaf]]);
+  Behaviours behaviours(next.parts, next.contract);
+  std::string why = "is handed over from states that are not known";
+  const auto seconds = [&](const StatesOfPart& states) {
+    Outcome outcome(next, 0, reach);
+    behaviours.follow_states(states.part, states.at, states.least, states.most, outcome);
+    if (outcome.verdict() == reach) return outcome.onwards_s;
+    why = fmt::format("is handed over to mode {}, but from there: {}", next.mode,
+                      outcome.gave_up ? "cannot be followed" : told_instead(outcome.told));
+    return HUGE_VAL;
+  };
+  const bool all = for_states_around(m, section, leaf, [&](const StatesOfPart& states) {
+    double found = known[next.mode].seconds(states, seconds);
+    const double claimed = static_cast<double>(m.group_time_s[m.group[leaf]]);
+    if (found * time_margin > claimed) found = seconds(states);
+    share.onwards_s = std::max(share.onwards_s, found);
+    return found < HUGE_VAL;
+  });
+  return all ? "" : why;
+}
+
+/// The rules for single leaves of mode `m` of the certificate `whole`.
 class LeafRules {
  public:
-  explicit LeafRules(const ContractCertificate& c) : c_(c) {
+  LeafRules(const ContractCertificate& whole, const ContractCertificate& c,
+            const std::vector<KnownBoxes>& known)
+      : whole_(whole), c_(c), known_(known) {
     if (c.follow) core_.emplace(c);
   }
   std::string defect() const { return core_ ? core_->defect() : ""; }
   LapSums no_laps() const { return core_ ? LapSums(c_) : LapSums(); }
   std::string defect(Behaviours& behaviours, std::size_t section, std::size_t leaf, Share& share,
                      LapSums& laps) const {
+    share = {0.0, -1.0};
+    if (c_.hands_over(leaf)) return defect_of_hand_over(whole_, c_, known_, section, leaf, share);
     return core_ && c_.follow->stage[leaf] != 0
                ? core_->defect_of_leaf(behaviours, section, leaf, share, laps)
                : defect_of_leaf(c_, behaviours, section, leaf, share);
   }
 
  private:
+  const ContractCertificate& whole_;
   const ContractCertificate& c_;
+  const std::vector<KnownBoxes>& known_;  ///< of each mode
   std::optional<CoreProof> core_;
 };
 
@@ -169,47 +200,23 @@ std::vector<std::uint8_t> failing_leaves(const ContractCertificate& c, const Lea
   return fails;
 }
 
-/// Inside a group every behaviour gains at least cos(astray) of its way along u, so it is among its
-/// leaves for no longer than their extent along u takes; then it goes on from one of them.
-struct GroupBound {
-  double onwards_s = 0.0;
-  double astray_rad = -1.0;
-  double least_m = HUGE_VAL;
-  double most_m = -HUGE_VAL;
-};
-
-std::string defect_of_groups(const ContractCertificate& c, const std::vector<Share>& shares) {
-  std::vector<GroupBound> groups(c.group_time_s.size());
-  for (std::size_t s = 0; s + 1 < c.first.size(); ++s) {
-    for (std::size_t leaf = c.first[s]; leaf < c.first[s + 1]; ++leaf) {
-      if (c.group[leaf] == 0) continue;
-      GroupBound& g = groups[c.group[leaf]];
-      g.onwards_s = std::max(g.onwards_s, shares[leaf].onwards_s);
-      g.astray_rad = std::max(g.astray_rad, shares[leaf].astray_rad);
-      const double u = c.group_heading_rad[c.group[leaf]];
-      if (std::isnan(u)) continue;
-      const Cell part = c.parts.part_at(s / 4);
-      const Shape ends = places_on(static_cast<int>(s % 4), c.begin_of(leaf), c.end_of(s, leaf));
-      for (const Point p : ends.corners()) {
-        const double along =
-            c.parts.side_m * ((part.x + p.x) * std::cos(u) + (part.y + p.y) * std::sin(u));
-        g.least_m = std::min(g.least_m, along);
-        g.most_m = std::max(g.most_m, along);
-      }
-    }
-  }
-  for (std::size_t i = 1; i < groups.size(); ++i) {
-    const GroupBound& g = groups[i];
-    const bool inside = g.astray_rad >= 0.0;
-    const double inside_s = inside ? (g.most_m - g.least_m + touch * c.parts.side_m) /
-                                         (c.contract.least_speed * std::cos(g.astray_rad))
-                                   : 0.0;
-    const double worst_s = (inside_s + g.onwards_s) * time_margin;
-    if (worst_s <= static_cast<double>(c.group_time_s[i])) continue;
-    return fmt::format("group {} takes up to {:.9g} s, but {:.9g} s is claimed", i, worst_s,
-                       c.group_time_s[i]);
-  }
-  return "";
+/// Of one mode: "" when it is as claimed.
+std::string defect_of_mode(const ContractCertificate& whole, const ContractCertificate& c,
+                           const std::vector<KnownBoxes>& known, nlohmann::ordered_json& report) {
+  std::vector<Share> shares;
+  const LeafRules rules(whole, c, known);
+  if (std::string wrong = rules.defect(); !wrong.empty()) return wrong;
+  LapSums laps = rules.no_laps();
+  const std::vector<std::uint8_t> fails = failing_leaves(c, rules, shares, laps);
+  const auto why = [&](std::size_t section, std::size_t leaf) {
+    Behaviours behaviours(c.parts, c.contract);
+    LapSums none = rules.no_laps();
+    return rules.defect(behaviours, section, leaf, shares[leaf], none);
+  };
+  std::string wrong = defect_of_leaves(c, fails, why, report);
+  if (wrong.empty()) wrong = defect_of_groups(c, shares);
+  if (wrong.empty() && c.follow) wrong = laps.defect(c);
+  return wrong;
 }
 
 }  // namespace
@@ -226,32 +233,31 @@ Told told_of_state(const ContractCertificate& c, std::size_t cell, double x, dou
   Cell part;
   const double place_x = split(x, part.x);
   const double place_y = split(y, part.y);
-  Outcome outcome(c);
-  Behaviours(c.parts, c.contract)
-      .follow_state(c.parts.index({in.x * k + part.x, in.y * k + part.y}), place_x, place_y,
-                    heading_rad, outcome);
-  return {outcome.verdict(), outcome.onwards_s};
+  Told told{undecided, 0.0};
+  for (std::size_t mode = 0; mode <= c.further.size(); ++mode) {
+    const ContractCertificate& m = c.of_mode(mode);
+    Outcome outcome(m);
+    Behaviours(m.parts, m.contract)
+        .follow_state(c.parts.index({in.x * k + part.x, in.y * k + part.y}), place_x, place_y,
+                      heading_rad, outcome);
+    if (outcome.verdict() == reach) return {reach, outcome.onwards_s, mode};
+    if (mode == 0) told = {outcome.verdict(), outcome.onwards_s};
+  }
+  return told;
 }
 
 std::string judge_contract(const std::string& path, const std::string& plan, std::size_t samples,
                            nlohmann::ordered_json& report) {
   const ContractCertificate c = read_contract_certificate(path, plan);
-  std::vector<Share> shares;
-  const LeafRules rules(c);
-  if (std::string wrong = rules.defect(); !wrong.empty()) return wrong;
-  LapSums laps = rules.no_laps();
-  const std::vector<std::uint8_t> fails = failing_leaves(c, rules, shares, laps);
-  const auto why = [&](std::size_t section, std::size_t leaf) {
-    Behaviours behaviours(c.parts, c.contract);
-    LapSums none = rules.no_laps();
-    return rules.defect(behaviours, section, leaf, shares[leaf], none);
-  };
-  std::string wrong = defect_of_leaves(c, fails, why, report);
-  if (wrong.empty()) wrong = defect_of_groups(c, shares);
-  if (wrong.empty() && c.follow) wrong = laps.defect(c);
+  std::string wrong;
+  std::vector<KnownBoxes> known;
+  for (std::size_t k = 0; k < c.further.size(); ++k) known.emplace_back(c.parts.kind.size());
+  for (std::size_t mode = 0; mode <= c.further.size() && wrong.empty(); ++mode) {
+    wrong = defect_of_mode(c, c.of_mode(mode), known, report);
+  }
   if (!wrong.empty() || !c.record.contains("volume_fraction")) return wrong;
   return defect_of_claims(
-      c.record, {c.loop, c.region, c.holding}, samples, true,
+      c.record, {c.loop, c.region, c.holding, c.further.size() + 1}, samples, true,
       [&c](std::size_t cell, double x, double y, double heading_rad) {
         return told_of_state(c, cell, x, y, heading_rad);
       },

@@ -100,14 +100,6 @@ std::size_t take_modes(const Safetensors& file, const std::string& where, Certif
   return 7;
 }
 
-/// What the file says of its own array, held against the array when the record is taken.
-std::string digest_of_modes(const nlohmann::json& record) {
-  const auto digests = record.find("sha256");
-  const bool has_modes = digests != record.end() && digests->contains("mode_heading_rad") &&
-                         (*digests)["mode_heading_rad"].is_string();
-  return has_modes ? (*digests)["mode_heading_rad"].get<std::string>() : "";
-}
-
 Certificate certificate_of_bytes(std::span<const std::byte> bytes, const std::string& where) {
   const Safetensors file = parse_safetensors(bytes, where);
   nlohmann::json record = record_of_file(file, this_format, where);

@@ -57,4 +57,11 @@ bool leaves_are_in_order(const std::vector<std::uint32_t>& first,
   return true;
 }
 
+std::string digest_of_modes(const nlohmann::json& record) {
+  const auto digests = record.find("sha256");
+  const bool has_modes = digests != record.end() && digests->contains("mode_heading_rad") &&
+                         (*digests)["mode_heading_rad"].is_string();
+  return has_modes ? (*digests)["mode_heading_rad"].get<std::string>() : "";
+}
+
 }  // namespace fairway

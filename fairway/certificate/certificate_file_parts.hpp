@@ -65,6 +65,10 @@ void write_certificate_file(const std::filesystem::path& path, Existing existing
                             const CertificateFormat& format, nlohmann::json record,
                             const RegionOfInterest& region, const std::vector<Tensor>& tensors);
 
+/// What the file says of its own array mode_heading_rad, held against the array when the record is
+/// taken; "": it has none.
+[[nodiscard]] std::string digest_of_modes(const nlohmann::json& record);
+
 /// The record, if it is one of this format. Throws InputError{where, ...}.
 [[nodiscard]] nlohmann::json record_of_file(const Safetensors& file,
                                             const CertificateFormat& format,

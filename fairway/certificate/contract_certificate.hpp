@@ -13,6 +13,7 @@
 
 #include "fairway/base/frame.hpp"
 #include "fairway/base/grid.hpp"
+#include "fairway/inclusion/contract_modes.hpp"
 #include "fairway/inclusion/contract_verdicts.hpp"
 #include "fairway/inclusion/follow_proof.hpp"
 #include "fairway/inclusion/parts.hpp"
@@ -37,7 +38,11 @@ struct ContractCertificate {
   /// [iy][ix], 1 out of the mission's reach, where the plan holds (holding_cells); empty: nowhere.
   /// A state that is proved `trapped` is told to `hold` there.
   std::vector<std::uint8_t> holding;
-  ContractVerdicts verdicts;
+  ContractVerdicts verdicts;  ///< of the plan's own mode
+  /// Commands of further modes, [mode - 1][iy][ix], and what is proved of them, joined
+  /// (contract_modes.hpp). Empty: there are none, or they are not proved.
+  std::vector<float> mode_heading_rad;
+  ContractVerdicts mode_verdicts;
   /// That a path is followed: verdict reach of a leaf then says that its behaviours join the core.
   std::optional<FollowProof> follow;
   PlanDigests plan;            ///< which plan it belongs to
@@ -52,6 +57,14 @@ struct ContractCertificate {
   /// Of the motions over ground that include all that keeps the contract (over_ground). Nothing is
   /// claimed of who comes to the end of an open path without having joined it.
   Parts parts() const;
+  int further_modes() const {
+    return grid.size() == 0 ? 0 : static_cast<int>(mode_heading_rad.size() / grid.size());
+  }
+  /// Those of a further mode, 1 or more.
+  Parts parts_of_mode(int mode) const;
+  ContractVerdictsView verdicts_of_mode(int mode) const {
+    return mode_of_joined(mode_verdicts, verdicts.first.size() - 1, mode);
+  }
   double least_speed_mps() const { return over_ground(contract).speed_mps.least; }
 };
 

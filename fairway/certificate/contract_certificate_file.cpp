@@ -10,6 +10,7 @@
 #include "fairway/base/file_kind.hpp"
 #include "fairway/base/mapped_file.hpp"
 #include "fairway/certificate/certificate_file_parts.hpp"
+#include "fairway/certificate/contract_mode_arrays.hpp"
 #include "fairway/certificate/follow_proof_arrays.hpp"
 #include "fairway/vehicle/contract_defect.hpp"
 #include "fairway/vehicle/contract_json.hpp"
@@ -36,10 +37,12 @@ std::vector<Tensor> tensors_of(const ContractCertificate& c, const Geometry& geo
       {"leaf_begin", "U32", leaves, bytes_of(v.begin)},
       {"leaf_group", "U32", leaves, bytes_of(v.group)},
       {"group_heading_rad", "F32", groups, bytes_of(v.group_heading_rad)},
-      {"group_time_s", "F32", groups, bytes_of(v.group_time_s)},
-      cell_tensor(c, "region", "I8", c.region),
-      cell_tensor(c, "cell_kind", "U8", c.kind),
-      {"leaf_verdict", "U8", leaves, bytes_of(v.verdict)}};
+      {"group_time_s", "F32", groups, bytes_of(v.group_time_s)}};
+  add_wide_mode_tensors(c, tensors);
+  tensors.push_back(cell_tensor(c, "region", "I8", c.region));
+  tensors.push_back(cell_tensor(c, "cell_kind", "U8", c.kind));
+  tensors.push_back({"leaf_verdict", "U8", leaves, bytes_of(v.verdict)});
+  add_mode_bytes(c, tensors);
   if (!c.holding.empty()) tensors.push_back(cell_tensor(c, "holding", "U8", c.holding));
   if (c.follow) add_tensors(*c.follow, tensors);
   return tensors;
@@ -96,11 +99,17 @@ ContractCertificate certificate_of_bytes(std::span<const std::byte> bytes,
   take_holding(file, where, c);
   take_contract(record, where + ": fairway", c);
   take_verdicts(file, where, c);
+  const std::size_t mode_arrays = take_contract_modes(file, where, c);
+  const std::string modes_sha256 = digest_of_modes(record);
   if (record.contains("follow")) {
     c.follow = follow_proof_of(file, record["follow"], c.verdicts.leaves(), where);
   }
   take_record(file, this_format, where, std::move(record), {"contract", "parts_per_cell", "follow"},
-              c, c.follow ? follow_arrays : 0);
+              c, (c.follow ? follow_arrays : 0) + mode_arrays);
+  // A plan's further modes may be left unproved.
+  if (c.further_modes() > 0 && c.plan.mode_heading_rad != modes_sha256) {
+    throw InputError(where + ": fairway.plan_sha256", "mode_heading_rad is not that of that plan");
+  }
   return c;
 }
 
@@ -110,6 +119,13 @@ Parts ContractCertificate::parts() const {
   Parts made(flow(), over_ground(contract), parts_per_cell);
   if (follow) made.close_goal();
   return made;
+}
+
+Parts ContractCertificate::parts_of_mode(int mode) const {
+  Flow of = flow();
+  of.heading_rad = mode_heading_rad.data() + static_cast<std::size_t>(mode - 1) * grid.size();
+  of.holding = nullptr;
+  return Parts(of, over_ground(contract), parts_per_cell);
 }
 
 std::string record_text(const ContractCertificate& c) { return text_of_record(record_of(c)); }

@@ -7,7 +7,6 @@
 
 #include "fairway/base/parallel.hpp"
 #include "fairway/base/random.hpp"
-#include "fairway/inclusion/contract_lookup.hpp"
 
 namespace fairway {
 namespace {
@@ -21,6 +20,7 @@ struct Tally {
   std::size_t at_risk = 0;
   std::size_t at_risk_free = 0;
   double worst_time_s = 0.0;
+  std::vector<std::size_t> by_mode;  ///< of all, that reach
   std::map<Place, std::size_t> waiting;
 
   void add(const Tally& other) {
@@ -32,15 +32,21 @@ struct Tally {
     at_risk += other.at_risk;
     at_risk_free += other.at_risk_free;
     worst_time_s = std::max(worst_time_s, other.worst_time_s);
+    by_mode.resize(std::max(by_mode.size(), other.by_mode.size()), 0);
+    for (std::size_t k = 0; k < other.by_mode.size(); ++k) by_mode[k] += other.by_mode[k];
     for (const auto& [place, count] : other.waiting) waiting[place] += count;
   }
 };
 
 class Surveyor {
  public:
-  Surveyor(const Flow& flow, const Parts& parts, const ContractVerdicts& verdicts,
-           const InclusionProver& prover, double speed_mps)
-      : flow_(flow), parts_(parts), verdicts_(verdicts), prover_(prover), speed_mps_(speed_mps) {}
+  Surveyor(const Flow& flow, std::span<const ContractMode> modes, const InclusionProver& prover,
+           double speed_mps)
+      : flow_(flow),
+        modes_(modes),
+        parts_(modes.front().parts),
+        prover_(prover),
+        speed_mps_(speed_mps) {}
 
   /// Which of the totals a sampled state counts for.
   struct Counts {
@@ -53,14 +59,15 @@ class Surveyor {
             Tally& tally) const {
     const double per_cell = static_cast<double>(parts_.nx()) / flow_.grid.nx;
     const Vec2 place{(cell.ix + offset.x) * per_cell, (cell.iy + offset.y) * per_cell};
-    const ContractAnswer answer =
-        contract_answer(parts_, verdicts_, speed_mps_, place, heading_rad);
+    const auto [answer, mode] = answer_of_modes(modes_, speed_mps_, place, heading_rad);
     const auto verdict = static_cast<std::size_t>(flow_.told(answer.verdict, cell));
     tally.usable[verdict] += counts.is_usable ? 1 : 0;
     if (!counts.of_all) return;
     ++(counts.is_free ? tally.free : tally.buffer)[verdict];
     if (answer.verdict == Verdict::reach) {
       tally.worst_time_s = std::max(tally.worst_time_s, answer.worst_time_s);
+      tally.by_mode.resize(modes_.size(), 0);
+      ++tally.by_mode[static_cast<std::size_t>(mode)];
     }
     if (answer.verdict != Verdict::undecided) return;
     const Grid& grid = flow_.grid;
@@ -97,8 +104,8 @@ class Surveyor {
   }
 
   const Flow& flow_;
-  const Parts& parts_;
-  const ContractVerdicts& verdicts_;
+  std::span<const ContractMode> modes_;
+  const Parts& parts_;  ///< of mode 0
   const InclusionProver& prover_;
   double speed_mps_;
 };
@@ -116,10 +123,9 @@ std::array<double, verdict_count> shares_of(const std::array<std::size_t, verdic
 }  // namespace
 
 ContractSurvey survey(const Flow& flow, const std::vector<bool>& is_free,
-                      const std::vector<bool>& is_usable, const Parts& parts,
-                      const ContractVerdicts& verdicts, const InclusionProver& prover,
-                      double speed_least_mps, const SurveyOptions& options,
-                      const std::function<IsAtRisk()>& make_search) {
+                      const std::vector<bool>& is_usable, std::span<const ContractMode> modes,
+                      const InclusionProver& prover, double speed_least_mps,
+                      const SurveyOptions& options, const std::function<IsAtRisk()>& make_search) {
   const Grid& grid = flow.grid;
   std::size_t cells = 0;
   std::size_t usable = 0;
@@ -135,7 +141,7 @@ ContractSurvey survey(const Flow& flow, const std::vector<bool>& is_free,
   const std::size_t per_cell = (samples_asked + cells - 1) / cells;
   const std::size_t per_usable = usable == 0 ? 0 : (samples_asked + usable - 1) / usable;
   std::vector<Tally> rows(static_cast<std::size_t>(grid.ny));
-  const Surveyor surveyor(flow, parts, verdicts, prover, speed_least_mps);
+  const Surveyor surveyor(flow, modes, prover, speed_least_mps);
   for_ranges(rows.size(), 4, [&](std::size_t a, std::size_t b) {
     const IsAtRisk no_search;
     const IsAtRisk is_at_risk = make_search ? make_search() : no_search;
@@ -177,6 +183,12 @@ ContractSurvey survey(const Flow& flow, const std::vector<bool>& is_free,
         static_cast<double>(total.at_risk_free) / static_cast<double>(free_states);
   }
   made.shares.worst_time_s = total.worst_time_s;
+  if (modes.size() > 1) {
+    total.by_mode.resize(modes.size(), 0);
+    for (const std::size_t n : total.by_mode) {
+      made.shares.reach_by_mode.push_back(static_cast<double>(n) / samples);
+    }
+  }
   for (const auto& [place, count] : total.waiting) {
     made.chokes.push_back(
         {grid.cell_at(place.first), place.second, static_cast<double>(count) / samples});

@@ -9,12 +9,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "fairway/base/grid.hpp"
-#include "fairway/inclusion/contract_verdicts.hpp"
+#include "fairway/inclusion/contract_modes.hpp"
 #include "fairway/inclusion/inclusion_prover.hpp"
-#include "fairway/inclusion/parts.hpp"
 #include "fairway/vehicle/vehicle.hpp"
 #include "fairway/verify/verdict.hpp"
 
@@ -26,7 +26,9 @@ struct ContractShares {
   std::array<double, verdict_count> free{};  ///< of these, the safe-start cells
   std::array<double, verdict_count> buffer{};
   std::array<double, verdict_count> usable{};  ///< of the cells that the mission can use
-  double at_risk = 0.0;                        ///< of all; all[undecided] holds it
+  /// Of all, by the first mode that is proved to reach; empty: there is one mode.
+  std::vector<double> reach_by_mode;
+  double at_risk = 0.0;  ///< of all; all[undecided] holds it
   double at_risk_free = 0.0;
   std::size_t samples = 0;
   std::size_t usable_samples = 0;
@@ -58,11 +60,13 @@ struct SurveyOptions {
 using IsAtRisk = std::function<bool(const State& state)>;
 
 /// `is_free`: safe starts; `is_usable`: cells that the mission can use, where enough states are
-/// sampled however few they are; [cells]. `make_search`: called once for each thread's rows.
+/// sampled however few they are; [cells]. `modes`: mode 0 first, of which `prover` is; at risk is
+/// who may fail under it. `make_search`: called once for each thread's rows.
 [[nodiscard]] ContractSurvey survey(const Flow& flow, const std::vector<bool>& is_free,
-                                    const std::vector<bool>& is_usable, const Parts& parts,
-                                    const ContractVerdicts& verdicts, const InclusionProver& prover,
-                                    double speed_least_mps, const SurveyOptions& options,
+                                    const std::vector<bool>& is_usable,
+                                    std::span<const ContractMode> modes,
+                                    const InclusionProver& prover, double speed_least_mps,
+                                    const SurveyOptions& options,
                                     const std::function<IsAtRisk()>& make_search);
 
 }  // namespace fairway

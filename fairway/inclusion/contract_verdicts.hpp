@@ -15,6 +15,9 @@
 //   4. A leaf with verdict trapped has no end; all its crossings lie in leaves with verdict
 //   trapped.
 //   5. No behaviour from a leaf of a group takes longer than group_time_s.
+//   6. Where a group has a next mode, properties 2 and 3 are not claimed of its leaves: they are
+//      handed over. All states within twice the error of the vehicle's estimate of such a leaf are
+//      proved to reach under that mode, within group_time_s (contract_hand_over.hpp).
 #pragma once
 
 #include <cstddef>
@@ -35,6 +38,8 @@ struct ContractVerdicts {
   std::vector<std::uint8_t> verdict;     ///< [leaves], Verdict
   std::vector<float> group_heading_rad;  ///< [groups]; NaN: no behaviour comes back to the group
   std::vector<float> group_time_s;       ///< [groups]; +inf for group 0
+  /// [groups], the earlier mode that the vehicle changes to, or no_mode; empty: all no_mode.
+  std::vector<std::uint8_t> group_next_mode;
 
   std::size_t leaves() const { return begin.size(); }
 };

@@ -35,10 +35,7 @@ class Decider {
     result_.hope.assign(graph.leaves(), CutHope::none);
     result_.cause.assign(graph.leaves(), ~Id{0});
     result_.trouble.assign(graph.leaves(), Trouble::none);
-    if (groups.heading_rad.empty()) {
-      groups.heading_rad.push_back(std::numeric_limits<float>::quiet_NaN());
-      groups.flown.push_back(std::numeric_limits<float>::infinity());
-    }
+    groups.begin();
   }
 
   Deciding run() {
@@ -90,9 +87,7 @@ class Decider {
     if (trapped) return close(members, Verdict::trapped, 0);
     if (one && progress) {
       const auto verdict = static_cast<Verdict>(std::countr_zero(all.verdicts));
-      groups_.heading_rad.push_back(heading_of(all));
-      groups_.flown.push_back(flown_of(members, all));
-      return close(members, verdict, static_cast<std::uint32_t>(groups_.flown.size() - 1));
+      return close(members, verdict, groups_.add(heading_of(all), flown_of(members, all)));
     }
     tell_trouble(members, all, one);
   }
@@ -184,6 +179,17 @@ class Decider {
 };
 
 }  // namespace
+
+void GroupRecord::begin() {
+  if (!heading_rad.empty()) return;
+  add(std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity());
+}
+
+std::uint32_t GroupRecord::add(float group_heading_rad, float group_flown) {
+  heading_rad.push_back(group_heading_rad);
+  flown.push_back(group_flown);
+  return static_cast<std::uint32_t>(flown.size() - 1);
+}
 
 Deciding decide_groups(const Parts& parts, CrossingGraph& graph, GroupRecord& groups) {
   return Decider(parts, graph, groups).run();

@@ -29,6 +29,12 @@ enum class Trouble : std::uint8_t {
 struct GroupRecord {
   std::vector<float> heading_rad;  ///< [groups], as in contract_verdicts.hpp
   std::vector<float> flown;        ///< [groups], in parts, at most, to the end
+  /// As in contract_verdicts.hpp, of the first groups; of those after them: no_mode.
+  std::vector<std::uint8_t> next_mode{};
+
+  /// There is a group 0, that of nobody.
+  void begin();
+  std::uint32_t add(float group_heading_rad, float group_flown);
 };
 
 /// Whether the halves of a leaf that is not decided may be.

@@ -1,9 +1,24 @@
 #include "fairway/inclusion/inclusion_prover.hpp"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
+#include "fairway/base/parallel.hpp"
+
 namespace fairway {
+
+namespace {
+
+/// At most 1 % more, one of few, so that groups are few.
+float coarse_above(double length) {
+  constexpr std::uint32_t rest = 0xffffU;
+  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(length * (1.0 + 1e-6)));
+  return std::bit_cast<float>((bits + rest) & ~rest);
+}
+
+}  // namespace
 
 InclusionProver::InclusionProver(const Parts& parts, const InclusionLimits& limits)
     : parts_(parts),
@@ -42,11 +57,58 @@ std::vector<bool> InclusionProver::to_cut(int level) const {
   return which;
 }
 
+/// Asked before a leaf is flown, since most leaves of a further mode are handed over at once.
+void InclusionProver::hand_over_fresh() {
+  const std::uint32_t least = side_units >> static_cast<unsigned>(limits_.hand_over_level);
+  struct Asked {
+    CrossingGraph::Id id;
+    std::size_t section;
+    ContractHandOver found;
+  };
+  std::vector<Asked> asked;
+  for (std::size_t s = 0; s < graph_.sections(); ++s) {
+    for (auto id = graph_.first(s); id < graph_.first(s + 1); ++id) {
+      const Leaf& leaf = graph_.leaf(id);
+      const bool is_long = graph_.end_of(id, s) - leaf.begin >= least;
+      if (leaf.state == LeafState::fresh && is_long) asked.push_back({id, s, {}});
+    }
+  }
+  constexpr std::size_t chunk = 64;
+  for_ranges((asked.size() + chunk - 1) / chunk, 1, [&](std::size_t a, std::size_t b) {
+    for (std::size_t k = a * chunk; k < std::min(asked.size(), b * chunk); ++k) {
+      if (k % chunk == 0 && !limits_.go_on()) return;
+      Asked& one = asked[k];
+      one.found = hand_over(parts_, parts_.place(one.section / sections_per_part),
+                            static_cast<PartSide>(one.section % sections_per_part),
+                            graph_.leaf(one.id).begin / static_cast<double>(side_units),
+                            graph_.end_of(one.id, one.section) / static_cast<double>(side_units),
+                            error_, earlier_);
+    }
+  });
+  groups_.begin();
+  for (const Asked& one : asked) {
+    if (one.found.mode == no_mode) continue;
+    const double flown = one.found.time_s * speed_least_mps_ / parts_.part_m();
+    const float rounded = coarse_above(flown);
+    const auto [at, is_new] = group_handed_.try_emplace({one.found.mode, rounded}, 0);
+    if (is_new) {
+      at->second = groups_.add(std::numeric_limits<float>::quiet_NaN(), rounded);
+      groups_.next_mode.resize(at->second, no_mode);
+      groups_.next_mode.push_back(one.found.mode);
+    }
+    Leaf& leaf = graph_.leaf(one.id);
+    leaf.state = LeafState::closed;
+    leaf.verdict = Verdict::reach;
+    leaf.group = at->second;
+  }
+}
+
 bool InclusionProver::run(const std::function<void(const InclusionLevel&)>& progress) {
   double before = 1.0;
   for (int level = limits_.first_level; level <= limits_.last_level; ++level) {
     // Within a level, until it decides next to nothing more.
     while (true) {
+      if (!earlier_.empty()) hand_over_fresh();
       graph_.fly(parts_, limits_.flight, limits_.go_on);
       last_ = decide_groups(parts_, graph_, groups_);
       const InclusionLevel now = level_now(level);
@@ -94,6 +156,9 @@ ContractVerdicts InclusionProver::verdicts(double speed_least_mps) const {
     made.group_time_s.push_back(
         std::nextafter(static_cast<float>(s), std::numeric_limits<float>::infinity()));
   }
+  if (earlier_.empty()) return made;
+  made.group_next_mode = groups_.next_mode;
+  made.group_next_mode.resize(made.group_time_s.size(), no_mode);
   return made;
 }
 

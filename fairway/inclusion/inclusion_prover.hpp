@@ -11,10 +11,12 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "fairway/inclusion/behaviour_flight.hpp"
+#include "fairway/inclusion/contract_hand_over.hpp"
 #include "fairway/inclusion/contract_verdicts.hpp"
 #include "fairway/inclusion/crossing_graph.hpp"
 #include "fairway/inclusion/decide_groups.hpp"
@@ -23,9 +25,12 @@
 namespace fairway {
 
 struct InclusionLimits {
-  int first_level = 1;           ///< a side starts as 2^first_level leaves
-  int last_level = 6;            ///< no leaf is shorter than a side / 2^last_level
-  int faint_level = 4;           ///< nor than a side / 2^faint_level where hope is faint
+  int first_level = 1;  ///< a side starts as 2^first_level leaves
+  int last_level = 6;   ///< no leaf is shorter than a side / 2^last_level
+  int faint_level = 4;  ///< nor than a side / 2^faint_level where hope is faint
+  /// No leaf shorter than a side / 2^hand_over_level is asked whether it is handed over: the error
+  /// of the vehicle's estimate is added to all of them.
+  int hand_over_level = 2;
   std::size_t memory_bytes = 0;  ///< 0: none
   /// A level that decides less than this share of all sides is the last.
   double least_gain = 0.0005;
@@ -50,6 +55,15 @@ class InclusionProver {
                   GroupRecord groups)
       : parts_(parts), limits_(limits), graph_(std::move(graph)), groups_(std::move(groups)) {}
 
+  /// Proves a further mode: leaves may be handed over to these, the modes before it, in order. What
+  /// is pointed to has to outlive the proof. Before run().
+  void hand_over_to(std::vector<const ReachBoxes*> earlier, const EstimateError& error,
+                    double speed_least_mps) {
+    earlier_ = std::move(earlier);
+    error_ = error;
+    speed_least_mps_ = speed_least_mps;
+  }
+
   /// Leaves begin as in an earlier proof of the same parts, whose verdicts are found again. Before
   /// run().
   void start_from(const ContractVerdicts& earlier) { graph_.begin_as(earlier); }
@@ -64,12 +78,17 @@ class InclusionProver {
  private:
   InclusionLevel level_now(int level) const;
   std::vector<bool> to_cut(int level) const;
+  void hand_over_fresh();
 
   const Parts& parts_;
   InclusionLimits limits_;
   CrossingGraph graph_;
   GroupRecord groups_;
   Deciding last_;
+  std::vector<const ReachBoxes*> earlier_;
+  EstimateError error_;
+  double speed_least_mps_ = 0.0;  ///< that the times of earlier modes were found with
+  std::map<std::pair<std::uint8_t, float>, std::uint32_t> group_handed_;  ///< by mode and length
 };
 
 }  // namespace fairway

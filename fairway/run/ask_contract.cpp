@@ -23,7 +23,19 @@ struct SearchTools {
 };
 
 struct ContractQueries::Parts {
-  explicit Parts(const ContractCertificate& asked) : certificate(asked), parts(asked.parts()) {}
+  explicit Parts(const ContractCertificate& asked) : certificate(asked), parts(asked.parts()) {
+    for (int mode = 1; mode <= asked.further_modes(); ++mode) {
+      further.push_back(asked.parts_of_mode(mode));
+    }
+  }
+
+  ContractAnswer answer(const State& state, int mode) const {
+    const auto k = static_cast<std::size_t>(mode);
+    return contract_answer(
+        certificate.grid, mode == 0 ? parts : further[k - 1],
+        mode == 0 ? ContractVerdictsView(certificate.verdicts) : certificate.verdicts_of_mode(mode),
+        certificate.least_speed_mps(), state.position_m, state.heading.rad());
+  }
 
   const SearchTools& tools() {
     std::call_once(made, [this] { made_tools = std::make_unique<SearchTools>(certificate); });
@@ -32,6 +44,7 @@ struct ContractQueries::Parts {
 
   const ContractCertificate& certificate;
   fairway::Parts parts;
+  std::vector<fairway::Parts> further;  ///< of further modes
   std::once_flag made;
   std::unique_ptr<SearchTools> made_tools;
 };
@@ -42,10 +55,15 @@ ContractQueries::~ContractQueries() = default;
 
 ContractReply ContractQueries::proved(const State& state) const {
   const ContractCertificate& certificate = parts_->certificate;
-  const ContractAnswer answer =
-      contract_answer(certificate.grid, parts_->parts, certificate.verdicts,
-                      certificate.least_speed_mps(), state.position_m, state.heading.rad());
+  ContractAnswer answer = parts_->answer(state, 0);
   ContractReply reply;
+  for (int mode = 1; mode <= certificate.further_modes() && answer.verdict != Verdict::reach;
+       ++mode) {
+    const ContractAnswer other = parts_->answer(state, mode);
+    if (other.verdict != Verdict::reach) continue;
+    answer = other;
+    reply.mode = mode;
+  }
   reply.verdict =
       certificate.flow().told(answer.verdict, certificate.grid.cell_of(state.position_m));
   reply.follows =

@@ -23,6 +23,7 @@ namespace fairway {
 struct ContractReply {
   Verdict verdict = Verdict::undecided;
   double time_bound_s = 0.0;               ///< of every behaviour; only with reach
+  int mode = 0;                            ///< the first that is proved to reach; else 0
   bool follows = false;                    ///< reach: joins the path and follows it
   std::optional<BehaviourFlight> witness;  ///< of an undecided state that is at risk
 

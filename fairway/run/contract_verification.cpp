@@ -1,9 +1,11 @@
 #include "fairway/run/contract_verification.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -71,6 +73,7 @@ json evidence_of(const ContractVerifyOptions& options, const ContractVerificatio
       {"chokes", chokes_json(made)},
       {"levels", std::move(levels)},
       {"stopped_by", made.stopped_by_limit ? "limit" : "done"}};
+  if (!s.reach_by_mode.empty()) evidence["reach_by_mode"] = s.reach_by_mode;
   // Only when the limit of time ended the search: of all else the share is counted.
   if (made.searched && made.searched_states < made.undecided_states) {
     evidence["at_risk_samples"] = made.searched_states;
@@ -117,7 +120,7 @@ ContractCertificate question(const Plan& plan, const RegionOfInterest& region,
   return c;
 }
 
-void measure(const Plan& plan, const Parts& parts, const InclusionProver& prover,
+void measure(const Plan& plan, std::span<const ContractMode> modes, const InclusionProver& prover,
              const ContractVerifyOptions& options, UndecidedStates& undecided,
              ContractVerification& made) {
   const ContractCertificate& c = made.certificate;
@@ -128,8 +131,32 @@ void measure(const Plan& plan, const Parts& parts, const InclusionProver& prover
   sampled.seed = options.seed;
   // Nothing is claimed outside the walls of a track, and searches there would take minutes.
   sampled.search_all = !made.following;
-  made.survey = survey(c.flow(), is_free, usable_cells(plan), parts, c.verdicts, prover,
-                       c.least_speed_mps(), sampled, undecided.gatherer());
+  made.survey = survey(c.flow(), is_free, usable_cells(plan), modes, prover, c.least_speed_mps(),
+                       sampled, undecided.gatherer());
+}
+
+/// Of a plan that has further modes. (Under a limit of time, all or none of them are proved.)
+ProvedContractModes prove_further(const Plan& plan, const Parts& parts, InclusionLimits limits,
+                                  const std::function<void(const std::string& doing)>& progress,
+                                  ContractVerification& made) {
+  ContractCertificate& c = made.certificate;
+  if (plan.further_modes() == 0 || made.stopped_by_limit) return {};
+  // Smaller leaves earn next to nothing: they lie along the edges of what is proved.
+  limits.last_level = 2;
+  limits.hand_over_level = 1;
+  ContractModesProof proof = prove_contract_modes(
+      c.flow(), plan.further_rad(), over_ground(c.contract), c.parts_per_cell,
+      EstimateError::of(c.contract), {parts, c.verdicts}, limits, [&](int mode) {
+        progress(
+            fmt::format("verifying under the contract, mode {} of {}", mode, plan.further_modes()));
+      });
+  if (proof.stopped_by_limit) {
+    made.stopped_by_limit = true;
+    return {};
+  }
+  c.mode_heading_rad = plan.mode_heading_rad;
+  c.mode_verdicts = joined(proof.further);
+  return std::move(proof.further);
 }
 
 }  // namespace
@@ -188,10 +215,10 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
   };
   double proof_s = 0.0;
   UndecidedStates undecided;
-  const auto survey_with = [&](const Parts& parts, const InclusionProver& prover) {
+  const auto survey_with = [&](std::span<const ContractMode> modes, const InclusionProver& prover) {
     proof_s = watch.seconds();
     progress("measuring shares of states");
-    measure(plan, parts, prover, options, undecided, made);
+    measure(plan, modes, prover, options, undecided, made);
   };
   // An earlier proof that a path is touched goes on as such.
   std::optional<PathFollower> follower;
@@ -210,7 +237,7 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
       made.stopped_by_limit = !follower->join(note, earlier_verdicts);
       follower->fill(c);
       made.following = follower->found();
-      survey_with(follower->parts(), follower->prover());
+      survey_with(std::array{ContractMode{follower->parts(), c.verdicts}}, follower->prover());
     }
   }
   if (made.no_tube && earlier != nullptr) {
@@ -225,7 +252,10 @@ ContractVerification verify_contract(const Plan& plan, const std::string& where,
     if (earlier_verdicts != nullptr) prover.start_from(*earlier_verdicts);
     made.stopped_by_limit = !prover.run(note);
     c.verdicts = prover.verdicts(c.least_speed_mps());
-    survey_with(parts, prover);
+    const ProvedContractModes further = prove_further(plan, parts, limits, progress, made);
+    std::vector<ContractMode> modes{{parts, c.verdicts}};
+    for (const auto& mode : further) modes.push_back({mode->parts, mode->verdicts});
+    survey_with(modes, prover);
   }
   if (earlier != nullptr) made.resumed = taken_over(*earlier, c.verdicts, in_time);
   if (search) {
