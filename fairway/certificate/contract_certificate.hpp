@@ -13,7 +13,6 @@
 
 #include "fairway/base/frame.hpp"
 #include "fairway/base/grid.hpp"
-#include "fairway/inclusion/contract_modes.hpp"
 #include "fairway/inclusion/contract_verdicts.hpp"
 #include "fairway/inclusion/follow_proof.hpp"
 #include "fairway/inclusion/parts.hpp"

@@ -50,9 +50,6 @@ struct ContractModesProof {
 /// Further modes one after another, as files have them: of `sections` sections a mode, section s of
 /// mode k is number sections (k - 1) + s. Groups are numbered on, behind one group 0 for all.
 [[nodiscard]] ContractVerdicts joined(const ProvedContractModes& modes);
-/// Those of one of them, 1 or more.
-[[nodiscard]] ContractVerdictsView mode_of_joined(const ContractVerdicts& joined,
-                                                  std::size_t sections, int mode);
 
 /// Proves further modes, [mode - 1][iy][ix], one after another. `flow`, `first`: of mode 0, which
 /// is proved, and outlives the call. `contract`: over ground (over_ground); `error`: that of the

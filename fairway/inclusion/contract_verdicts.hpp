@@ -61,4 +61,9 @@ struct ContractVerdictsView {
         group_time_s(v.group_time_s) {}
 };
 
+/// Of further modes whose sections stand one after another (contract_modes.hpp), `sections` of
+/// each: those of one of them, 1 or more.
+[[nodiscard]] ContractVerdictsView mode_of_joined(const ContractVerdicts& joined,
+                                                  std::size_t sections, int mode);
+
 }  // namespace fairway
