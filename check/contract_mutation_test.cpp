@@ -109,6 +109,29 @@ class ContractMutation : public testing::Test {
 fs::path ContractMutation::folder_;
 std::string ContractMutation::good_;
 
+TEST_F(ContractMutation, OfAPlanWithModesIsOneOfItsOwnField) {
+  fairway::Plan plan = a_plan(0.1);
+  plan.mode_heading_rad.assign(2 * plan.grid.size(), 0.5F);
+  plan.record.modes = {{"direction", 0.5}, {"direction", 0.5}};
+  write_plan(plan, folder_ / "with_modes", fairway::Existing::replace);
+  fairway::ContractVerifyOptions options;
+  options.parts_per_cell = 1;
+  options.samples = 2000;
+  options.find_witnesses = false;
+  const auto made = fairway::verify_contract(plan, "plan", fairway::RegionOfInterest{},
+                                             a_contract(), options, [](const std::string&) {});
+  write_contract_certificate(made.certificate, folder_ / "of_modes", fairway::Existing::replace);
+  EXPECT_EQ(refusal_of(folder_ / "of_modes", folder_ / "with_modes", 2000), "");
+  EXPECT_THAT(refusal_of(folder_ / "of_modes", folder_ / "plan", 0),
+              testing::HasSubstr("is not the certificate of the plan"));
+  EXPECT_THAT(refusal_of(folder_ / "good", folder_ / "with_modes", 0),
+              testing::HasSubstr("is not the certificate of the plan"));
+  plan.mode_heading_rad[7] = 0.75F;
+  write_plan(plan, folder_ / "with_others", fairway::Existing::replace);
+  EXPECT_THAT(refusal_of(folder_ / "of_modes", folder_ / "with_others", 0),
+              testing::HasSubstr("is not the certificate of the plan"));
+}
+
 TEST_F(ContractMutation, WhateverTheProverProvesIsAccepted) {
   // Obstacles that meet at corners, narrow arcs side by side, one radius, almost no error.
   for (int round = 0; round < 3; ++round) {

@@ -11,86 +11,16 @@
 #include <functional>
 #include <limits>
 
+#include "check/testing/plans_with_modes.hpp"
 #include "check/testing/refusal.hpp"
 #include "check/testing/sample_certificate.hpp"
 #include "check/testing/taken_apart.hpp"
-#include "fairway/base/random.hpp"
-#include "fairway/field/direction_field.hpp"
 #include "fairway/plan/plan_file.hpp"
 
 namespace fairway_check {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int nx = 26;
-constexpr int ny = 11;
-constexpr std::uint8_t stays = 255;
-
-/// With fields that go on in so many directions.
-void add_directions(fairway::Plan& plan, int count) {
-  for (int k = 0; k < count; ++k) {
-    const double direction_rad = fairway::Heading::from_rad(2.0 * fairway::pi * k / count).rad();
-    const std::vector<float> field =
-        fairway::direction_field(plan.grid, plan.region, direction_rad, 16.0);
-    plan.mode_heading_rad.insert(plan.mode_heading_rad.end(), field.begin(), field.end());
-    plan.record.modes.push_back({"direction", direction_rad});
-  }
-}
-
-/// A street too narrow to turn in, with a goal at one end and a square at the other: who heads away
-/// from the goal has to go on to the square. Its wall has a gap, so that some are lost, too.
-fairway::Plan street() {
-  fairway::Plan plan = fairway::empty_plan(nx, ny, 8.0, 20.0);
-  for (std::size_t i = 0; i < plan.grid.size(); ++i) {
-    const fairway::Cell c = plan.grid.cell_at(i);
-    const bool in_street = c.iy >= 3 && c.iy <= 7;
-    const bool in_square = c.ix < 11 && c.ix > 0 && c.iy > 0 && c.iy < ny - 1;
-    if (!in_street && !in_square) plan.region[i] = fairway::Region::obstacle;
-    if (c.ix >= nx - 2 && in_street) plan.region[i] = fairway::Region::goal;
-    if (c.iy == 3 || c.iy == 7) plan.region[i] = std::max(plan.region[i], fairway::Region::buffer);
-    plan.heading_rad[i] = static_cast<float>(0.1 * (5 - c.iy));
-  }
-  add_directions(plan, 4);
-  return plan;
-}
-
-/// The same with fields that nobody would fly: of every style, with commands equal to those of
-/// other modes here and there, exactly opposite to them, or missing.
-void add_odd_modes(fairway::Plan& plan, std::uint64_t seed) {
-  fairway::Random random = fairway::Random::stream(0x0de5, seed);
-  const auto modes = 1 + random.below(4);
-  const std::size_t cells = plan.grid.size();
-  for (std::uint64_t k = 0; k < modes; ++k) {
-    const auto style = static_cast<fairway::FieldStyle>(random.below(fairway::field_styles));
-    const fairway::Vec2 goal{random.uniform(0.0, plan.grid.nx), random.uniform(0.0, plan.grid.ny)};
-    const double twist = random.uniform(-fairway::pi, fairway::pi);
-    for (std::size_t i = 0; i < cells; ++i) {
-      const fairway::Cell c = plan.grid.cell_at(i);
-      const float own = plan.heading_rad[i];
-      const float before = k == 0 ? own : plan.mode_heading_rad[(k - 1) * cells + i];
-      float rad = fairway::Heading::stored(
-          sample_heading(style, random, {c.ix + 0.5, c.iy + 0.5}, goal, twist));
-      switch (random.below(8)) {
-        case 0:
-          rad = own;
-          break;
-        case 1:
-          rad = before;
-          break;
-        case 2:
-          rad = std::isnan(own) ? own
-                                : fairway::Heading::stored(static_cast<double>(own) + fairway::pi);
-          break;
-        default:
-          break;
-      }
-      if (random.below(20) == 0) rad = std::numeric_limits<float>::quiet_NaN();
-      plan.mode_heading_rad.push_back(rad);
-    }
-    plan.record.modes.push_back({"turning_places"});
-  }
-}
 
 class ModesMutation : public testing::Test {
  protected:
@@ -121,56 +51,6 @@ class ModesMutation : public testing::Test {
 fs::path ModesMutation::folder_;
 std::string ModesMutation::good_;
 
-/// A leaf of a further mode, in the arrays of all of them.
-struct Leaf {
-  TakenApart& of;
-  std::size_t at;
-
-  std::uint8_t verdict() const { return of.at<std::uint8_t>("mode_leaf_verdict", at); }
-  std::uint8_t next() const { return of.at<std::uint8_t>("mode_leaf_next", at); }
-  std::uint32_t rank() const { return of.at<std::uint32_t>("mode_leaf_rank", at); }
-  float time_s() const { return of.at<float>("mode_leaf_time_s", at); }
-  bool reaches() const { return verdict() == reach; }
-  bool hands_over() const { return next() != stays; }
-
-  void put_verdict(std::uint8_t v) const { of.put("mode_leaf_verdict", at, v); }
-  void put_next(std::uint8_t mode) const { of.put("mode_leaf_next", at, mode); }
-  void put_rank(std::uint32_t rank) const { of.put("mode_leaf_rank", at, rank); }
-  void put_time(float s) const { of.put("mode_leaf_time_s", at, s); }
-};
-
-std::size_t mode_leaves(const TakenApart& parts) {
-  return parts.arrays.at("mode_leaf_verdict").size();
-}
-std::size_t section_of_mode_leaf(const TakenApart& parts, std::size_t leaf) {
-  std::size_t s = 0;
-  while (parts.at<std::uint32_t>("mode_section_first", s + 1) <= leaf) ++s;
-  return s;
-}
-std::size_t mode_of_leaf(const TakenApart& parts, std::size_t leaf) {
-  return 1 + section_of_mode_leaf(parts, leaf) / (4 * std::size_t{nx} * std::size_t{ny});
-}
-
-/// Numbers of leaves with this property, at most `most` of them, spread over all that have it.
-std::vector<std::size_t> some_leaves(TakenApart& parts, std::size_t most,
-                                     const std::function<bool(const Leaf&)>& is_one) {
-  std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < mode_leaves(parts); ++i) {
-    if (is_one({parts, i})) all.push_back(i);
-  }
-  EXPECT_FALSE(all.empty());
-  std::vector<std::size_t> some;
-  for (std::size_t i = 0; i < std::min(most, all.size()); ++i) {
-    some.push_back(all[i * all.size() / std::min(most, all.size())]);
-  }
-  return some;
-}
-
-bool is_reaching(const Leaf& leaf) { return leaf.reaches(); }
-bool is_handed_over(const Leaf& leaf) { return leaf.reaches() && leaf.hands_over(); }
-bool is_flown_on(const Leaf& leaf) { return leaf.reaches() && !leaf.hands_over(); }
-bool is_open(const Leaf& leaf) { return !leaf.reaches(); }
-
 TEST_F(ModesMutation, WhatTheProverMadeIsAccepted) {
   EXPECT_EQ(refusal(good_), "");
   TakenApart parts(good_);
@@ -180,7 +60,7 @@ TEST_F(ModesMutation, WhatTheProverMadeIsAccepted) {
   std::vector<int> handed_to(5, 0);
   int deep = 0;
   for (std::size_t i = 0; i < mode_leaves(parts); ++i) {
-    const Leaf leaf{parts, i};
+    const ModeLeaf leaf{parts, i};
     if (leaf.hands_over()) ++handed_to.at(leaf.next());
     deep += leaf.rank() > 1 ? 1 : 0;
   }
@@ -220,13 +100,13 @@ TEST_F(ModesMutation, ALeafIsHandedOverOnlyToAnEarlierModeThatIsProvedToReach) {
   for (const std::size_t leaf : some_leaves(parts, 20, is_handed_over)) {
     for (std::uint8_t other = 0; other < mode_of_leaf(parts, leaf); ++other) {
       parts = good;
-      if (other == Leaf{parts, leaf}.next()) continue;
-      Leaf{parts, leaf}.put_next(other);
-      Leaf{parts, leaf}.put_time(1e6F);
+      if (other == ModeLeaf{parts, leaf}.next()) continue;
+      ModeLeaf{parts, leaf}.put_next(other);
+      ModeLeaf{parts, leaf}.put_time(1e6F);
       // Accepted where the other mode reaches, too: nobody is misled. The prover takes the first
       // that does, so no earlier one may.
       const std::string why = refusal(parts);
-      const bool is_earlier = other < Leaf{parts, leaf}.next();
+      const bool is_earlier = other < ModeLeaf{parts, leaf}.next();
       ++tried;
       refused += why.empty() ? 0 : 1;
       EXPECT_TRUE(why.empty() ? !is_earlier
@@ -244,11 +124,11 @@ TEST_F(ModesMutation, NoLeafIsHandedOverToItsOwnModeALaterOneOrNone) {
     const std::size_t mode = mode_of_leaf(parts, leaf);
     for (const std::size_t other : {mode, mode + 1, std::size_t{5}, std::size_t{254}}) {
       parts = good;
-      Leaf{parts, leaf}.put_next(static_cast<std::uint8_t>(other));
+      ModeLeaf{parts, leaf}.put_next(static_cast<std::uint8_t>(other));
       EXPECT_THAT(refusal(parts), testing::HasSubstr("hands over to no earlier mode"));
     }
     parts = good;  // a rank is one within a mode
-    Leaf{parts, leaf}.put_rank(1);
+    ModeLeaf{parts, leaf}.put_rank(1);
     EXPECT_THAT(refusal(parts), testing::HasSubstr("has an invalid verdict, rank or time"));
   }
 }
@@ -260,9 +140,9 @@ TEST_F(ModesMutation, WhatIsFlownOnAndWhatIsHandedOverAreTwoThings) {
   int tried = 0;
   for (const std::size_t leaf : some_leaves(parts, 30, is_flown_on)) {
     parts = good;
-    Leaf{parts, leaf}.put_next(0);
-    Leaf{parts, leaf}.put_rank(0);
-    Leaf{parts, leaf}.put_time(1e6F);
+    ModeLeaf{parts, leaf}.put_next(0);
+    ModeLeaf{parts, leaf}.put_rank(0);
+    ModeLeaf{parts, leaf}.put_time(1e6F);
     ++tried;
     refused += refusal(parts).empty() ? 0 : 1;
   }
@@ -271,7 +151,7 @@ TEST_F(ModesMutation, WhatIsFlownOnAndWhatIsHandedOverAreTwoThings) {
   refused = 0;
   for (const std::size_t leaf : some_leaves(parts = good, 30, is_handed_over)) {
     parts = good;
-    Leaf{parts, leaf}.put_next(stays);
+    ModeLeaf{parts, leaf}.put_next(stays);
     refused += refusal(parts).empty() ? 0 : 1;  // its rank is 0
   }
   EXPECT_GT(refused, 15);
@@ -282,25 +162,25 @@ TEST_F(ModesMutation, UndecidedLeavesCannotBeClaimed) {
   TakenApart parts = good;
   for (const std::size_t leaf : some_leaves(parts, 10, is_open)) {
     parts = good;
-    Leaf{parts, leaf}.put_verdict(reach);
-    Leaf{parts, leaf}.put_rank(1000000);
-    Leaf{parts, leaf}.put_time(1e6F);
+    ModeLeaf{parts, leaf}.put_verdict(reach);
+    ModeLeaf{parts, leaf}.put_rank(1000000);
+    ModeLeaf{parts, leaf}.put_time(1e6F);
     EXPECT_THAT(refusal(parts), testing::HasSubstr("could not be re-proved")) << leaf;
-    Leaf{parts, leaf}.put_rank(0);
+    ModeLeaf{parts, leaf}.put_rank(0);
     for (std::uint8_t mode = 0; mode < mode_of_leaf(parts, leaf); ++mode) {
-      Leaf{parts, leaf}.put_next(mode);
+      ModeLeaf{parts, leaf}.put_next(mode);
       EXPECT_THAT(refusal(parts), testing::HasSubstr("could not be re-proved")) << leaf;
     }
   }
   // They say nothing else either.
   const std::size_t leaf = some_leaves(parts = good, 1, is_open)[0];
-  const std::vector<std::function<void(const Leaf&)>> changes{
-      [](const Leaf& l) { l.put_next(0); },
-      [](const Leaf& l) { l.put_rank(1); },
-      [](const Leaf& l) { l.put_time(1.0F); },
-      [](const Leaf& l) { l.put_verdict(collide); },
-      [](const Leaf& l) { l.put_verdict(leave); },
-      [](const Leaf& l) {
+  const std::vector<std::function<void(const ModeLeaf&)>> changes{
+      [](const ModeLeaf& l) { l.put_next(0); },
+      [](const ModeLeaf& l) { l.put_rank(1); },
+      [](const ModeLeaf& l) { l.put_time(1.0F); },
+      [](const ModeLeaf& l) { l.put_verdict(collide); },
+      [](const ModeLeaf& l) { l.put_verdict(leave); },
+      [](const ModeLeaf& l) {
         l.put_verdict(trapped);
         l.put_time(std::numeric_limits<float>::infinity());
       }};
@@ -317,7 +197,7 @@ TEST_F(ModesMutation, ALeafThatReachesIsNotSaidToDoAnythingElse) {
   for (const std::size_t leaf : some_leaves(parts, 5, is_reaching)) {
     for (const Verdict verdict : {collide, leave}) {
       parts = good;
-      Leaf{parts, leaf}.put_verdict(verdict);
+      ModeLeaf{parts, leaf}.put_verdict(verdict);
       EXPECT_THAT(refusal(parts), testing::HasSubstr("has an invalid verdict, rank or time"));
     }
   }
@@ -329,10 +209,10 @@ TEST_F(ModesMutation, ALeafOnWhichOthersDependCannotBecomeUndecided) {
   int refused = 0;
   for (const std::size_t leaf : some_leaves(parts, 40, is_reaching)) {
     parts = good;
-    Leaf{parts, leaf}.put_verdict(undecided);
-    Leaf{parts, leaf}.put_rank(0);
-    Leaf{parts, leaf}.put_time(0.0F);
-    Leaf{parts, leaf}.put_next(stays);
+    ModeLeaf{parts, leaf}.put_verdict(undecided);
+    ModeLeaf{parts, leaf}.put_rank(0);
+    ModeLeaf{parts, leaf}.put_time(0.0F);
+    ModeLeaf{parts, leaf}.put_next(stays);
     const std::string why = refusal(parts);
     EXPECT_TRUE(why.empty() || why.find("undecided") != std::string::npos) << why;
     refused += why.empty() ? 0 : 1;
@@ -353,26 +233,26 @@ TEST_F(ModesMutation, TimesBoundAndRanksFallWithinAMode) {
   TakenApart parts = good;
   for (const std::size_t leaf : some_leaves(parts, 20, is_reaching)) {
     parts = good;
-    Leaf{parts, leaf}.put_time(0.9F * Leaf{parts, leaf}.time_s());
+    ModeLeaf{parts, leaf}.put_time(0.9F * ModeLeaf{parts, leaf}.time_s());
     EXPECT_THAT(refusal(parts), testing::HasSubstr("takes up to")) << leaf;
     for (const float bad : {-1.0F, NAN, INFINITY}) {
       parts = good;
-      Leaf{parts, leaf}.put_time(bad);
+      ModeLeaf{parts, leaf}.put_time(bad);
       EXPECT_THAT(refusal(parts), testing::HasSubstr("has an invalid verdict, rank or time"));
     }
   }
   // A leaf of rank 2 comes to one of rank 1; and no two can be of the same.
-  const auto comes_to_another = [](const Leaf& leaf) {
+  const auto comes_to_another = [](const ModeLeaf& leaf) {
     return is_flown_on(leaf) && leaf.rank() > 1;
   };
   for (const std::size_t leaf : some_leaves(parts = good, 15, comes_to_another)) {
     parts = good;
-    Leaf{parts, leaf}.put_rank(0);
+    ModeLeaf{parts, leaf}.put_rank(0);
     EXPECT_THAT(refusal(parts), testing::HasSubstr("its rank is 0, but its states come to a leaf"));
   }
   parts = good;
   for (const std::size_t leaf : some_leaves(parts, ~std::size_t{0}, is_flown_on)) {
-    Leaf{parts, leaf}.put_rank(7);
+    ModeLeaf{parts, leaf}.put_rank(7);
   }
   EXPECT_THAT(refusal(parts), testing::HasSubstr("its rank is 7"));
 }
@@ -404,7 +284,7 @@ TEST_F(ModesMutation, CommandsOfEveryModeArePartOfTheProof) {
   EXPECT_GT(refused, 10);
   for (const float bad : {3.2F, -3.1415928F, INFINITY}) {
     parts = good;
-    parts.put("mode_heading_rad", cells + 5 * nx + 6, bad);
+    parts.put("mode_heading_rad", cells + 5 * street_nx + 6, bad);
     EXPECT_THAT(refusal(parts), testing::HasSubstr("mode_heading_rad: has an invalid command"));
   }
 }
@@ -472,7 +352,7 @@ TEST_F(ModesMutation, ThePlanHasTheSameModes) {
   };
   EXPECT_EQ(judged(plan), "");
   const std::vector<std::function<void(fairway::Plan&)>> changes{
-      [](fairway::Plan& p) { p.mode_heading_rad[5 * nx + 6] = 0.25F; },
+      [](fairway::Plan& p) { p.mode_heading_rad[5 * street_nx + 6] = 0.25F; },
       [](fairway::Plan& p) {
         p.mode_heading_rad.resize(3 * p.grid.size());
         p.record.modes.pop_back();
@@ -543,7 +423,9 @@ TEST_F(ModesMutation, DamagedFilesAreUnreadable) {
     EXPECT_THAT(refusal(parts.file()), testing::HasSubstr(name + ": digest mismatch"));
   }
   TakenApart parts = good;
-  for (const nlohmann::json& shape : {nlohmann::json{4 * ny, nx}, {2, 2 * ny, nx}, {4, nx, ny}}) {
+  for (const nlohmann::json& shape : {nlohmann::json{4 * street_ny, street_nx},
+                                      {2, 2 * street_ny, street_nx},
+                                      {4, street_nx, street_ny}}) {
     parts.header["mode_heading_rad"]["shape"] = shape;
     EXPECT_THAT(refusal(parts.file()), testing::StartsWith("unreadable: "));
   }

@@ -37,9 +37,9 @@
 #include "fairway/vehicle/bang_bang.hpp"
 #include "fairway/vehicle/command_field.hpp"
 #include "fairway/vehicle/turn_side.hpp"
+#include "fairway/verify/ask_modes.hpp"
 #include "fairway/verify/flow.hpp"
 #include "fairway/verify/mode_choice.hpp"
-#include "fairway/verify/proof_view.hpp"
 #include "fairway/verify/section_view.hpp"
 #include "fairway/verify/verdict.hpp"
 

@@ -93,11 +93,11 @@ void save(const Flights& flights, const std::filesystem::path& path, Text kind,
   std::string text;
   if (kind == Text::outcomes) {
     text = outcomes_csv(flights.starts, flights.results, flights.measures,
-                        flights.followed.has_value());
+                        flights.followed.has_value(), plan.further_modes() > 0);
   } else {
     const std::vector<Flight> all = flights.recorded(0, flights.starts.size());
     text = kind == Text::tracks
-               ? trajectories_csv(all, plan.vehicle.speed_mps, step)
+               ? trajectories_csv(all, plan.vehicle.speed_mps, step, plan.further_modes() > 0)
                : flights_geojson(all, step, lon_lat_of(frame_in(plan.record), record_name));
   }
   write_whole(path, existing, text);

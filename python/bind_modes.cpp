@@ -54,7 +54,7 @@ void bind_modes(py::module_& m) {
       "The side of one vehicle whose plan has modes: keeps the mode that it flies (docs/modes.md). "
       "It begins in the first one that is proved to reach, and changes to earlier ones where these "
       "are proved to arrive no later; never back, but for a vehicle that has left what was proved.")
-      .def(py::init<std::shared_ptr<HeldCertificate>>(), "certificate"_a,
+      .def(py::init<std::shared_ptr<HeldCertificate>>(), py::arg("certificate").none(false),
            "Of the plan that is flown, with any number of modes.")
       .def("steer", &Pilot::steer, "x_m"_a, "y_m"_a, "heading_rad"_a,
            R"(What to steer now (metres, radians), to be asked often on the way.

@@ -18,7 +18,7 @@ NOUNS = {
     "field": {"field.hpp"},
     "plan": {"plan.hpp", "plan_record.hpp", "plan_digests.hpp", "plan_digests_json.hpp"},
     "simulate": {"flight.hpp", "flight_measures.hpp"},
-    "verify": {"verdict.hpp", "flow.hpp", "region_of_interest.hpp", "region_of_interest_json.hpp", "section_view.hpp",
+    "verify": {"verdict.hpp", "flow.hpp", "region_of_interest.hpp", "region_of_interest_json.hpp", "section_view.hpp", "proof_view.hpp",
                "section_verdicts.hpp", "verdict_map.hpp"},
     "behaviour": {"behaviour_flight.hpp", "explained_behaviour.hpp"},
     "inclusion": {"parts.hpp", "contract_verdicts.hpp", "follow_proof.hpp"},

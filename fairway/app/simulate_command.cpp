@@ -180,9 +180,11 @@ int simulate_command(const SimulateArguments& arguments, const Session& session)
   terminal.reset();
 
   const double step_m = arguments.step_m > 0.0 ? arguments.step_m : plan.grid.cell_m;
+  const bool has_modes = plan.further_modes() > 0;
   bool stdout_used = false;
   if (!arguments.csv.empty()) {
-    const std::string text = trajectories_csv(flown.recorded, plan.vehicle.speed_mps, step_m);
+    const std::string text =
+        trajectories_csv(flown.recorded, plan.vehicle.speed_mps, step_m, has_modes);
     stdout_used |= put(arguments.csv, session, text);
   }
   if (!arguments.geojson.empty()) {
@@ -196,9 +198,9 @@ int simulate_command(const SimulateArguments& arguments, const Session& session)
     for (const std::string& warning : mission_warnings(flown.recorded)) session.warn(warning);
   }
   if (!arguments.outcomes.empty()) {
-    stdout_used |=
-        put(arguments.outcomes, session,
-            outcomes_csv(starts, flown.results, flown.measures, flown.followed.has_value()));
+    stdout_used |= put(
+        arguments.outcomes, session,
+        outcomes_csv(starts, flown.results, flown.measures, flown.followed.has_value(), has_modes));
   }
   if (!stdout_used) {
     std::optional<EarthFrame> earth;

@@ -155,7 +155,7 @@ void append_following(std::string& text, const FlightMeasures& measures) {
 }  // namespace
 
 std::string outcomes_csv(std::span<const State> starts, std::span<const FlightResult> results,
-                         std::span<const FlightMeasures> measures, bool followed) {
+                         std::span<const FlightMeasures> measures, bool followed, bool has_modes) {
   require(starts.size() == results.size() && starts.size() == measures.size(),
           "one result and one measure per start");
   std::string text = "x_m,y_m,heading_rad,outcome,time_s,length_m,flown_m,reversals,turned_rad";
@@ -164,6 +164,7 @@ std::string outcomes_csv(std::span<const State> starts, std::span<const FlightRe
         ",after,after_s,joined_s,laps,on_path_share,distance_mean_m,distance_worst_m"
         ",heading_difference_worst_rad";
   }
+  if (has_modes) text += ",mode";
   text += '\n';
   for (std::size_t i = 0; i < starts.size(); ++i) {
     append_state(text, starts[i]);
@@ -179,18 +180,24 @@ std::string outcomes_csv(std::span<const State> starts, std::span<const FlightRe
     text += ',' + std::to_string(turning.reversals) + ',';
     append(text, turning.turned_rad);
     if (followed) append_following(text, measures[i]);
+    if (has_modes) text += ',' + std::to_string(results[i].mode);
     text += '\n';
   }
   return text;
 }
 
-std::string trajectories_csv(std::span<const Flight> flights, double speed_mps, double step_m) {
+std::string trajectories_csv(std::span<const Flight> flights, double speed_mps, double step_m,
+                             bool has_modes) {
   require(speed_mps > 0.0 && step_m > 0.0, "speed and step are positive");
-  std::string text = "flight,time_s,x_m,y_m,heading_rad,curvature_per_m,final_leg\n";
+  std::string text = "flight,time_s,x_m,y_m,heading_rad,curvature_per_m,final_leg";
+  text += has_modes ? ",mode\n" : "\n";
   for (std::size_t i = 0; i < flights.size(); ++i) {
     const std::string number = std::to_string(i) + ',';
-    const auto add = [&](std::span<const FlightSegment> segments, const char* final_leg) {
+    const auto add = [&](std::span<const FlightSegment> segments, bool final_leg) {
       for (const FlightSegment& piece : segments) {
+        std::string end = final_leg ? ",1" : ",0";
+        if (has_modes) end += final_leg ? "," : ',' + std::to_string(piece.mode);
+        end += '\n';
         for_steps(piece, step_m, [&](const FlightSegment& p, double along_m) {
           text += number;
           append(text, p.time_s + along_m / speed_mps);
@@ -198,12 +205,12 @@ std::string trajectories_csv(std::span<const Flight> flights, double speed_mps, 
           append_state(text, state_at(p, along_m));
           text += ',';
           append(text, p.curvature_per_m);
-          text += final_leg;
+          text += end;
         });
       }
     };
-    add(flights[i].segments, ",0\n");
-    add(flights[i].final_leg.segments, ",1\n");
+    add(flights[i].segments, false);
+    add(flights[i].final_leg.segments, true);
   }
   return text;
 }

@@ -17,16 +17,19 @@ namespace fairway {
 /// One line per start: `x_m,y_m,heading_rad,outcome,time_s,length_m,flown_m,reversals,turned_rad`
 /// and, when the flights were followed along a path, `after,after_s,joined_s,laps,on_path_share,
 /// distance_mean_m,distance_worst_m,heading_difference_worst_rad`, empty where it does
-/// not apply. Throws PreconditionViolation when the lengths differ.
+/// not apply. At the end `mode`, the one that the flight began in, when the plan has modes. Throws
+/// PreconditionViolation when the lengths differ.
 [[nodiscard]] std::string outcomes_csv(std::span<const State> starts,
                                        std::span<const FlightResult> results,
-                                       std::span<const FlightMeasures> measures, bool followed);
+                                       std::span<const FlightMeasures> measures, bool followed,
+                                       bool has_modes = false);
 
 /// `flight,time_s,x_m,y_m,heading_rad,curvature_per_m,final_leg`: a line at each end of every piece
 /// and at least every `step_m` between; flight counts from 0; the curvature is that of the piece;
-/// final_leg is 1 on the leg to the goal's heading, which follows the flight, and 0 before it.
+/// final_leg is 1 on the leg to the goal's heading, which follows the flight, and 0 before it. At
+/// the end `mode`, by whose commands the piece is flown, when the plan has modes; empty on the leg.
 [[nodiscard]] std::string trajectories_csv(std::span<const Flight> flights, double speed_mps,
-                                           double step_m);
+                                           double step_m, bool has_modes = false);
 
 /// A FeatureCollection (RFC 7946): per flight a LineString (a Point when it does not move) with the
 /// properties flight, outcome, time_s, length_m (null when trapped); when the flight was followed

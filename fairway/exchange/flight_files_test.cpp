@@ -47,6 +47,34 @@ TEST(FlightFiles, WritesALinePerStartThatReadsBackAsTheSameDoubles) {
   EXPECT_NE(text.find(",trapped,inf,0.1,120.5,7,3.25\n"), std::string::npos);
 }
 
+TEST(FlightFiles, NamesModesInALastColumnOnlyWhenThePlanHasThem) {
+  const std::vector<State> starts{{{1.0, 2.0}, {}}, {{3.0, 4.0}, {}}};
+  const std::vector<FlightResult> results{{Outcome::reach, 4.0, 40.0, 3},
+                                          {Outcome::collide, 6.0, 60.0, 0}};
+  const std::vector<FlightMeasures> measures(2);
+  EXPECT_EQ(outcomes_csv(starts, results, measures, false, true),
+            "x_m,y_m,heading_rad,outcome,time_s,length_m,flown_m,reversals,turned_rad,mode\n"
+            "1,2,0,reach,4,40,0,0,0,3\n"
+            "3,4,0,collide,6,60,0,0,0,0\n");
+  EXPECT_EQ(states_of_csv(outcomes_csv(starts, results, measures, true, true), "outcomes"), starts);
+  Flight flight = quarter_and_straight();
+  flight.segments[0].mode = 2;
+  flight.final_leg.state = FinalLegState::shortest;
+  flight.final_leg.segments = {{end_of(flight), flight.result.time_s, 4.0, 0.0}};
+  const std::vector<Flight> flights{flight};
+  const std::string text = trajectories_csv(flights, 4.0, 100.0, true);
+  std::istringstream lines(text);
+  std::string line;
+  std::vector<std::string> ends;
+  while (std::getline(lines, line)) ends.push_back(line.substr(line.find_last_of(',')));
+  EXPECT_EQ(ends, (std::vector<std::string>{",mode", ",2", ",2", ",0", ",0", ",", ","}));
+  // Without the column: what is written of a flight that has no modes, to the byte.
+  std::istringstream again(text);
+  std::string without;
+  while (std::getline(again, line)) without += line.substr(0, line.find_last_of(',')) + '\n';
+  EXPECT_EQ(trajectories_csv(flights, 4.0, 100.0), without);
+}
+
 TEST(FlightFiles, SaysWhatCameAfterThePathWasReached) {
   const std::vector<State> starts{{{1.0, 2.0}, {}}, {{3.0, 4.0}, {}}, {{5.0, 6.0}, {}}};
   const std::vector<FlightResult> results{

@@ -101,6 +101,46 @@ void draw_bundle(MapPage& page, const Bundle& bundle, std::size_t share_of_drawn
   canvas.fill(dots, pen.color);
 }
 
+/// Over the outcome's own line, so that both are seen.
+const Pen further_pen{color_of_oklch(0.85, 0.16, 110.0), 1.2, {2.5, 2.5}};
+
+bool flies_further(const FlightSegment& piece) { return piece.mode > 0; }
+
+/// How many flights have pieces in further modes of the plan.
+std::size_t flown_further(std::span<const Flight> flights) {
+  return static_cast<std::size_t>(
+      std::count_if(flights.begin(), flights.end(), [](const Flight& flight) {
+        return std::any_of(flight.segments.begin(), flight.segments.end(), flies_further);
+      }));
+}
+
+LegendEntry further_entry(std::size_t count, const Pen& below) {
+  return {fmt::format("in a further mode ({})", count), [below](Canvas& canvas, const Rect& box) {
+            DrawingPath line;
+            line.move_to({box.x, box.y + 0.5 * box.height});
+            line.line_to({box.x + box.width, box.y + 0.5 * box.height});
+            canvas.stroke(line, below);
+            canvas.stroke(line, further_pen);
+          }};
+}
+
+/// The pieces in further modes of the flights that the bundle has drawn.
+void draw_further(MapPage& page, const Bundle& bundle, std::size_t share_of_drawn) {
+  Canvas& canvas = page.canvas();
+  const auto layer = canvas.layer(bundle.layer + "-further-modes", page.frame().rect);
+  Pen pen = further_pen;
+  if (bundle.flights.size() > 60) pen.width_pt *= 0.6;
+  for (std::size_t i = 0; i < std::min(bundle.flights.size(), share_of_drawn); ++i) {
+    const std::span<const FlightSegment> pieces = bundle.flights[i]->segments;
+    auto begin = std::find_if(pieces.begin(), pieces.end(), flies_further);
+    while (begin != pieces.end()) {
+      const auto end = std::find_if_not(begin, pieces.end(), flies_further);
+      canvas.stroke(thinned(segments_path({begin, end}, page.frame()), unseen_pt), pen);
+      begin = std::find_if(end, pieces.end(), flies_further);
+    }
+  }
+}
+
 /// The legs of one state.
 struct LegBundle {
   FinalLegState state = FinalLegState::not_asked;
@@ -207,6 +247,8 @@ Picture draw_flights(const Plan& plan, std::span<const Flight> flights,
   std::vector<LegendEntry> entries;
   for (const Bundle& bundle : bundles) entries.push_back(line_entry(bundle.label, bundle.pen));
 
+  const std::size_t further = flown_further(flights);
+  if (further > 0) entries.push_back(further_entry(further, bundles.front().pen));
   for (const LegBundle& bundle : legs) entries.push_back(leg_entry(bundle));
   if (options.follow != nullptr) entries.push_back(tube_entry(*options.follow));
 
@@ -233,6 +275,9 @@ Picture draw_flights(const Plan& plan, std::span<const Flight> flights,
   if (options.follow != nullptr) draw_tube(page, *options.follow, plan.grid.cell_m);
   if (legs.empty()) page.mark_mission();
   for (std::size_t k = 0; k < bundles.size(); ++k) draw_bundle(page, bundles[k], drawn[k]);
+  for (std::size_t k = 0; k < bundles.size() && further > 0; ++k) {
+    draw_further(page, bundles[k], drawn[k]);
+  }
   for (const LegBundle& bundle : legs) {
     draw_legs(page, bundle, flights, static_cast<std::size_t>(options.most_drawn));
   }

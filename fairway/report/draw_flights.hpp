@@ -2,8 +2,10 @@
 //
 // Without names, colour and dash show the outcome and the legend counts them over all flights.
 // With names (one per flight), colour and dash show the name, as in a figure that compares plans.
-// Final legs are drawn over the flights with their own strokes: solid where the leg is the
-// shortest path, dashed where it is another approach; a cross where no approach is clear.
+// Pieces in further modes of the plan (docs/modes.md) are dashed over the flight's own line, and
+// the legend counts flights that have any; where none has, nothing differs. Final legs are drawn
+// over the flights with their own strokes: solid where the leg is the shortest path, dashed where
+// it is another approach; a cross where no approach is clear.
 #pragma once
 
 #include <optional>

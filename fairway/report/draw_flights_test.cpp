@@ -126,6 +126,37 @@ TEST(DrawFlights, TheLegendCountsOutcomesAndEachHasALayer) {
   EXPECT_FALSE(has_layer(picture.svg, "flights-leave"));
 }
 
+TEST(DrawFlights, PiecesInFurtherModesAreDashedOverTheFlightOnlyWhereThereAreAny) {
+  const State start{{100.0, 100.0}, Heading()};
+  std::vector<Flight> flights(3, flight_of(start, {{50.0, 0.0}, {40.0, 0.02}, {60.0, 0.0}}));
+  const Picture plain = draw_flights(open_water(), flights, {});
+  flights[1].segments[0].mode = 2;
+  flights[1].segments[1].mode = 1;
+  flights[2].segments[0].mode = 3;
+  const Picture modal = draw_flights(open_water(), flights, {});
+  EXPECT_TRUE(has_text(modal.svg, "in a further mode (2)"));
+  EXPECT_TRUE(has_layer(modal.svg, "flights-reach-further-modes"));
+  EXPECT_LT(modal.svg.find("\"flights-reach\""), modal.svg.find("\"flights-reach-further-modes\""));
+  EXPECT_FALSE(has_layer(plain.svg, "flights-reach-further-modes"));
+  EXPECT_FALSE(has_text(plain.svg, "in a further mode (2)"));
+  // Over the first piece some pixels have the dashes' colour, over the last none has.
+  const Plan plan = open_water();
+  const FlightPictureOptions options{};
+  const MapPage page(plan, {"", false, {}, options.frame_pt, options.pixels_per_pt}, {});
+  const auto png = read_png(modal.png);
+  const auto dashes = [&](const FlightSegment& piece) {
+    int bright = 0;
+    for (double along_m = 12.0; along_m < piece.length_m; along_m += 0.25) {
+      const Vec2 at = page.frame().to_page(state_at(piece, along_m).position_m);
+      const Color c = png.at(at.x * options.pixels_per_pt, at.y * options.pixels_per_pt);
+      bright += c.green > 150 && c.blue < 120 ? 1 : 0;
+    }
+    return bright;
+  };
+  EXPECT_GT(dashes(flights[1].segments[0]), 10);
+  EXPECT_EQ(dashes(flights[1].segments[2]), 0);
+}
+
 TEST(DrawFlights, TheProvedTubeLiesAboutThePathBelowTheFlights) {
   const std::vector<Flight> flights{flight_of({{100.0, 120.0}, Heading()}, {{100.0, 0.0}})};
   FollowProof proof;

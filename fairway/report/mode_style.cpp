@@ -40,7 +40,9 @@ std::vector<ModeLook> mode_looks(int modes, std::span<const ModeRecord> further)
     const double turn =
         directed ? *record->direction_rad / two_pi : mode / std::max(1.0, modes - 1.0);
     const double hue_deg = 360.0 * (turn - std::floor(turn));
-    VerdictStyle style{color_of_oklch(0.74, 0.13, hue_deg), {palette::white, 0.5, {}}};
+    const bool grey = record != nullptr && !directed;
+    VerdictStyle style{color_of_oklch(grey ? 0.62 : 0.74, grey ? 0.0 : 0.13, hue_deg),
+                       {palette::white, 0.5, {}}};
     style.rising = mode % 3 == 2;
     style.falling = mode % 3 == 0;
     looks.push_back({name_of(mode, record), style});

@@ -17,7 +17,7 @@ struct ModeLook {
 };
 
 /// A look for each of `modes` modes, the first included. `further`: how those after it were made,
-/// in order; where it tells no direction, hues are spread evenly.
+/// in order: grey where they have no direction. Where nothing is told, hues are spread evenly.
 [[nodiscard]] std::vector<ModeLook> mode_looks(int modes, std::span<const ModeRecord> further);
 
 /// Of states that no mode is proved to bring.

@@ -13,6 +13,7 @@
 #include "fairway/field/turning_field.hpp"
 #include "fairway/run/stratified_states.hpp"
 #include "fairway/run/verification.hpp"
+#include "fairway/verify/ask_modes.hpp"
 #include "fairway/verify/hand_over.hpp"
 #include "fairway/verify/section_flight.hpp"
 #include "fairway/verify/state_flight.hpp"

@@ -9,6 +9,7 @@
 #include "fairway/run/plan_map.hpp"
 #include "fairway/run/verification.hpp"
 #include "fairway/vehicle/modes.hpp"
+#include "fairway/verify/ask_modes.hpp"
 
 namespace fairway {
 namespace {

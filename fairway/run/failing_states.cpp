@@ -7,6 +7,7 @@
 
 #include "fairway/base/heading.hpp"
 #include "fairway/base/random.hpp"
+#include "fairway/verify/ask_modes.hpp"
 #include "fairway/verify/images.hpp"
 
 namespace fairway {

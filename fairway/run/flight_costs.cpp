@@ -119,8 +119,7 @@ MeasuredFlights measure_flights(const Plan& plan, std::span<const State> states,
     measured.result = engine.fly(states[i], i);
     // Who is trapped flies for ever, and costs nothing that is told.
     if (measured.result.outcome != Outcome::reach) return;
-    const Flight flight =
-        meter ? engine.record(states[i], i, one_lap) : engine.exact()->record(states[i]);
+    const Flight flight = meter ? engine.record(states[i], i, one_lap) : engine.track(states[i], i);
     measured.measures = {flight.turning, flight.onward, {}};
     if (meter && flight.onward.after != After::none) {
       measured.measures.following = meter->measure(flight, spreads);

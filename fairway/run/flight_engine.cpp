@@ -2,15 +2,17 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/field/holding_circle.hpp"
+#include "fairway/run/proved_modes.hpp"
 #include "fairway/vehicle/path_geometry.hpp"
 
 namespace fairway {
 namespace {
 
-using Flights = std::variant<ExactFlights, SampledFlights>;
+using Flights = std::variant<ExactFlights, ModalFlights, SampledFlights>;
 
 Flights flights_of(const Plan& plan, const std::optional<SampledOptions>& sampled) {
   if (sampled) return Flights(std::in_place_type<SampledFlights>, plan, *sampled);
+  if (plan.further_modes() > 0) return Flights(std::in_place_type<ModalFlights>, plan);
   return Flights(std::in_place_type<ExactFlights>, plan);
 }
 
@@ -78,28 +80,60 @@ Flight FlightEngine::told(Flight flight) const {
   return flight;
 }
 
+template <typename Fly>
+auto FlightEngine::with_decider(const State& start, const Fly& fly) const {
+  if (proof_) {
+    ProvedModes proved(*proof_);
+    return fly(proved);
+  }
+  const ModeSequence found = std::get<ModalFlights>(flights_).find_modes(start);
+  GivenModes given(found);
+  return fly(given);
+}
+
 FlightResult FlightEngine::fly(const State& start, std::size_t index) const {
-  if (const ExactFlights* flights = exact()) return told(flights->fly(start), start);
+  if (const auto* exact = std::get_if<ExactFlights>(&flights_)) {
+    return told(exact->fly(start), start);
+  }
+  if (const auto* modal = std::get_if<ModalFlights>(&flights_)) {
+    return told(
+        with_decider(start, [&](auto& decider) { return modal->run(start, decider).run.result; }),
+        start);
+  }
   return told(std::get<SampledFlights>(flights_).fly(start, index), start);
 }
 
 Flight FlightEngine::record(const State& start, std::size_t index,
                             const std::optional<FollowFor>& follow) const {
-  const ExactFlights* flights = exact();
-  const auto* sampled = std::get_if<SampledFlights>(&flights_);
   if (follow && path() != nullptr) {
     const FollowLimit limit = limit_of(*follow, *path(), plan_.vehicle.speed_mps);
-    return told(flights != nullptr ? flights->follow_on(start, limit)
-                                   : sampled->follow_on(start, index, limit).flight);
+    if (const auto* exact = std::get_if<ExactFlights>(&flights_)) {
+      return told(exact->follow_on(start, limit));
+    }
+    if (const auto* modal = std::get_if<ModalFlights>(&flights_)) {
+      return told(with_decider(
+          start, [&](auto& decider) { return modal->follow_on(start, decider, limit); }));
+    }
+    return told(std::get<SampledFlights>(flights_).follow_on(start, index, limit).flight);
   }
-  if (flights == nullptr) return told(sampled->record(start, index).flight);
-  Flight flight = told(flights->record(start));
+  Flight flight = track(start, index);
   if (legs_) flight.final_leg = legs_->leg_of(flight);
   return flight;
 }
 
+Flight FlightEngine::track(const State& start, std::size_t index) const {
+  if (const auto* exact = std::get_if<ExactFlights>(&flights_)) return told(exact->record(start));
+  if (const auto* modal = std::get_if<ModalFlights>(&flights_)) {
+    return told(with_decider(start, [&](auto& decider) { return modal->record(start, decider); }));
+  }
+  return told(std::get<SampledFlights>(flights_).record(start, index).flight);
+}
+
 Flight FlightEngine::measure(const State& start, std::size_t index) const {
-  if (const ExactFlights* flights = exact()) return told(flights->measure(start));
+  if (const auto* exact = std::get_if<ExactFlights>(&flights_)) return told(exact->measure(start));
+  if (const auto* modal = std::get_if<ModalFlights>(&flights_)) {
+    return told(with_decider(start, [&](auto& decider) { return modal->measure(start, decider); }));
+  }
   return told(std::get<SampledFlights>(flights_).measure(start, index));
 }
 

@@ -5,8 +5,12 @@
 //      index, which picks the random draws. Several threads may ask at once.
 //   2. Exact flights that reach continue to the goal's pose if the goal has a heading. Sampled ones
 //      do not: what a disturbed vehicle does in the goal is not known from its entry.
-//   3. Who is trapped where the plan holds (holding_cells) is told to hold.
-// Cost: that of the flights, and 25 bytes a cell for exact ones while the object lives.
+//   3. Under a plan with modes exact flights change modes on the way (docs/modes.md): as the proof
+//      says where one is given, else as trials find it (ModalFlights::find_modes). Sampled flights
+//      keep to mode 0.
+//   4. Who is trapped where the plan holds (holding_cells) is told to hold.
+// Cost: that of the flights, and 25 bytes a cell for exact ones while the object lives; 24 more for
+// each further mode.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +24,9 @@
 #include "fairway/plan/plan.hpp"
 #include "fairway/run/final_legs.hpp"
 #include "fairway/simulate/exact_flight.hpp"
+#include "fairway/simulate/modal_flight.hpp"
 #include "fairway/simulate/sampled_flight.hpp"
+#include "fairway/verify/proof_view.hpp"
 
 namespace fairway {
 
@@ -55,6 +61,10 @@ class FlightEngine {
   FlightEngine& operator=(const FlightEngine&) = delete;
   ~FlightEngine() = default;
 
+  /// What is proved of the plan and its modes decides which mode is flown. Not while others ask;
+  /// what `proof` refers to must outlive this.
+  void decide_by(const ProofView& proof) { proof_ = proof; }
+
   [[nodiscard]] FlightResult fly(const State& start, std::size_t index) const;
 
   /// With its pieces and its last leg; along the path, where there is one and `follow`
@@ -62,6 +72,9 @@ class FlightEngine {
   /// times the time they take in calm air, wherever the wind has held the vehicle.
   [[nodiscard]] Flight record(const State& start, std::size_t index,
                               const std::optional<FollowFor>& follow = {}) const;
+
+  /// With its pieces, to the first goal cell.
+  [[nodiscard]] Flight track(const State& start, std::size_t index) const;
 
   /// Result and turning alone.
   [[nodiscard]] Flight measure(const State& start, std::size_t index) const;
@@ -72,19 +85,21 @@ class FlightEngine {
   bool holds() const { return circle_.has_value(); }
   const Plan& plan() const { return plan_; }
 
-  /// Null under a sampled law.
-  const ExactFlights* exact() const { return std::get_if<ExactFlights>(&flights_); }
+  bool has_modes() const { return std::holds_alternative<ModalFlights>(flights_); }
   /// None under a sampled law, or when the goal has no heading.
   const std::optional<FinalLegs>& legs() const { return legs_; }
 
  private:
   FlightResult told(FlightResult result, const State& start) const;
   Flight told(Flight flight) const;
+  template <typename Fly>
+  auto with_decider(const State& start, const Fly& fly) const;
 
   const Plan& plan_;
   std::vector<std::uint8_t> holding_;  // holding_cells
   std::optional<PathMission> circle_;
-  std::variant<ExactFlights, SampledFlights> flights_;
+  std::variant<ExactFlights, ModalFlights, SampledFlights> flights_;
+  std::optional<ProofView> proof_;
   std::optional<FinalLegs> legs_;
 };
 

@@ -56,13 +56,14 @@ namespace {
 void write_flights(const ScenarioFlights& flown, const Plan& plan, const std::string& where,
                    const fs::path& place) {
   const double step_m = plan.grid.cell_m;
+  const bool has_modes = plan.further_modes() > 0;
   write_whole(place / product::flights_csv, Existing::keep,
-              trajectories_csv(flown.recorded, plan.vehicle.speed_mps, step_m));
+              trajectories_csv(flown.recorded, plan.vehicle.speed_mps, step_m, has_modes));
   write_whole(place / product::flights_geojson, Existing::keep,
               flights_geojson(flown.recorded, step_m, lon_lat_of(frame_in(plan.record), where)));
-  write_whole(
-      place / product::outcomes, Existing::keep,
-      outcomes_csv(flown.starts, flown.results, flown.measures, flown.followed.has_value()));
+  write_whole(place / product::outcomes, Existing::keep,
+              outcomes_csv(flown.starts, flown.results, flown.measures, flown.followed.has_value(),
+                           has_modes));
 }
 
 /// That the path is followed, where that was proved.

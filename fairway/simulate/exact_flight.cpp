@@ -9,6 +9,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
+#include "fairway/simulate/exact_flight_loop.hpp"
 #include "fairway/simulate/exact_flight_record.hpp"
 
 namespace fairway {
@@ -17,18 +18,18 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-FlightLimits with_defaults(FlightLimits limits, const Grid& grid, double turn_radius_m) {
+}  // namespace
+
+FlightLimits ExactFlights::with_defaults(FlightLimits limits) const {
   if (limits.length_m == 0.0) {
-    limits.length_m =
-        4.0 * static_cast<double>(grid.size()) * grid.cell_m + 1000.0 * two_pi * turn_radius_m;
+    limits.length_m = 4.0 * static_cast<double>(grid_.size()) * grid_.cell_m +
+                      1000.0 * two_pi * vehicle_.turn_radius_m;
   }
   if (limits.crossings == 0) {
-    limits.crossings = static_cast<std::uint64_t>(64.0 * (limits.length_m / grid.cell_m));
+    limits.crossings = static_cast<std::uint64_t>(64.0 * (limits.length_m / grid_.cell_m));
   }
   return limits;
 }
-
-}  // namespace
 
 /// Asks for the record about four cells ahead: a flight up or down the grid meets a new cache line
 /// in every cell, and waiting for it cost more than the geometry.
@@ -77,7 +78,8 @@ bool ExactFlights::is_hop(const Position& from, const CellExit& exit) const {
 /// end is near: nothing in a cell changes along its border but the distance to the next one. The
 /// commands on both sides only ever narrow such a weave, so it can take a million hops to pass one
 /// cell. Here they are one leap, which is the same motion. Lengths are 0 when there is none.
-ExactFlights::Leap ExactFlights::leap(Position& position, Side border) const {
+/// No longer than `most_m`.
+ExactFlights::Leap ExactFlights::leap(Position& position, Side border, double most_m) const {
   const double d = grid_.cell_m;
   const double r = vehicle_.turn_radius_m;
   const bool vertical = border == Side::right || border == Side::left;
@@ -87,10 +89,11 @@ ExactFlights::Leap ExactFlights::leap(Position& position, Side border) const {
   if (pair_m > d / 16.0) return {};
   double& along = vertical ? position.state.position_m.y : position.state.position_m.x;
   const bool upwards = (vertical ? u.y : u.x) > 0.0;
-  const double rest_m = upwards ? d - along : along;
+  const double to_corner_m = upwards ? d - along : along;
+  const double rest_m = std::min(to_corner_m, most_m);
   if (pair_m < 1e-12 * d) {
     // Hops below the resolution of a position would stand still: on to the corner.
-    along = upwards ? d : 0.0;
+    along = rest_m == to_corner_m ? (upwards ? d : 0.0) : along + (upwards ? rest_m : -rest_m);
     return {rest_m, rest_m};
   }
   const double pairs = std::floor(rest_m / pair_m) - 2.0;
@@ -99,74 +102,12 @@ ExactFlights::Leap ExactFlights::leap(Position& position, Side border) const {
   return {pairs * pair_m, pairs * 4.0 * r * std::asin(sine)};
 }
 
-template <bool passes_goals, typename Record>
-FlightRun ExactFlights::fly_through(const State& start, FlightLimits limits, double beyond_m,
-                                    Record& record) const {
-  const CellShape shape{grid_.cell_m, vehicle_.turn_radius_m};
-  CycleWatch watch(shape.cell_m, shape.turn_radius_m);
-  FlightRun run;
-  int hops = 0;
-  Position position = locate(start);
-  Kind kind = settle(position, true);
-  for (;;) {
-    if (passes_goals && kind == Kind::goal) {
-      if (run.reached_m == infinity) {
-        run.reached_m = run.flown_m;
-        limits = beyond_goal(limits, run, beyond_m);
-        record.end_at(limits.length_m);
-      }
-    } else if (kind != Kind::open) {
-      run.ended_by = kind == Kind::goal       ? EndedBy::goal
-                     : kind == Kind::obstacle ? EndedBy::obstacle
-                                              : EndedBy::grid_edge;
-      break;
-    }
-    if (run.flown_m >= limits.length_m) {
-      run.ended_by = EndedBy::length_limit;
-      break;
-    }
-    if (run.crossings >= limits.crossings) {
-      run.ended_by = EndedBy::crossing_limit;
-      break;
-    }
-    if ((!passes_goals || run.reached_m == infinity) && watch.repeats(position, run.flown_m)) {
-      run.ended_by = EndedBy::repeating_state;
-      break;
-    }
-    const Direction command = position.slides ? Direction::none() : command_at(position.place);
-    const CellExit exit = cross_cell(position.state, command, shape);
-    record.add(position, exit, run.flown_m);
-    run.flown_m += exit.length_m();
-    ++run.crossings;
-    hops = is_hop(position, exit) ? hops + 1 : 0;
-    kind = enter_next(position, exit);
-    if (hops >= 2) [[unlikely]] {
-      const Position before = position;
-      const Leap leapt = leap(position, exit.side);
-      if (leapt.flown_m > 0.0) {
-        record.add_leap(before, leapt.along_m, run.flown_m);
-        run.flown_m += leapt.flown_m;
-        hops = 0;
-        kind = settle(position, false);
-      }
-    }
-  }
-  if (passes_goals && run.flown_m > limits.length_m) {  // what it met lies beyond what was asked
-    run.ended_by = EndedBy::length_limit;
-    run.flown_m = limits.length_m;
-  }
-  run.result = result_of(run);
-  return run;
-}
-
 /// How far a flight continues after reaching: its length is measured from there, and the
 /// crossings are as many again as so long a flight is given.
 FlightLimits ExactFlights::beyond_goal(FlightLimits limits, const FlightRun& run,
                                        double beyond_m) const {
   if (!(beyond_m < infinity)) return limits;
-  return {
-      run.reached_m + beyond_m,
-      run.crossings + with_defaults({beyond_m, 0}, grid_, vehicle_.turn_radius_m).crossings + 64};
+  return {run.reached_m + beyond_m, run.crossings + with_defaults({beyond_m, 0}).crossings + 64};
 }
 
 FlightResult ExactFlights::result_of(const FlightRun& run) const {
@@ -200,13 +141,9 @@ Vec2 ExactFlights::corner_of(std::size_t place) const {
 }
 
 FlightRun ExactFlights::run(const State& start, FlightLimits limits) const {
-  struct {
-    void end_at(double) {}
-    void add(const Position&, const CellExit&, double) {}
-    void add_leap(const Position&, double, double) {}
-  } nothing;
-  return fly_through<false>(start, with_defaults(limits, grid_, vehicle_.turn_radius_m), infinity,
-                            nothing);
+  NoRecord nothing;
+  OneMode one;
+  return fly_through<false>(start, with_defaults(limits), infinity, nothing, one);
 }
 
 FlightResult ExactFlights::fly(const State& start, FlightLimits limits) const {
@@ -215,8 +152,8 @@ FlightResult ExactFlights::fly(const State& start, FlightLimits limits) const {
 
 Flight ExactFlights::recorded(const State& start, FlightLimits limits, bool keeps_pieces) const {
   Recorder recorder(*this, keeps_pieces);
-  const FlightRun run = fly_through<false>(
-      start, with_defaults(limits, grid_, vehicle_.turn_radius_m), infinity, recorder);
+  OneMode one;
+  const FlightRun run = fly_through<false>(start, with_defaults(limits), infinity, recorder, one);
   return {start, run.result, recorder.take_pieces(), {}, recorder.turning(), {}};
 }
 
@@ -231,8 +168,8 @@ Flight ExactFlights::measure(const State& start, FlightLimits limits) const {
 Flight ExactFlights::followed(const State& start, FlightLimits limits, double beyond_m) const {
   Recorder recorder(*this, true);
   recorder.end_at(limits.length_m > 0.0 ? limits.length_m : infinity);
-  const FlightRun run = fly_through<true>(
-      start, with_defaults(limits, grid_, vehicle_.turn_radius_m), beyond_m, recorder);
+  OneMode one;
+  const FlightRun run = fly_through<true>(start, with_defaults(limits), beyond_m, recorder, one);
   return {start, run.result, recorder.take_pieces(), {}, recorder.turning(), onward_of(run)};
 }
 

@@ -58,7 +58,10 @@ class ExactFlights {
  public:
   /// Keeps nothing of `plan`. Throws PreconditionViolation when the cell is not smaller than the
   /// turning radius, a number is not finite, or the arrays do not fit the grid.
-  explicit ExactFlights(const Plan& plan);
+  explicit ExactFlights(const Plan& plan) : ExactFlights(plan, 0) {}
+
+  /// By the commands of one of its modes (docs/modes.md), without changes to others.
+  ExactFlights(const Plan& plan, int mode);
 
   /// Throws PreconditionViolation when `start` is not finite.
   [[nodiscard]] FlightResult fly(const State& start, FlightLimits limits = {}) const;
@@ -96,6 +99,7 @@ class ExactFlights {
   const Vehicle& vehicle() const { return vehicle_; }
 
  private:
+  friend class ModalFlights;
   enum class Kind : std::uint8_t { open, goal, obstacle, outside };
   struct CellRecord {
     Vec2 unit;  // of the command; (0, 0): none
@@ -113,6 +117,8 @@ class ExactFlights {
   };
   class CycleWatch;
   class Recorder;
+  struct NoRecord;
+  struct OneMode;
 
   const CellRecord& at(std::size_t place) const { return cells_[place]; }
   Direction command_at(std::size_t place) const {
@@ -125,15 +131,19 @@ class ExactFlights {
   void prefetch_ahead(const Position& position) const;
   Kind enter_next(Position& position, const CellExit& exit) const;
   bool is_hop(const Position& from, const CellExit& exit) const;
-  Leap leap(Position& position, Side border) const;
+  Leap leap(Position& position, Side border, double most_m) const;
+  FlightLimits with_defaults(FlightLimits limits) const;
   FlightLimits beyond_goal(FlightLimits limits, const FlightRun& run, double beyond_m) const;
   FlightResult result_of(const FlightRun& run) const;
   Onward onward_of(const FlightRun& run) const;
   Flight recorded(const State& start, FlightLimits limits, bool keeps_pieces) const;
   Flight followed(const State& start, FlightLimits limits, double beyond_m) const;
-  template <bool passes_goals, typename Record>
-  FlightRun fly_through(const State& start, FlightLimits limits, double beyond_m,
-                        Record& record) const;
+  template <bool passes_goals, typename Record, typename Modes>
+  FlightRun fly_through(const State& start, FlightLimits limits, double beyond_m, Record& record,
+                        Modes& modes) const;
+  template <bool passes_goals, typename Record, typename Modes>
+  FlightRun fly_on(Position position, Kind kind, FlightLimits limits, double beyond_m,
+                   Record& record, Modes& modes) const;
 
   Grid grid_;
   Vehicle vehicle_;

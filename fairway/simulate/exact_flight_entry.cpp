@@ -11,7 +11,7 @@
 
 namespace fairway {
 
-ExactFlights::ExactFlights(const Plan& plan)
+ExactFlights::ExactFlights(const Plan& plan, int mode)
     : grid_(plan.grid),
       vehicle_(plan.vehicle),
       stride_(static_cast<std::size_t>(plan.grid.nx) + 2) {
@@ -23,6 +23,12 @@ ExactFlights::ExactFlights(const Plan& plan)
   require(vehicle_.speed_mps > 0.0 && std::isfinite(vehicle_.speed_mps), "speed > 0");
   require(plan.heading_rad.size() == grid_.size() && plan.region.size() == grid_.size(),
           "a plan's arrays have one entry per cell");
+  require(mode >= 0 && static_cast<std::size_t>(mode) <= plan.further_modes() &&
+              plan.mode_heading_rad.size() == plan.further_modes() * grid_.size(),
+          "the mode is one of the plan's");
+  const float* heading_rad =
+      mode == 0 ? plan.heading_rad.data()
+                : plan.mode_heading_rad.data() + static_cast<std::size_t>(mode - 1) * grid_.size();
   const auto nx = static_cast<std::size_t>(grid_.nx);
   const auto ny = static_cast<std::size_t>(grid_.ny);
   const Direction none = Direction::none();
@@ -32,7 +38,7 @@ ExactFlights::ExactFlights(const Plan& plan)
     for (auto iy = static_cast<std::size_t>(begin); iy < static_cast<std::size_t>(end); ++iy) {
       for (std::size_t ix = 0; ix < nx; ++ix) {
         CellRecord& cell = cells_[(iy + 1) * stride_ + ix + 1];
-        cell.rad = plan.heading_rad[iy * nx + ix];
+        cell.rad = heading_rad[iy * nx + ix];
         if (!std::isnan(cell.rad)) {
           cell.unit = Direction::of(Heading::from_rad(static_cast<double>(cell.rad))).unit;
         }

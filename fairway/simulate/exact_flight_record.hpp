@@ -1,4 +1,4 @@
-// What exact_flight.cpp keeps while it flies: a watch for states that repeat, and the record.
+// What exact flights keep while they fly: a watch for states that repeat, and the record.
 #pragma once
 
 #include <algorithm>
@@ -45,6 +45,14 @@ class ExactFlights::CycleWatch {
   std::uint64_t left_ = 1;
 };
 
+/// Nothing is kept.
+struct ExactFlights::NoRecord {
+  void set_mode(int) {}
+  void end_at(double) {}
+  void add(const Position&, const CellExit&, double) {}
+  void add_leap(const Position&, double, double) {}
+};
+
 /// How much a flight turns and, when pieces are kept, the pieces: of the same curvature, end to
 /// end, though cells cut them.
 class ExactFlights::Recorder {
@@ -52,6 +60,8 @@ class ExactFlights::Recorder {
   Recorder(const ExactFlights& flights, bool keeps_pieces)
       : flights_(flights), keeps_pieces_(keeps_pieces) {}
 
+  /// The mode of what is added from now on.
+  void set_mode(int mode) { mode_ = mode; }
   /// What is flown beyond that length is not recorded.
   void end_at(double until_m) { until_m_ = until_m; }
 
@@ -78,18 +88,21 @@ class ExactFlights::Recorder {
     if (!(length_m > 0.0)) return;
     turning_.add(curvature * length_m, length_m);
     if (!keeps_pieces_) return;
-    if (!segments_.empty() && segments_.back().curvature_per_m == curvature) {
+    if (!segments_.empty() && segments_.back().curvature_per_m == curvature &&
+        segments_.back().mode == mode_) {
       segments_.back().length_m += length_m;
       return;
     }
     segments_.push_back({{p, Heading::from_rad(heading.rad)},
                          flown_m / flights_.vehicle_.speed_mps,
                          length_m,
-                         curvature});
+                         curvature,
+                         mode_});
   }
 
   const ExactFlights& flights_;
   bool keeps_pieces_;
+  int mode_ = 0;
   double until_m_ = std::numeric_limits<double>::infinity();
   Turning turning_;
   std::vector<FlightSegment> segments_;

@@ -51,6 +51,7 @@ struct FlightResult {
   Outcome outcome = Outcome::trapped;
   double time_s = 0.0;
   double length_m = 0.0;
+  int mode = 0;  ///< that the flight began in (docs/modes.md)
 };
 
 /// How a flight went on that was followed beyond its first goal cell, as those of path missions and
@@ -126,6 +127,7 @@ struct FlightSegment {
   double time_s = 0.0;  ///< at the start of the piece
   double length_m = 0.0;
   double curvature_per_m = 0.0;
+  int mode = 0;  ///< by whose commands it is flown (docs/modes.md)
 };
 
 /// The state `along_m` after the start of a piece.

@@ -9,6 +9,7 @@ namespace {
 struct Reader {
   const ModeView& mode;
   VerdictSet found;
+  bool gave_up = false;
 
   double seconds(double length_m) const { return above(length_m / mode.flow.vehicle.speed_mps); }
   void arrive(std::size_t section, Interval along_m, double length_m, bool) {
@@ -16,25 +17,33 @@ struct Reader {
                           found);
   }
   void end(Verdict verdict, double length_m) { found.add(verdict, seconds(length_m)); }
-  void give_up() { found.add(Verdict::undecided, 0.0); }
+  void give_up() {
+    gave_up = true;
+    found.add(Verdict::undecided, 0.0);
+  }
 };
 
 }  // namespace
 
 HandOver hand_over(const Flow& flow, LeafPlace leaf, std::span<const ModeView> earlier,
-                   int most_crossings) {
+                   int most_crossings, ModeSet asked) {
   constexpr auto reaches = static_cast<std::uint8_t>(1U << static_cast<unsigned>(Verdict::reach));
   Front front = front_of_section(flow, leaf.section, along_of(leaf.range, flow.grid.cell_m));
   front.hop = {};  // the section is not one of the earlier mode's
   most_crossings = crossings_worth(leaf.range, most_crossings);
   HandOver answer;
   for (std::size_t k = 0; k < earlier.size(); ++k) {
-    Reader reader{earlier[k], {}};
+    const ModeSet this_one = ModeSet{1} << k;
+    if ((asked & this_one) == 0) continue;
+    Reader reader{earlier[k], {}, false};
     follow_to_section(earlier[k].flow, front, most_crossings, reader);
     if (reader.found.only() == Verdict::reach) {
       return {static_cast<std::uint8_t>(k), reader.found.time_s, false};
     }
-    answer.in_part = answer.in_part || (reader.found.bits & reaches) != 0;
+    const bool some = (reader.found.bits & reaches) != 0;
+    answer.in_part = answer.in_part || some;
+    // What gave up did not see all: a part may come further.
+    if (some || reader.gave_up) answer.worth_asking |= this_one;
   }
   return answer;
 }

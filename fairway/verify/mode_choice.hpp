@@ -11,7 +11,7 @@
 // flown on in a mode that may not be proved there; mostly, an earlier one is.
 #pragma once
 
-#include "fairway/verify/proof_view.hpp"
+#include "fairway/verify/ask_modes.hpp"
 
 namespace fairway {
 

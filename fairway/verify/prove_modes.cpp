@@ -1,5 +1,6 @@
 #include "fairway/verify/prove_modes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -40,7 +41,9 @@ void prove_modes(const Flow& flow, std::span<const float* const> further_rad,
                  VolumeMeter& meter, Certified& answer) {
   // Smaller leaves than this earn next to nothing: they lie along the edges of what is proved.
   constexpr int first_level = 2;
-  constexpr int last_level = 12;
+  constexpr int last_level = 10;
+  // A flight that weaves for long is not what a further mode is for.
+  const int most_crossings = std::min(options.most_crossings, 300);
   constexpr double least_gain = 2e-4;  // of all states, by a level
   require(further_rad.size() < most_modes, "a plan has fewer modes");
   std::vector<SectionVerdicts> proved;
@@ -51,7 +54,7 @@ void prove_modes(const Flow& flow, std::span<const float* const> further_rad,
     mode.heading_rad = heading_rad;
     mode.holding = nullptr;
     meter.begin_mode(mode);
-    Prover prover(mode, undecided_sections(mode, 0), options.most_crossings, go_on,
+    Prover prover(mode, undecided_sections(mode, 0), most_crossings, go_on,
                   LeafGraph::Keep::links_of_open_leaves, earlier);
     for (int level = first_level; level <= last_level; ++level) {
       const double before = answer.volume.all[static_cast<std::size_t>(Verdict::reach)];

@@ -52,10 +52,12 @@ void Prover::fly(std::vector<Id> ids) {
 /// Hands leaves over to earlier modes where all their states are proved there: most are, so that is
 /// asked before their own flights. Returns the others.
 std::vector<Prover::Id> Prover::not_handed_over(const std::vector<Id>& ids) {
+  worth_asking_.resize(graph_.ids(), every_mode);
   std::vector<HandOver> found(ids.size());
   for_ranges(ids.size(), 64, [&](std::size_t a, std::size_t b) {
     for (std::size_t i = a; i < b && go_on_(); ++i) {
-      found[i] = hand_over(flow_, graph_.place(ids[i]), earlier_, most_crossings_);
+      found[i] =
+          hand_over(flow_, graph_.place(ids[i]), earlier_, most_crossings_, worth_asking_[ids[i]]);
     }
   });
   std::vector<Id> others;
@@ -67,6 +69,7 @@ std::vector<Prover::Id> Prover::not_handed_over(const std::vector<Id>& ids) {
       wake_dependents(id);
       continue;
     }
+    worth_asking_[id] = found[i].worth_asking;
     if (found[i].in_part) graph_.set_hands_over_in_part(id);
     others.push_back(id);
   }
@@ -89,7 +92,8 @@ bool Prover::is_worth_cutting(Id id) const {
 Prover::Finding Prover::examine(Id id, double least_units) const {
   Finding finding{image_verdicts(graph_, id, [this](Id other) { return graph_.verdict(other); })};
   // An unknown leaf keeps everything that leads to it waiting: cut it finer, ahead of the rest.
-  constexpr double ahead = 1.0 / 64.0;
+  // Not so in a further mode, which is there for what it does in a few turns.
+  const double ahead = earlier_.empty() ? 1.0 / 64.0 : 1.0;
   const double least = graph_.gave_up(id) ? std::max(ahead * least_units, 64.0) : least_units;
   // Before it fails as a whole, a part that can be handed over is cut off, down to a small one.
   constexpr double least_part = 0x1p24;
@@ -108,7 +112,12 @@ void Prover::conclude(const std::vector<Id>& round, const std::vector<Finding>& 
     const Verdict verdict = findings[k].found.only();
     const float time_s = std::nextafter(static_cast<float>(findings[k].found.time_s), infinite);
     if (findings[k].cut) {
-      halves.insert(halves.end(), {round[k], graph_.cut(round[k])});
+      const Id upper = graph_.cut(round[k]);
+      halves.insert(halves.end(), {round[k], upper});
+      if (!earlier_.empty()) {
+        worth_asking_.resize(graph_.ids(), every_mode);
+        worth_asking_[upper] = worth_asking_[round[k]];
+      }
     } else if (verdict != Verdict::undecided && verdict != Verdict::trapped && time_s < infinite) {
       graph_.decide(round[k], verdict, rank_, time_s);  // in a time that a float can hold
     }

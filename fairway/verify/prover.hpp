@@ -44,7 +44,9 @@ class Prover {
   /// Adds the verdicts of the leaves that touch `range`.
   void look_up(std::size_t section, UnitRange range, double flown_s, VerdictSet& found) const;
 
-  std::size_t bytes() const { return graph_.bytes() + waiting_.bytes(); }
+  std::size_t bytes() const {
+    return graph_.bytes() + waiting_.bytes() + worth_asking_.capacity() * sizeof(ModeSet);
+  }
 
  private:
   using Id = LeafGraph::Id;
@@ -66,6 +68,7 @@ class Prover {
   std::function<bool()> go_on_;
   std::span<const ModeView> earlier_;
   LeafGraph graph_;
+  std::vector<ModeSet> worth_asking_;  // [id] or shorter: every mode
   Worklist waiting_;
   std::uint32_t rank_ = 0;
 };

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "fairway/verify/proof_view.hpp"
+#include "fairway/verify/ask_modes.hpp"
 #include "fairway/verify/verdict_map.hpp"
 
 namespace fairway {

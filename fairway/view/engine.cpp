@@ -131,6 +131,7 @@ void LiveEngine::read_exact(const fs::path& file) {
   if (certificate_.open(file_->bytes().data(), file_->bytes().size()) != runtime::Status::ok) {
     throw InputError(file.string(), "is not a certificate");
   }
+  flights_.decide_by(certificate_.proof());
 }
 
 json LiveEngine::info() const {

@@ -3,7 +3,12 @@
 //
 //   fairway-falsify [PLAN.safetensors ...] [--random-plans N] [--states N] [--seed S]
 //                   [--undecided-max F] [--time-limit S] [--last-level L] [--odd-plans N]
+//                   [--modes CERT.safetensors]... [--mode-plans N] [--hand-overs N]
 //                   [--contract FILE.toml] [--contract-plans N] [--flights N] [--parts K]
+//
+// --modes: attacks certificates of plans with modes (mode_attack.hpp), until --hand-overs flights
+// have changed modes on the way. --mode-plans: does the same to random plans with random modes. A
+// PLAN with modes is certified with them, and attacked so after its first mode alone.
 //
 // --contract: proves the plans under this vehicle contract instead, and attacks those verdicts with
 // --flights behaviours that keep it (contract_attack.hpp). --contract-plans: does the same to
@@ -19,6 +24,7 @@
 // leaves a choice. Exit code 1 on any contradiction.
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -36,7 +42,9 @@
 #include "check/testing/sample_certificate.hpp"
 #include "fairway/base/random.hpp"
 #include "fairway/behaviour/testing/contract_trial.hpp"
+#include "fairway/certificate/certificate_file.hpp"
 #include "fairway/certificate/contract_certificate_file.hpp"
+#include "fairway/field/direction_field.hpp"
 #include "fairway/plan/plan_file.hpp"
 #include "fairway/run/contract_file.hpp"
 #include "fairway/simulate/exact_flight.hpp"
@@ -47,6 +55,7 @@
 #include "fairway/verify/testing/wide_flight.hpp"
 #include "tests/falsify/contract_proof.hpp"
 #include "tests/falsify/follow_attack.hpp"
+#include "tests/falsify/mode_attack.hpp"
 
 namespace fairway {
 namespace {
@@ -60,6 +69,9 @@ struct Settings {
   CertifyOptions certify;
   std::string contract;
   std::vector<std::string> follow;  ///< certificates
+  std::vector<std::string> modes;   ///< the same
+  std::uint64_t mode_plans = 0;
+  std::uint64_t hand_overs = 10000;
   std::uint64_t contract_plans = 0;
   std::uint64_t flights = 100000;
   int parts = 2;
@@ -409,6 +421,10 @@ Settings settings_of(int argc, char** argv) {
       settings.follow.emplace_back(argv[++i]);
       continue;
     }
+    if (word == "--modes" && i + 1 < argc) {
+      settings.modes.emplace_back(argv[++i]);
+      continue;
+    }
     if (word.rfind("--", 0) != 0) {
       settings.plans.push_back(word);
       continue;
@@ -427,6 +443,10 @@ Settings settings_of(int argc, char** argv) {
       settings.states = whole;
     } else if (word == "--contract-plans") {
       settings.contract_plans = whole;
+    } else if (word == "--mode-plans") {
+      settings.mode_plans = whole;
+    } else if (word == "--hand-overs") {
+      settings.hand_overs = whole;
     } else if (word == "--flights") {
       settings.flights = whole;
     } else if (word == "--parts") {
@@ -532,6 +552,87 @@ std::uint64_t contradicted_following(const Settings& settings) {
   return wrong;
 }
 
+ModeAttackTotals attack_proof(const std::string& name, const ProofView& proof, std::uint64_t states,
+                              const Settings& settings) {
+  ModeAttackOptions options;
+  options.hand_overs = settings.hand_overs;
+  options.states = states;
+  options.seed = settings.seed;
+  const auto begun = std::chrono::steady_clock::now();
+  const ModeAttackTotals totals = attack_modes(proof, options);
+  const double wall_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  fmt::print("{}: {} x {} cells, {} modes, {:.1f} s\n", name, proof.flow.grid.nx,
+             proof.flow.grid.ny, proof.modes(), wall_s);
+  for (const std::string& story : totals.stories) fmt::print("  {}\n", story);
+  fmt::print("  {}\n", totals.line());
+  std::fflush(stdout);
+  return totals;
+}
+
+/// Certifies a plan with its modes, and attacks that. `states`: the most asked about; 0: no limit.
+ModeAttackTotals attack_plan_with_modes(const std::string& name, const Plan& plan,
+                                        std::uint64_t states, const Settings& settings) {
+  const PlanFlow held(plan);
+  CertifyOptions options = settings.certify;
+  options.samples = std::min<std::size_t>(200000, 20 * plan.grid.size());
+  const Certified certified =
+      certify(held.flow(), held.is_free, options, {}, {}, plan.further_rad());
+  const ProofView proof{held.flow(), certified.sections.view(),
+                        static_cast<int>(plan.further_modes()), plan.mode_heading_rad.data(),
+                        certified.further.view()};
+  return attack_proof(name, proof, states, settings);
+}
+
+/// A random plan with random modes: fields of its own styles, and fields that go on in a direction.
+Plan random_plan_with_modes(std::uint64_t number) {
+  Plan plan = random_plan(number);
+  Random random = Random::stream(0x30de5, number);
+  const std::uint64_t further = 1 + random.below(5);
+  for (std::uint64_t k = 0; k < further; ++k) {
+    std::vector<float> field(plan.grid.size());
+    if (random.below(3) == 0) {
+      field =
+          direction_field(plan.grid, plan.region, random.uniform(-pi, pi), 2.0 * plan.grid.cell_m);
+    } else {
+      const auto style = static_cast<FieldStyle>(random.below(field_styles));
+      const double twist = random.uniform(-pi, pi);
+      const Vec2 goal{random.uniform(0.0, plan.grid.nx), random.uniform(0.0, plan.grid.ny)};
+      for (std::size_t i = 0; i < field.size(); ++i) {
+        const Cell c = plan.grid.cell_at(i);
+        field[i] =
+            Heading::stored(sample_heading(style, random, {c.ix + 0.5, c.iy + 0.5}, goal, twist));
+      }
+    }
+    plan.mode_heading_rad.insert(plan.mode_heading_rad.end(), field.begin(), field.end());
+  }
+  return plan;
+}
+
+/// How many flights contradict what is proved of modes.
+std::uint64_t contradicted_modes(const Settings& settings) {
+  ModeAttackTotals totals;
+  for (const std::string& path : settings.modes) {
+    const Certificate certificate = read_certificate(path);
+    if (certificate.further_modes() == 0) {
+      fmt::print(stderr, "{}: its plan has one mode, expected several\n", path);
+      std::exit(64);
+    }
+    totals.add(attack_proof(path, certificate.view(), 0, settings));
+  }
+  for (const std::string& path : settings.plans) {
+    const Plan plan = read_plan(path);
+    if (plan.further_modes() > 0) totals.add(attack_plan_with_modes(path, plan, 0, settings));
+  }
+  for (std::uint64_t k = 0; k < settings.mode_plans; ++k) {
+    const std::uint64_t number = 1000003 * settings.seed + k;
+    totals.add(attack_plan_with_modes(fmt::format("random plan {} with modes", number),
+                                      random_plan_with_modes(number), settings.states, settings));
+  }
+  if (totals.states > 0) fmt::print("with modes, in all: {}\n", totals.line());
+  return totals.wrong();
+}
+
 int falsify(int argc, char** argv) {
   const Settings settings = settings_of(argc, argv);
   if (!settings.follow.empty()) return contradicted_following(settings) == 0 ? 0 : 1;
@@ -548,8 +649,9 @@ int falsify(int argc, char** argv) {
     totals.add(Falsifier(fmt::format("random plan {}", number), plan, settings).run());
   }
   const std::size_t refused = refused_odd_plans(settings);
-  fmt::print("in all: {}\n", totals.line());
-  return totals.contradictions + totals.late + refused == 0 ? 0 : 1;
+  if (totals.states > 0) fmt::print("in all: {}\n", totals.line());
+  const std::uint64_t with_modes = contradicted_modes(settings);
+  return totals.contradictions + totals.late + refused + with_modes == 0 ? 0 : 1;
 }
 
 }  // namespace

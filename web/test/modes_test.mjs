@@ -6,7 +6,7 @@ import { test } from "node:test";
 import { frames, opened, openedFile, picture, readout, turnTo } from "./browser.mjs";
 import { bytesOf, FAIRWAY, hasPage, recordOf, rocks, run, scenario, SOURCE, view } from "./runs.mjs";
 
-const text = (modes, random = 5) => `[map]\nfile = ${JSON.stringify(join(SOURCE, "demo/town.map"))}\nresolution_m = 4.0\n` +
+const text = (modes, random = 5) => `[map]\nfile = ${JSON.stringify(join(SOURCE, "demo/town.map"))}\nresolution_m = 4.0\ncell_m = 4.0\n` +
   "[vehicle]\nspeed_mps = 10.0\nturn_radius_m = 9.0\n[mission]\nkind = \"goal\"\ngoal_m = [220.0, 32.0]\n" +
   `[plan]\npreset = "paper"\nalpha = 0.5\nbeta = 1.5\nmodes = ${modes}\n[verify]\nundecided_max = 0.05\n[simulate]\nrandom = ${random}\nsample = 200\n`;
 const town = run("town", text(4));
@@ -62,7 +62,7 @@ test("every mode read off the map is the certificate's, and its command that of 
     }
   }
   assert.deepEqual(shown, modes(states));
-  assert.ok(shown.length > 40 && [...seen].some((mode) => mode > 0), `seen: ${[...seen]}`);
+  assert.ok(shown.length > 20 && [...seen].some((mode) => mode > 0), `seen: ${[...seen]}`);
   assert.deepEqual(trouble, []);
 });
 
@@ -77,7 +77,7 @@ test("the legend names the modes that serve a state, with their shares", async (
     const serving = record.styles.mode.filter((_, mode) => record.verdicts.mode_count.some((of) => of[mode] > 0));
     assert.equal(rows.length, serving.length + 3);  // none, obstacle, goal
     assert.match(rows[0], /^mode 0: the plan's own/);
-    assert.match(rows[1], /^mode \d+: on towards [\d.]+ degrees/);
+    assert.match(rows[1], /^mode \d+: (on towards [\d.]+ degrees|turning places)/);
     assert.match(rows[serving.length], /^no mode is proved to reach/);
     const share = Number(/([\d.]+) %/.exec(rows[0])[1]) / 100;
     assert.ok(Math.abs(share - counts[0] / all) < 0.0051, `${rows[0]}: ${counts[0]} of ${all}`);
@@ -143,10 +143,10 @@ test("live: the answer names the mode, and a moved goal withdraws the map of mod
   const answer = await (await fetch(`${server.address}api/state?x=${x}&y=${y}&h=${h}`)).json();
   assert.equal(answer.mode, mode);
   await type({ x, y, h: h * 180 / Math.PI });
-  await page.waitForFunction((mode) => new RegExp(`proved: reach within [\\d.]+ s, in mode ${mode}: on towards`).test(document.querySelector("#live .answer").innerText), mode, { timeout: 10_000 });
+  await page.waitForFunction((mode) => new RegExp(`proved: reach within [\\d.]+ s, in mode ${mode}: `).test(document.querySelector("#live .answer").innerText), mode, { timeout: 10_000 });
   await show(page, "mode");
   await page.getByRole("button", { name: "Move the goal" }).click();
-  await type({ goal_x: 40, goal_y: 100 });
+  await type({ goal_x: 28, goal_y: 164 });
   await page.waitForFunction(() => document.querySelector("#views input[value=mode]").disabled, null, { timeout: 30_000 });
   assert.ok(await page.locator("#views input[value=cost]").isChecked());
   assert.deepEqual(trouble, []);

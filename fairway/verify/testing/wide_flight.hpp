@@ -97,6 +97,12 @@ class WideFlight {
     return meeting;
   }
 
+  /// Where it is now, in the cell that it is about to cross.
+  int ix() const { return ix_; }
+  int iy() const { return iy_; }
+  const WideVec<Real>& position() const { return p_; }
+  const WideVec<Real>& heading() const { return u_; }
+
   /// To the end, over any number of meetings; trapped when one repeats within rounding.
   WideMeeting<Real> fly_to_end(std::uint64_t most_crossings) {
     WideMeeting<Real> kept;
