@@ -195,12 +195,10 @@ std::vector<ScenarioKey> plan_keys() {
           "commands this close to a grid axis are snapped to it, so that vehicles do not weave "
           "along a border in tiny hops between opposing commands; not used with metric \"paper\""),
       unless(&OpenParameters::modes,
-             whole("plan.modes", Range{0.0, static_cast<double>(most_modes - 1)},
-                   FAIRWAY_MEMBER(modes),
-                   "at most so many further fields, flown from where the plan alone fails until it "
-                   "does not; 0: one heading a cell, as in the papers. Not given: up to 16 where "
-                   "they bring two per cent of all states or more, but none with preset \"paper\" "
-                   "or a contract")),
+             whole("plan.modes", Range{0.0, most_modes - 1.0}, FAIRWAY_MEMBER(modes),
+                   "at most so many further fields, for states that the plan alone does not bring; "
+                   "not given: up to 16 where they bring 2 % of all states or more, but none with "
+                   "preset \"paper\" or a contract")),
       key("plan.improve", "true or false", any_finite, FAIRWAY_MEMBER(improve),
           "change commands cell by cell where verdicts confirm that more states then arrive; takes "
           "much longer than the plan itself"),
