@@ -1,6 +1,7 @@
 #include "fairway/run/cell_size_warning.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>

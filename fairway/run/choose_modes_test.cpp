@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -20,7 +21,7 @@ constexpr auto reach = static_cast<std::size_t>(Verdict::reach);
 /// the goal: who points the wrong way cannot turn round in the street.
 Plan plan_of_a_street() {
   ObstacleMap map;
-  map.grid = {0.0, 0.0, 1.0, 40, 24};
+  map.grid = {40, 24, 0.0, 0.0, 1.0};
   map.obstacle.assign(map.grid.size(), 1);
   const auto clear = [&](int x0, int x1, int y0, int y1) {
     for (int iy = y0; iy < y1; ++iy) {
@@ -33,7 +34,7 @@ Plan plan_of_a_street() {
   FieldOptions options;
   options.alpha = 0.5;
   options.beta = 0.8;
-  auto answer = plan_map(map, {1.0, 2.4}, GoalMission{{7.0, 12.0}}, options);
+  auto answer = plan_map(map, {1.0, 2.4}, GoalMission{{7.0, 12.0}, {}}, options);
   return std::get<Plan>(std::move(answer));
 }
 
@@ -77,9 +78,9 @@ TEST(ChooseModes, ChoosesNoMoreThanAskedAndTheBestFirst) {
 
 TEST(ChooseModes, NoneEarnsAnythingWhereThePlanBringsAll) {
   ObstacleMap map;
-  map.grid = {0.0, 0.0, 1.0, 60, 60};
+  map.grid = {60, 60, 0.0, 0.0, 1.0};
   map.obstacle.assign(map.grid.size(), 0);
-  auto answer = plan_map(map, {1.0, 1.5}, GoalMission{{30.0, 30.0}}, FieldOptions{});
+  auto answer = plan_map(map, {1.0, 1.5}, GoalMission{{30.0, 30.0}, {}}, FieldOptions{});
   const Plan plan = std::get<Plan>(std::move(answer));
   ModeOptions options;
   options.least_gain = 0.05;
