@@ -8,6 +8,7 @@
 
 #include "fairway/base/heading.hpp"
 #include "fairway/base/parallel.hpp"
+#include "fairway/plan/plan_file.hpp"
 #include "fairway/vehicle/contract_defect.hpp"
 #include "fairway/vehicle/modes.hpp"
 #include "fairway/vehicle/size_range.hpp"

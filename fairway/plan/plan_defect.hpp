@@ -1,18 +1,15 @@
-// Whether a plan has the properties that plan.hpp promises.
+// Whether a plan has the properties that plan.hpp promises: what plan_defect() of plan_file.hpp asks
+// of sizes and places, before there are cells. Private to the stage.
 #pragma once
 
 #include <string>
 
 #include "fairway/base/grid.hpp"
-#include "fairway/plan/plan.hpp"
 #include "fairway/vehicle/vehicle.hpp"
 
 namespace fairway {
 
-/// Which property of plan.hpp `plan` lacks, in one sentence; empty when it has them all.
-[[nodiscard]] std::string plan_defect(const Plan& plan);
-
-/// The same of sizes and places alone.
+/// Which of them is out of range, in one sentence; empty when none is.
 [[nodiscard]] std::string geometry_defect(const Grid& grid, const Vehicle& vehicle);
 
 }  // namespace fairway

@@ -14,7 +14,6 @@
 
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/plan/plan.hpp"
-#include "fairway/plan/plan_defect.hpp"
 
 namespace fairway {
 
@@ -27,5 +26,8 @@ void write_plan(const Plan& plan, const std::filesystem::path& path, Existing ex
 
 /// The same for bytes already in memory; `where` names them in errors.
 [[nodiscard]] Plan plan_of_bytes(std::span<const std::byte> bytes, const std::string& where);
+
+/// Which property of plan.hpp `plan` lacks, in one sentence; empty when it has them all.
+[[nodiscard]] std::string plan_defect(const Plan& plan);
 
 }  // namespace fairway
