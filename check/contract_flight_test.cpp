@@ -33,6 +33,7 @@ struct Recorder : Sightings {
 Contract contract_of_world(const SmallWorld& w) {
   return {.command_error = w.rho,
           .heading_error = w.eps,
+          .estimate_error = 0.0,
           .least_radius = w.r1,
           .most_radius = w.r2,
           .least_speed = 1.0,

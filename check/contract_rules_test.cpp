@@ -14,6 +14,7 @@ constexpr double degree = pi / 180.0;
 Contract ordinary_contract() {
   return {.command_error = 0.0,
           .heading_error = 0.0,
+          .estimate_error = 0.0,
           .least_radius = 9.0,
           .most_radius = 11.0,
           .least_speed = 1.0,
