@@ -152,16 +152,18 @@ TEST(HandOver, EveryPlaceOfALeafThatIsHandedOverReachesInTime) {
         ++places;
         if (found.only() == Verdict::undecided) continue;
         EXPECT_EQ(found.only(), Verdict::reach);
-        // Where it is only within rounding of the border, a state may be in the cell that it
-        // leaves, and the set of such states may stay there.
-        const bool is_far = side == Side::right || side == Side::top;
-        const bool upright = side == Side::right || side == Side::left;
-        const Interval line =
-            upright ? state_flight::border(m.plan.grid.x0_m, cell.ix + (is_far ? 1 : 0), d)
-                    : state_flight::border(m.plan.grid.y0_m, cell.iy + (is_far ? 1 : 0), d);
-        if (line.lo != line.hi) continue;
+        // The query's bound may be looser: it takes the heading as known within rounding. That of
+        // the place alone, as a leaf with its exact heading, may not.
+        const auto unit = static_cast<std::uint32_t>(along / d * units_per_side);
+        if (unit < range.lo || unit > range.hi) continue;
+        const std::array<ModeView, 1> to{
+            {{proof.flow_of(s.next_mode[leaf]), proof.sections_of(s.next_mode[leaf])}}};
+        const HandOver alone =
+            hand_over(proof.flow_of(mode), {static_cast<std::uint32_t>(section), {unit, unit}}, to,
+                      most_crossings);
+        EXPECT_EQ(alone.mode, 0);
         ++timed;
-        EXPECT_LE(found.time_s, s.time_s[leaf] * (1.0 + 1e-6));
+        EXPECT_LE(alone.time_s, s.time_s[leaf] * (1.0 + 1e-6));
       }
     });
   }

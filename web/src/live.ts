@@ -261,15 +261,15 @@ class LiveTool implements Live {
     void this.latest.ask(async () => {
       const begin = performance.now();
       try {
-        if (mode === "steer") this.showSteer(await asked<SteerAnswer>("steer", { x, y, h, to_x: target!.x, to_y: target!.y, to_h: target!.h }), begin);
-        else this.showState(await asked<StateAnswer>("state", { x, y, h, ...this.moved.parameters }), begin);
+        if (mode === "steer") this.showSteer(await asked<SteerAnswer>("steer", { x, y, h, to_x: target!.x, to_y: target!.y, to_h: target!.h }), start, begin);
+        else this.showState(await asked<StateAnswer>("state", { x, y, h, ...this.moved.parameters }), start, begin);
       } catch (error) {
         this.tellError(error);
       }
       this.page.redrawMarks();
     });
   }
-  private showState(answer: StateAnswer, begin: number): void {
+  private showState(answer: StateAnswer, pose: Pose, begin: number): void {
     const { flight } = answer;
     const names = verdictNames(this.record);
     this.track = this.trackOf(flight.pieces);
@@ -281,20 +281,20 @@ class LiveTool implements Live {
     if (answer.time_bound_s !== null) parts.push(` within ${answer.time_bound_s.toFixed(1)} s`);
     if (answer.mode !== undefined && answer.verdict === "reach") parts.push(`, in ${modeWords(this.record, answer.mode)}`);
     if (answer.contract) parts.push(el("br"), ...contractWords(answer.contract, names.after));
-    this.page.showWitness(answer.contract?.witness ? this.witnessOf(answer.contract.witness) : null);
+    this.page.showWitness(answer.contract?.witness ? this.witnessOf(pose, answer.contract.witness) : null);
     parts.push(el("br"), `flown: ${flight.outcome}` +
       (flight.time_s === null ? "" : ` after ${flight.time_s.toFixed(1)} s, ${Math.round(flight.length_m!)} m`) + (flight.cut ? " (line cut short)" : ""));
     if (flight.leg) parts.push(el("br"), flight.leg.pieces.length > 0 ? `then ${flight.leg.word}, ${Math.round(flight.leg.length_m)} m, to the goal heading` : "then no clear way to the goal heading");
-    parts.push(this.took(begin));
+    parts.push(this.took(pose, begin));
     this.answer.replaceChildren(...parts);
   }
 
-  private witnessOf({ end, steps }: { end: string; steps: WitnessStep[] }): Witness {
+  private witnessOf(start: Pose, { end, steps }: { end: string; steps: WitnessStep[] }): Witness {
     const track = this.trackOf(steps.map((step) => step.slice(0, 5) as Piece));
-    return { start: this.start!, end, track, commands: steps.map(([, , , , , rad, x, y]) => ({ rad, x, y })) };
+    return { start, end, track, commands: steps.map(([, , , , , rad, x, y]) => ({ rad, x, y })) };
   }
 
-  private showSteer(answer: SteerAnswer, begin: number): void {
+  private showSteer(answer: SteerAnswer, pose: Pose, begin: number): void {
     const shortest = answer.shortest!;
     const none = answer.state === "none_clear";
     this.track = this.trackOf(none ? shortest.pieces : answer.pieces);
@@ -304,14 +304,15 @@ class LiveTool implements Live {
       ? [el("b", {}, `${answer.word}, ${short(answer.length_m)} m`), ` in ${answer.time_s.toFixed(1)} s`, el("br"),
         answer.state === "shortest" ? "the shortest path; it touches no obstacle" : `clear of obstacles; the shortest, ${shortest.word} of ${short(shortest.length_m)} m, is not`]
       : [el("b", {}, "no clear way found"), el("br"), `the shortest, ${shortest.word} of ${short(shortest.length_m)} m, touches an obstacle, and so does every other path tried`];
-    parts.push(this.took(begin));
+    parts.push(this.took(pose, begin));
     this.answer.replaceChildren(...parts);
   }
 
-  private took(begin: number): HTMLElement {
+  /** `pose`: the state that the answer is of; another one may have been entered since. */
+  private took({ x, y, h }: Pose, begin: number): HTMLElement {
     const ms = performance.now() - begin;
     byId("live").dataset.answeredMs = ms.toFixed(2);
-    const { x, y, h } = this.start!;
+    byId("live").dataset.answeredFor = `${x} ${y} ${(h * 180 / Math.PI).toFixed(1)}`;
     const earth = earthWords(this.record, [x, y]);
     return el("small", {}, `heading ${bearingWords(this.record, h)}`, el("br"), ...(earth ? [`at ${earth}`, el("br")] : []),
       `answered in ${ms.toFixed(ms < 10 ? 1 : 0)} ms`);

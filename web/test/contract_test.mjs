@@ -246,7 +246,10 @@ test("live: a state is answered under the contract, too, and its own witness is 
   for (const [k, state] of states.entries()) {
     for (const [c, name] of fields.entries()) await page.locator(`#live input[name=${name}]`).fill(String(state[c]));
     await page.keyboard.press("Enter");
-    await page.waitForFunction((h) => document.querySelector("#live .answer").innerText.includes(`heading ${h}°`), ((state[2] % 360) + 360) % 360);
+    await page.waitForFunction(([x, y, h]) => {
+      const [ax, ay, ah] = (document.querySelector("#live").dataset.answeredFor ?? "").split(" ").map(Number);
+      return ax === x && ay === y && Math.abs((((ah - h) % 360) + 540) % 360 - 180) < 0.06;
+    }, state);
     const words = { at_risk: "at risk", undecided: "undecided" }[expected[k]] ?? `proved: ${expected[k]}${expected[k] === "reach" ? " within" : ""}`;
     assert.match(await answer.innerText(), new RegExp(`under the contract ${words}`));
     assert.match(await answer.innerText(), /flown: /);
