@@ -25,6 +25,7 @@ kind = "goal"
 goal_m = [100.0, 80.0]
 [plan]
 alpha = 0.5
+modes = 0
 beta = 1.5
 [verify]
 undecided_max = 0.1

@@ -26,6 +26,7 @@ kind = "goal"
 goal_m = [{goal}]
 [plan]
 alpha = 0.5
+modes = 0
 beta = 1.5
 """
 CONTRACT = """[vehicle.contract]

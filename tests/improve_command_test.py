@@ -28,6 +28,7 @@ kind = "goal"
 goal_m = [80.0, 96.0]
 [plan]
 alpha = 0.6
+modes = 0
 {more}
 [simulate]
 random = 20

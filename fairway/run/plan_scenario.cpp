@@ -21,6 +21,11 @@ namespace {
 /// The further modes that the scenario asks for; those that it leaves open, if they are worth it.
 void add_modes(Plan& plan, const Scenario& scenario, StageClock& clock) {
   if (scenario.modes == 0 && !scenario.open.modes) return;
+  // That a path is followed, or a goal held at, is proved of the plan's own field alone.
+  if (scenario.open.modes &&
+      (scenario.mission.kind != MissionKind::goal || scenario.mission.hold)) {
+    return;
+  }
   clock.begin("choosing modes", unknown_time);
   ModeOptions options;
   if (scenario.open.modes) {
