@@ -1,5 +1,5 @@
-// Whether a plan has the properties that plan.hpp promises: what plan_defect() of plan_file.hpp asks
-// of sizes and places, before there are cells. Private to the stage.
+// Whether a plan has the properties that plan.hpp promises: what plan_defect() of plan_file.hpp
+// asks of sizes and places, before there are cells. Private to the stage.
 #pragma once
 
 #include <string>
