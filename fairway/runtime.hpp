@@ -180,7 +180,7 @@ class Certificate {
 
   /// What one mode does from a state, whatever others do.
   Answer query_mode(int mode, double x_m, double y_m, double heading_rad) const noexcept {
-    if (!is_near(x_m, y_m) || !std::isfinite(heading_rad)) return {};
+    if (!is_near(x_m, y_m) || !std::isfinite(heading_rad) || !has(mode)) return {};
     const VerdictSet found = ask_mode(proof_, mode, x_m, y_m, heading_rad);
     const bool reaches = found.only() == Verdict::reach;
     return {found.only(), reaches ? found.time_s : std::numeric_limits<double>::infinity(), mode};
@@ -188,7 +188,7 @@ class Certificate {
 
   /// What to steer at a state, in a mode; no command outside the grid.
   Command command(double x_m, double y_m, double heading_rad, int mode = 0) const noexcept {
-    if (!opened_) return {};
+    if (!opened_ || !has(mode)) return {};
     const Flow flow = proof_.flow_of(mode);
     return bang_bang(flow.grid, flow.vehicle, flow.heading_rad, x_m, y_m, heading_rad);
   }
@@ -263,10 +263,12 @@ class Certificate {
 
   Answer told(double x_m, double y_m, double heading_rad, int end) const noexcept {
     if (!is_near(x_m, y_m) || !std::isfinite(heading_rad)) return {};
-    const ProvedState known = ask_modes(proof_, end, x_m, y_m, heading_rad);
+    const ProvedState known =
+        ask_modes(proof_, end < modes() ? end : modes(), x_m, y_m, heading_rad);
     return {known.verdict, known.time_s, known.mode};
   }
 
+  bool has(int mode) const noexcept { return mode >= 0 && mode < modes(); }
   bool is_near(double x_m, double y_m) const noexcept {
     const Grid& grid = proof_.flow.grid;
     const double far = 0x1p30 * grid.cell_m;

@@ -9,11 +9,15 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <new>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "fairway/base/digest.hpp"
+#include "fairway/base/error.hpp"
 #include "fairway/base/random.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/certificate/contract_certificate_file.hpp"
@@ -117,6 +121,89 @@ TEST_F(RuntimeTest, AnswersAgreeWithExactFlightsAndBoundTheirTimes) {
     }
   }
   EXPECT_LT(undecided, 200);
+}
+
+/// The plan towards the middle, and two fields that go on in one direction.
+Certificate certificate_with_modes() {
+  const Plan plan = plan_towards_the_middle();
+  Certificate c;
+  c.grid = plan.grid;
+  c.vehicle = plan.vehicle;
+  c.heading_rad = plan.heading_rad;
+  c.region = plan.region;
+  c.kind = cell_kinds(plan.grid, plan.region, {});
+  c.mode_heading_rad.assign(2 * plan.grid.size(), 0.5F);
+  std::fill_n(c.mode_heading_rad.begin(), plan.grid.size(), -2.0F);
+  CertifyOptions options;
+  options.samples = 20'000;
+  const std::vector<const float*> further{c.mode_heading_rad.data(),
+                                          c.mode_heading_rad.data() + plan.grid.size()};
+  Certified outcome =
+      certify(c.flow(), std::vector<bool>(plan.grid.size(), true), options, {}, {}, further);
+  c.sections = std::move(outcome.sections);
+  c.mode_sections = std::move(outcome.further);
+  c.plan.mode_heading_rad = sha256_hex(std::as_bytes(std::span(c.mode_heading_rad)));
+  c.plan.heading_rad = sha256_hex(std::as_bytes(std::span(c.heading_rad)));
+  c.plan.region = sha256_hex(std::as_bytes(std::span(c.region)));
+  return c;
+}
+
+TEST_F(RuntimeTest, ACertificateWithModesIsReadWholeAndAnswersByMode) {
+  const Certificate made = certificate_with_modes();
+  const auto file = std::filesystem::temp_directory_path() / "fairway_runtime_modes.safetensors";
+  write_certificate(made, file, Existing::replace);
+  const Certificate read = read_certificate(file);
+  EXPECT_EQ(read.mode_heading_rad, made.mode_heading_rad);
+  EXPECT_EQ(read.mode_sections.first, made.mode_sections.first);
+  EXPECT_EQ(read.mode_sections.time_s, made.mode_sections.time_s);
+  EXPECT_EQ(read.mode_sections.next_mode, made.mode_sections.next_mode);
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::filesystem::remove(file);
+  const auto words = aligned(text);
+  runtime::Certificate certificate;
+  ASSERT_EQ(certificate.open(words.data(), text.size()), runtime::Status::ok);
+  ASSERT_EQ(certificate.modes(), 3);
+  Random random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const double x = made.grid.x0_m + random.unit() * made.grid.width_m();
+    const double y = made.grid.y0_m + random.unit() * made.grid.height_m();
+    const double h = random.uniform(-pi, pi);
+    const ProvedState known = ask_all_modes(made.view(), x, y, h);
+    const runtime::Answer answer = certificate.query(x, y, h);
+    ASSERT_EQ(answer.verdict, known.verdict);
+    ASSERT_EQ(answer.mode, known.mode);
+    ASSERT_EQ(answer.time_bound_s, known.time_s);
+    runtime::ModePilot pilot(certificate);
+    ASSERT_EQ(pilot.steer(x, y, h).answer.mode, known.mode);
+  }
+  for (const int none : {-1, 3, 1000}) {  // under the sanitizers: nothing beside
+    EXPECT_EQ(certificate.query_mode(none, 0.0, 20.0, 1.0).verdict, Verdict::undecided);
+    EXPECT_TRUE(std::isnan(certificate.command(0.0, 20.0, 1.0, none).heading_rad));
+  }
+  EXPECT_EQ(certificate.query_before(99, 0.0, 20.0, 1.0).verdict,
+            certificate.query(0.0, 20.0, 1.0).verdict);
+}
+
+TEST_F(RuntimeTest, ModesThatDoNotFitAreRefusedByEveryReader) {
+  const auto file = std::filesystem::temp_directory_path() / "fairway_runtime_spoilt.safetensors";
+  const auto refused = [&](const std::function<void(SectionVerdicts&)>& spoil) {
+    Certificate c = certificate_with_modes();
+    spoil(c.mode_sections);
+    write_certificate(c, file, Existing::replace);
+    std::ifstream in(file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const auto words = aligned(text);
+    runtime::Certificate certificate;
+    EXPECT_NE(certificate.open(words.data(), text.size()), runtime::Status::ok);
+    EXPECT_EQ(certificate.query(0.0, 20.0, 1.0).verdict, Verdict::undecided);
+    EXPECT_THROW(static_cast<void>(read_certificate(file)), InputError);
+  };
+  refused([](SectionVerdicts& s) { s.next_mode.front() = 99; });
+  refused([](SectionVerdicts& s) { s.verdict.front() = 77; });
+  refused([](SectionVerdicts& s) { s.first.back() += 1; });
+  refused([](SectionVerdicts& s) { s.next_mode.pop_back(); });
+  std::filesystem::remove(file);
 }
 
 TEST_F(RuntimeTest, QueriesTouchNoHeap) {

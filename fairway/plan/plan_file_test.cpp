@@ -359,5 +359,65 @@ TEST(PlanFile, TheFirstDefectiveCellIsNamedWhateverTheThreadsDo) {
   EXPECT_NE(plan_defect(plan).find("cell ix 1 iy 100:"), std::string::npos) << plan_defect(plan);
 }
 
+Plan plan_with_modes(std::uint64_t seed) {
+  Plan plan = random_plan(7, 5, seed);
+  Random random(seed + 1);
+  for (std::size_t i = 0; i < 3 * plan.grid.size(); ++i) {
+    plan.mode_heading_rad.push_back(
+        random.below(5) == 0 ? nan_f : Heading::stored(random.uniform(-4.0, 4.0)));
+  }
+  plan.record.modes = {{"direction", 0.5}, {"turning_places"}, {"direction", -2.0}};
+  return plan;
+}
+
+TEST(PlanFile, ModesAreReadAsTheyWereWritten) {
+  const Plan plan = plan_with_modes(4);
+  const std::string bytes = bytes_of(plan);
+  const Plan again = read_bytes(bytes);
+  EXPECT_EQ(again.record.modes, plan.record.modes);
+  ASSERT_EQ(again.further_modes(), 3U);
+  ASSERT_EQ(again.mode_heading_rad.size(), plan.mode_heading_rad.size());
+  EXPECT_EQ(0, std::memcmp(again.mode_heading_rad.data(), plan.mode_heading_rad.data(),
+                           sizeof(float) * plan.mode_heading_rad.size()));
+  EXPECT_EQ(bytes_of(again), bytes);
+}
+
+TEST(PlanFile, OneModeLeavesNoTraceInTheFile) {
+  EXPECT_EQ(bytes_of(random_plan(7, 5, 4)).find("mode"), std::string::npos);
+}
+
+TEST(PlanFile, SaysWhatIsWrongWithModes) {
+  const auto defect = [](const std::function<void(Plan&)>& spoil) {
+    Plan plan = plan_with_modes(4);
+    spoil(plan);
+    return plan_defect(plan);
+  };
+  EXPECT_EQ(defect([](Plan&) {}), "");
+  EXPECT_EQ(defect([](Plan& p) { p.mode_heading_rad[7 * 5 + 8] = 3.5F; }),
+            "mode 2, cell ix 1 iy 1: mode_heading_rad is 3.5, expected (-pi, pi], 0 or at least "
+            "2^-52 from it, or NaN");
+  EXPECT_EQ(defect([](Plan& p) { p.mode_heading_rad.pop_back(); }),
+            "mode_heading_rad does not have one entry per mode and cell");
+  EXPECT_EQ(defect([](Plan& p) { p.record.modes.pop_back(); }),
+            "has 3 further modes, but its record tells of 2");
+  EXPECT_EQ(defect([](Plan& p) {
+              p.mode_heading_rad.assign(64 * p.grid.size(), 0.0F);
+              p.record.modes.assign(64, {"direction", 0.0});
+            }),
+            "has 65 modes, expected at most 64");
+}
+
+TEST(PlanFile, AnAlteredCommandOfAModeIsFound) {
+  std::string bytes = bytes_of(plan_with_modes(4));
+  // The arrays are the end of the file: headings, costs, modes, regions.
+  bytes[bytes.size() - 7 * 5 - 6] ^= 1;
+  try {
+    static_cast<void>(read_bytes(bytes));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("mode_heading_rad"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace fairway

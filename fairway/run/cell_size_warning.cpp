@@ -31,9 +31,11 @@ std::optional<std::string> cell_size_warning(const Scenario& scenario, const Obs
   if (cell_m <= coarse_radii * scenario.vehicle.turn_radius_m) return std::nullopt;
   MapRequest finer = map_request(scenario);
   finer.cell_m = 0.5 * cell_m;
+  const double now_m2 = joined_ground_m2(map, mission);
+  if (now_m2 == 0.0) return std::nullopt;  // the mission is refused, for a better reason
   double gain = 1.0;
   try {
-    gain = joined_ground_m2(read_map(finer), mission) / joined_ground_m2(map, mission);
+    gain = joined_ground_m2(read_map(finer), mission) / now_m2;
   } catch (const InputError&) {
     return std::nullopt;  // too many cells, for example: the map as asked for is the answer
   }

@@ -71,8 +71,7 @@ class BorderFlight {
 
 /// Whether the state comes to where mode 0 is proved, flying this mode.
 bool is_handed_over(const Flow& mode, const State& start, std::span<const ModeView> first) {
-  // Farther than across any turning place; a flight along a long street may need several calls of
-  // the vehicle for another mode anyway.
+  // Ten turning circles: a mode that needs more is hardly ever the one that saves a state.
   const double longest_m = 60.0 * mode.vehicle.turn_radius_m;
   const int most_borders = static_cast<int>(longest_m / mode.grid.cell_m);
   BorderFlight flight(mode);
@@ -149,7 +148,7 @@ ChosenModes choose_modes(const Plan& plan, const std::string& where, const ModeO
   CertifyOptions coarse;
   coarse.undecided_max = 0.02;
   coarse.samples = options.states;
-  coarse.time_limit_s = options.time_limit_s;
+  coarse.last_level = 16;
   Plan first = plan;
   first.mode_heading_rad.clear();
   first.record.modes.clear();

@@ -6,7 +6,7 @@
 // field that so saves most of them becomes the next mode, until none saves enough of the rest.
 //
 // Properties that always hold: mode 0 stays as it is; the choice depends on the plan and the
-// options alone, not on threads, unless the time limit ends the proof of mode 0 first.
+// options alone, not on threads or time.
 #pragma once
 
 #include <cstddef>
@@ -20,10 +20,9 @@
 namespace fairway {
 
 struct ModeOptions {
-  std::size_t most = 16;       ///< further modes
-  double least_gain = 0.001;   ///< of all states, by each
-  double time_limit_s = 60.0;  ///< of the proof of mode 0 that states are held against; 0: none
-  std::size_t states = 8000;   ///< sampled
+  std::size_t most = 16;      ///< further modes
+  double least_gain = 0.001;  ///< of all states, by each
+  std::size_t states = 8000;  ///< sampled
 };
 
 struct ChosenModes {

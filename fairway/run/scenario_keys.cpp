@@ -197,8 +197,8 @@ std::vector<ScenarioKey> plan_keys() {
       unless(&OpenParameters::modes,
              whole("plan.modes", Range{0.0, most_modes - 1.0}, FAIRWAY_MEMBER(modes),
                    "at most so many further fields, for states that the plan alone does not bring; "
-                   "not given: up to 16 for a goal where they bring 2 % of all states or more, but "
-                   "none with preset \"paper\" or a contract")),
+                   "not given: up to 16 for a goal, on at most 100,000 open cells, where they "
+                   "bring 2 % of all states, but none with preset \"paper\" or a contract")),
       key("plan.improve", "true or false", any_finite, FAIRWAY_MEMBER(improve),
           "change commands cell by cell where verdicts confirm that more states then arrive; takes "
           "much longer than the plan itself"),

@@ -78,6 +78,10 @@ std::string stopped_words(const Verification& v) {
   const std::string end = end_of_work(v);
   if (end.empty()) return end;
   const double undecided = share_of(v.outcome.volume.all, Verdict::undecided);
+  // Of the first mode that was enough: the limit cut the further ones short.
+  if (undecided <= v.options.undecided_max && v.certificate.further_modes() > 0) {
+    return fmt::format("{}: what further modes would add is not all proved", end);
+  }
   return fmt::format("{}: {} undecided (requested: at most {:g} %)", end,
                      percent_text(undecided, decimals_of_sample(v.outcome.volume.samples)),
                      100.0 * v.options.undecided_max);

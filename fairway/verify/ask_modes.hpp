@@ -24,11 +24,12 @@ struct ProvedState {
 
 namespace asked_modes {
 
-/// Collects what is proved of all ends that one state's flights may have.
+/// Collects what is proved of all ends that the flights of a state, or of a set, may have.
 struct Reader {
   const Flow& flow;
   const SectionView& sections;
   VerdictSet found;
+  bool gave_up = false;
 
   double seconds(double length_m) const {
     return length_m == 0.0 ? 0.0 : above(length_m / flow.vehicle.speed_mps);
@@ -37,7 +38,10 @@ struct Reader {
     sections.look_up(section, units_of(along_m, flow.grid.cell_m), seconds(length_m), found);
   }
   void end(Verdict verdict, double length_m) { found.add(verdict, seconds(length_m)); }
-  void give_up() { found.add(Verdict::undecided, 0.0); }
+  void give_up() {
+    gave_up = true;
+    found.add(Verdict::undecided, 0.0);
+  }
 };
 
 }  // namespace asked_modes

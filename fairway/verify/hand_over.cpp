@@ -1,30 +1,9 @@
 #include "fairway/verify/hand_over.hpp"
 
+#include "fairway/verify/ask_modes.hpp"
 #include "fairway/verify/section_flight.hpp"
 
 namespace fairway {
-namespace {
-
-/// Collects what is proved of all ends that a set's flights may have.
-struct Reader {
-  const ModeView& mode;
-  VerdictSet found;
-  bool gave_up = false;
-
-  double seconds(double length_m) const { return above(length_m / mode.flow.vehicle.speed_mps); }
-  void arrive(std::size_t section, Interval along_m, double length_m, bool) {
-    mode.sections.look_up(section, units_of(along_m, mode.flow.grid.cell_m), seconds(length_m),
-                          found);
-  }
-  void end(Verdict verdict, double length_m) { found.add(verdict, seconds(length_m)); }
-  void give_up() {
-    gave_up = true;
-    found.add(Verdict::undecided, 0.0);
-  }
-};
-
-}  // namespace
-
 HandOver hand_over(const Flow& flow, LeafPlace leaf, std::span<const ModeView> earlier,
                    int most_crossings, ModeSet asked) {
   constexpr auto reaches = static_cast<std::uint8_t>(1U << static_cast<unsigned>(Verdict::reach));
@@ -35,7 +14,7 @@ HandOver hand_over(const Flow& flow, LeafPlace leaf, std::span<const ModeView> e
   for (std::size_t k = 0; k < earlier.size(); ++k) {
     const ModeSet this_one = ModeSet{1} << k;
     if ((asked & this_one) == 0) continue;
-    Reader reader{earlier[k], {}, false};
+    asked_modes::Reader reader{earlier[k].flow, earlier[k].sections, {}};
     follow_to_section(earlier[k].flow, front, most_crossings, reader);
     if (reader.found.only() == Verdict::reach) {
       return {static_cast<std::uint8_t>(k), reader.found.time_s, false};

@@ -1,11 +1,13 @@
 #include "fairway/verify/hand_over.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <array>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fairway/base/heading.hpp"
@@ -230,6 +232,38 @@ TEST(HandOver, ALeafBesideAnObstacleIsHandedOverOnlyInPart) {
   const HandOver low = hand_over(other, {right_of(1), {0, 0x40000000U}}, earlier, 1000);
   EXPECT_EQ(low.mode, 0);
   EXPECT_GT(low.time_s, 0.0);
+}
+
+TEST(ProveModes, TheSameLeavesOnAnyNumberOfThreads) {
+  const Plan plan = random_modal_plan(11, 4);
+  const auto proved_on = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return Modal(plan, usual_options()).proved.further;
+  };
+  const SectionVerdicts one = proved_on(1);
+  const SectionVerdicts two = proved_on(2);
+  EXPECT_EQ(one.begin, two.begin);
+  EXPECT_EQ(one.verdict, two.verdict);
+  EXPECT_EQ(one.rank, two.rank);
+  EXPECT_EQ(one.time_s, two.time_s);
+  EXPECT_EQ(one.next_mode, two.next_mode);
+}
+
+/// Cut off before or among the modes, the result says so, and claims nothing of the rest.
+TEST(ProveModes, ALimitIsToldAndLeavesAWholeCertificate) {
+  const Plan plan = random_modal_plan(11, 4);
+  CertifyOptions at_once = usual_options();
+  at_once.time_limit_s = 1e-9;
+  CertifyOptions small = usual_options();
+  small.memory_limit_bytes = 1;
+  for (const auto& [options, by] :
+       {std::pair{at_once, StoppedBy::time_limit}, std::pair{small, StoppedBy::memory_limit}}) {
+    const Modal m(plan, options);
+    EXPECT_EQ(m.proved.stopped_by, by);
+    EXPECT_EQ(m.proved.volume.reach_by_mode.size(), 5U);
+    EXPECT_EQ(m.proved.further.first.size(), 4 * 4 * plan.grid.size() + 1);
+    EXPECT_EQ(m.proved.further.first.back(), m.proved.further.leaves());
+  }
 }
 
 /// The bound told at the start holds, and modes only go down, wherever the vehicle asks.

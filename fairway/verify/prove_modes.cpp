@@ -53,6 +53,12 @@ void prove_modes(const Flow& flow, std::span<const float* const> further_rad,
     Flow mode = flow;
     mode.heading_rad = heading_rad;
     mode.holding = nullptr;
+    if (answer.stopped_by == StoppedBy::time_limit ||
+        answer.stopped_by == StoppedBy::memory_limit) {
+      append_reaching(undecided_sections(mode, 0), answer.further);  // nothing is claimed of it
+      answer.volume.reach_by_mode.push_back(0.0);
+      continue;
+    }
     meter.begin_mode(mode);
     Prover prover(mode, undecided_sections(mode, 0), most_crossings, go_on,
                   LeafGraph::Keep::links_of_open_leaves, earlier);
@@ -61,6 +67,12 @@ void prove_modes(const Flow& flow, std::span<const float* const> further_rad,
       const bool settled = prover.settle(std::ldexp(1.0, 32 - level));
       answer.volume = meter.measure(prover);
       const double gain = answer.volume.all[static_cast<std::size_t>(Verdict::reach)] - before;
+      if (!settled) answer.stopped_by = StoppedBy::time_limit;
+      if (options.memory_limit_bytes > 0 &&
+          2 * prover.bytes() + meter.bytes() > options.memory_limit_bytes) {
+        answer.stopped_by = StoppedBy::memory_limit;
+        break;
+      }
       if (!settled || (level > first_level + 2 && gain < least_gain)) break;
     }
     proved.emplace_back();

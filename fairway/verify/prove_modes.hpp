@@ -11,7 +11,8 @@
 namespace fairway {
 
 /// Adds to `answer`, which has the first mode's sections, those of the further modes and the
-/// volumes with them.
+/// volumes with them. Where a limit stops the work, `stopped_by` says so, and nothing is claimed of
+/// the modes that were not begun.
 void prove_modes(const Flow& flow, std::span<const float* const> further_rad,
                  const CertifyOptions& options, const std::function<bool()>& go_on,
                  VolumeMeter& meter, Certified& answer);
