@@ -7,6 +7,7 @@
 #include <random>
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include "check/tensors.hpp"
 
@@ -79,6 +80,8 @@ Claims claims_of(const nlohmann::json& record, std::size_t modes) {
   return claims;
 }
 
+constexpr std::size_t states_at_once = 1 << 16;
+
 /// What the leaves say about states drawn from all ordinary cells.
 struct Measured {
   std::array<double, 3> states{};  // by Portion
@@ -107,30 +110,55 @@ struct Compared {
   }
 };
 
-Measured measure(const ClaimedCells& of, std::size_t samples, double worst_time_s,
-                 const TellState& tell) {
-  const auto& [loop, region, holding, modes] = of;
-  std::vector<std::size_t> cells;
-  for (std::size_t i = 0; i < loop.kind.size(); ++i) {
-    if (loop.kind[i] == ordinary) cells.push_back(i);
-  }
-  Measured m;
-  m.reach_by_mode.assign(modes, 0.0);
-  std::mt19937_64 random(1);
+struct State {
+  std::size_t cell;
+  double x, y;  // in cells, from its centre
+  double heading_rad;
+};
+
+State drawn(std::mt19937_64& random, const std::vector<std::size_t>& cells) {
   const auto unit = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  for (std::size_t i = 0; i < samples && !cells.empty(); ++i) {
-    const std::size_t cell = cells[random() % cells.size()];
-    const double x = unit() - 0.5;
-    const double y = unit() - 0.5;
-    const Told told = tell(cell, x, y, std::numbers::pi * (2.0 * unit() - 1.0));
-    const bool holds = told.verdict == trapped && !holding.empty() && holding[cell] != 0;
+  State state{cells[random() % cells.size()], unit() - 0.5, unit() - 0.5, 0.0};
+  state.heading_rad = std::numbers::pi * (2.0 * unit() - 1.0);
+  return state;
+}
+
+/// Adds what is told of some of the sampled states.
+void add(Measured& m, const ClaimedCells& of, double worst_time_s, const std::vector<State>& states,
+         const TellState& tell) {
+  std::vector<Told> found(states.size());
+  tbb::parallel_for(std::size_t{0}, states.size(), [&](std::size_t i) {
+    const auto [cell, x, y, heading_rad] = states[i];
+    found[i] = tell(cell, x, y, heading_rad);
+  });
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const std::size_t cell = states[i].cell;
+    const Told& told = found[i];
+    const bool holds = told.verdict == trapped && !of.holding.empty() && of.holding[cell] != 0;
     const std::size_t word = holds ? hold : static_cast<std::size_t>(told.verdict);
     m.slower_than_claimed += told.verdict == reach && told.worst_s > worst_time_s ? 1.0 : 0.0;
     m.reach_by_mode[told.mode] += told.verdict == reach ? 1.0 : 0.0;
-    for (const Portion portion : {all_cells, region[cell] == 0 ? free_cells : buffer_cells}) {
+    for (const Portion portion : {all_cells, of.region[cell] == 0 ? free_cells : buffer_cells}) {
       m.states[portion] += 1.0;
       m.shares[portion][word] += 1.0;
     }
+  }
+}
+
+Measured measure(const ClaimedCells& of, std::size_t samples, double worst_time_s,
+                 const TellState& tell) {
+  std::vector<std::size_t> cells;
+  for (std::size_t i = 0; i < of.loop.kind.size(); ++i) {
+    if (of.loop.kind[i] == ordinary) cells.push_back(i);
+  }
+  Measured m;
+  m.reach_by_mode.assign(of.modes, 0.0);
+  std::mt19937_64 random(1);
+  for (std::size_t left = cells.empty() ? 0 : samples; left > 0;) {
+    std::vector<State> states(std::min(left, states_at_once));
+    for (State& state : states) state = drawn(random, cells);
+    add(m, of, worst_time_s, states, tell);
+    left -= states.size();
   }
   for (std::size_t p = 0; p < m.shares.size(); ++p) {
     for (double& share : m.shares[p]) share /= std::max(1.0, m.states[p]);

@@ -11,9 +11,9 @@
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "check/contract_flight.hpp"
 #include "check/contract_groups.hpp"
 #include "check/contract_hand_over.hpp"
 #include "check/follow_proof.hpp"
@@ -221,10 +221,16 @@ std::string defect_of_mode(const ContractCertificate& whole, const ContractCerti
 
 }  // namespace
 
-Told told_of_state(const ContractCertificate& c, std::size_t cell, double x, double y,
-                   double heading_rad) {
-  const int k = c.parts.per_cell;
-  const Cell in = c.loop.cell_at(cell);
+StatesTold::StatesTold(const ContractCertificate& c) : c_(c) {
+  for (std::size_t mode = 0; mode <= c.further.size(); ++mode) {
+    const ContractCertificate& m = c.of_mode(mode);
+    behaviours_.emplace_back(m.parts, m.contract);
+  }
+}
+
+Told StatesTold::operator()(std::size_t cell, double x, double y, double heading_rad) {
+  const int k = c_.parts.per_cell;
+  const Cell in = c_.loop.cell_at(cell);
   const auto split = [k](double at, int& part) {
     const double from_corner = (at + 0.5) * k;
     part = std::clamp(static_cast<int>(from_corner), 0, k - 1);
@@ -233,13 +239,11 @@ Told told_of_state(const ContractCertificate& c, std::size_t cell, double x, dou
   Cell part;
   const double place_x = split(x, part.x);
   const double place_y = split(y, part.y);
+  const std::size_t at = c_.parts.index({in.x * k + part.x, in.y * k + part.y});
   Told told{undecided, 0.0};
-  for (std::size_t mode = 0; mode <= c.further.size(); ++mode) {
-    const ContractCertificate& m = c.of_mode(mode);
-    Outcome outcome(m);
-    Behaviours(m.parts, m.contract)
-        .follow_state(c.parts.index({in.x * k + part.x, in.y * k + part.y}), place_x, place_y,
-                      heading_rad, outcome);
+  for (std::size_t mode = 0; mode < behaviours_.size(); ++mode) {
+    Outcome outcome(c_.of_mode(mode));
+    behaviours_[mode].follow_state(at, place_x, place_y, heading_rad, outcome);
     if (outcome.verdict() == reach) return {reach, outcome.onwards_s, mode};
     if (mode == 0) told = {outcome.verdict(), outcome.onwards_s};
   }
@@ -256,10 +260,11 @@ std::string judge_contract(const std::string& path, const std::string& plan, std
     wrong = defect_of_mode(c, c.of_mode(mode), known, report);
   }
   if (!wrong.empty() || !c.record.contains("volume_fraction")) return wrong;
+  tbb::enumerable_thread_specific<StatesTold> told([&c] { return StatesTold(c); });
   return defect_of_claims(
       c.record, {c.loop, c.region, c.holding, c.further.size() + 1}, samples, true,
-      [&c](std::size_t cell, double x, double y, double heading_rad) {
-        return told_of_state(c, cell, x, y, heading_rad);
+      [&told](std::size_t cell, double x, double y, double heading_rad) {
+        return told.local()(cell, x, y, heading_rad);
       },
       report);
 }

@@ -144,7 +144,8 @@ class Follow(unittest.TestCase):
             self.expect(0, "plan", self.scenario(alpha=2.0), "-o", "p.safetensors", "--force", *settings)
             done = self.expect(0, "verify", "p.safetensors", "--contract", "c.toml", "--parts", 2, "-o", "p.cc", "--force",
                                "--volume-samples", 1000)
-            self.assertIn("accepted", self.expect(0, "check", "p.cc", "--plan", "p.safetensors").stdout)
+            self.assertIn("accepted", self.expect(0, "check", "p.cc", "--plan", "p.safetensors",
+                                                  "--samples", 2000).stdout)
             return json.loads((self.folder / "p.summary.json").read_text()), done.stdout
         summary, words = verified("--set", "map.cell_m=8")
         follow = summary["follow"]
