@@ -33,19 +33,27 @@ namespace {
 
 using namespace pybind11::literals;
 
-py::tuple query(const HeldContractCertificate& held, const py::object& rows, bool search) {
+py::tuple query_modes(const HeldContractCertificate& held, const py::object& rows, bool search) {
   const std::vector<State> states = states_of(rows, "states");
   std::vector<std::int8_t> verdict;
   std::vector<double> time_s;
+  std::vector<std::int8_t> mode;
   {
     const py::gil_scoped_release unlocked;
     for (const ContractReply& reply : ask(held.queries(), states, search)) {
       verdict.push_back(static_cast<std::int8_t>(reply.code()));
       time_s.push_back(reply.verdict == Verdict::reach ? reply.time_bound_s
                                                        : std::numeric_limits<double>::infinity());
+      mode.push_back(static_cast<std::int8_t>(reply.mode));
     }
   }
-  return py::make_tuple(owning(std::move(verdict)), owning(std::move(time_s)));
+  return py::make_tuple(owning(std::move(verdict)), owning(std::move(time_s)),
+                        owning(std::move(mode)));
+}
+
+py::tuple query(const HeldContractCertificate& held, const py::object& rows, bool search) {
+  const py::tuple all = query_modes(held, rows, search);
+  return py::make_tuple(all[0], all[1]);
 }
 
 Heading heading_of(double rad, const char* name) {
@@ -130,6 +138,16 @@ search  from undecided states, search for a behaviour within the contract that f
 
 Returns (verdict int8 [n], time_bound_s float64 [n]): codes of Verdict; a bound in seconds for
 states that reach or follow, until they reach the goal or have joined the path, else +inf.)")
+      .def("query_modes", &query_modes, "states"_a, py::kw_only(), "search"_a = true,
+           R"(The same, and which mode of the plan to fly (docs/modes.md).
+
+Returns (verdict int8 [n], time_bound_s float64 [n], mode int8 [n]): the first mode that is
+proved to reach; 0 where none is, or where the plan has one.)")
+      .def_property_readonly(
+          "modes",
+          [](const HeldContractCertificate& held) { return held.certificate.further_modes() + 1; },
+          "Number of modes that are proved, the first included: 1, unless the plan has further "
+          "ones.")
       .def("verdict_map", &verdict_map, "heading_rad"_a, py::kw_only(), "search"_a = true,
            R"(The verdict of a vehicle near every cell's middle, for one heading.
 

@@ -5,6 +5,7 @@
 
 #include "bind_certificate.hpp"
 #include "binding.hpp"
+#include "fairway/contract_pilot.hpp"
 #include "fairway/runtime.hpp"
 
 namespace fairway::python {
@@ -46,6 +47,32 @@ class Pilot {
   int mode_ = 0;
 };
 
+/// The same under a contract.
+class PilotUnderContract {
+ public:
+  explicit PilotUnderContract(std::shared_ptr<HeldContractCertificate> held)
+      : held_(std::move(held)), opened_(*held_), pilot_(opened_) {}
+
+  py::tuple steer(double now_s, double x_m, double y_m, double course_rad) {
+    for (const double number : {now_s, x_m, y_m, course_rad}) {
+      if (!std::isfinite(number)) throw py::value_error("a time or state is not finite");
+    }
+    require_heading(course_rad, "course_rad");
+    const runtime::ContractPilot::Steered now = pilot_.steer(now_s, x_m, y_m, course_rad);
+    return py::make_tuple(now.course_rad, static_cast<int>(now.answer.verdict),
+                          now.answer.time_bound_s, now.answer.mode);
+  }
+
+ private:
+  struct Opened : runtime::ContractCertificate {
+    explicit Opened(const HeldContractCertificate& held) { look_into(held.certificate); }
+  };
+
+  std::shared_ptr<HeldContractCertificate> held_;
+  Opened opened_;
+  runtime::ContractPilot pilot_;
+};
+
 }  // namespace
 
 void bind_modes(py::module_& m) {
@@ -64,6 +91,23 @@ Certificate.command, in the mode that is flown; what is proved of the flight fro
 Verdict, and a bound in seconds, +inf unless it reaches. A verdict other than REACH: what was proved
 does not hold from here. Raises ValueError for a state that is not finite or far outside.)")
       .def_property_readonly("mode", &Pilot::mode, "The mode that is flown; 0 before the start.");
+  py::class_<PilotUnderContract>(
+      m, "ContractPilot",
+      "The side of one vehicle under a contract: keeps the side of a turn, the mode of a plan with "
+      "modes, and until when the vehicle will have reached (docs/modes.md, \"Under a contract\").")
+      .def(py::init<std::shared_ptr<HeldContractCertificate>>(), py::arg("certificate").none(false),
+           "Of the plan that is flown, with any number of modes.")
+      .def("steer", &PilotUnderContract::steer, "now_s"_a, "x_m"_a, "y_m"_a, "course_rad"_a,
+           R"(Which course to fly now, to be asked at every control step.
+
+now_s             seconds on a clock that does not go back
+x_m, y_m, course_rad
+                  where the vehicle takes itself to be: within command_error_m and
+                  heading_error_rad of the true state
+
+Returns (course_rad, verdict, time_bound_s, mode): the course for an autopilot that turns to the
+shorter side; REACH and a bound in seconds from now as long as the proof holds, else UNDECIDED and
++inf; the mode that is flown. Raises ValueError for numbers that are not finite.)");
 }
 
 }  // namespace fairway::python

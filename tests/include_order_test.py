@@ -41,7 +41,7 @@ OUTSIDE = [
     (re.compile(r"nlopt"), {"tune"}),
 ]
 # Outside the stages: what a vehicle needs of them.
-RUNTIME = {"fairway/runtime.hpp", "fairway/contract_runtime.hpp"}
+RUNTIME = {"fairway/runtime.hpp", "fairway/contract_runtime.hpp", "fairway/contract_pilot.hpp"}
 RUNTIME_STAGES = {"base", "vehicle", "verify"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]')
 

@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <span>
 
+#include "fairway/base/vec2.hpp"
 #include "fairway/inclusion/behaviour_flight.hpp"
+#include "fairway/inclusion/contract_verdicts.hpp"
 #include "fairway/inclusion/convex_set.hpp"
 #include "fairway/inclusion/parts.hpp"
 #include "fairway/inclusion/reach_boxes.hpp"
@@ -38,6 +40,20 @@ struct ContractHandOver {
 [[nodiscard]] ContractHandOver hand_over(const Parts& own, PartPlace part, PartSide side, double lo,
                                          double hi, const EstimateError& error,
                                          std::span<const ReachBoxes* const> earlier);
+
+/// For the vehicle in a further mode, of parts `own` and with these verdicts: of the leaves that
+/// are handed over and lie within `error` of the state that it takes itself to be in, the one with
+/// the least bound, if that is `in_time_s` or less. `place`: in parts.
+[[nodiscard]] ContractHandOver hand_over_near(const Parts& own,
+                                              const ContractVerdictsView& verdicts, Vec2 place,
+                                              double heading_rad, const EstimateError& error,
+                                              double in_time_s);
+
+/// Seconds within which every behaviour of a mode reaches that starts within `error` of a state and
+/// holds no side; ReachBoxes::not_proved if there is no such bound.
+[[nodiscard]] double time_around(const Parts& parts, const ContractVerdictsView& verdicts,
+                                 double speed_least_mps, Vec2 place, double heading_rad,
+                                 const EstimateError& error);
 
 /// All places within `by` of the segment, as an octagon around it that holds them; in parts.
 [[nodiscard]] ConvexSet grown_segment(const ConvexSet& segment, double by);

@@ -51,6 +51,7 @@ struct ContractVerdictsView {
   std::span<const std::uint32_t> group;
   std::span<const std::uint8_t> verdict;
   std::span<const float> group_time_s;
+  std::span<const std::uint8_t> group_next_mode;
 
   ContractVerdictsView() = default;
   ContractVerdictsView(const ContractVerdicts& v)  // NOLINT: a view of the same
@@ -58,7 +59,8 @@ struct ContractVerdictsView {
         begin(v.begin),
         group(v.group),
         verdict(v.verdict),
-        group_time_s(v.group_time_s) {}
+        group_time_s(v.group_time_s),
+        group_next_mode(v.group_next_mode) {}
 };
 
 /// Of further modes joined (contract_modes.hpp), of `sections` sections each, those of one: 1 or

@@ -5,9 +5,9 @@
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/base/random.hpp"
-#include "fairway/inclusion/contract_lookup.hpp"
 #include "fairway/report/draw_flights.hpp"
 #include "fairway/report/draw_verdicts.hpp"
+#include "fairway/run/ask_contract.hpp"
 #include "fairway/run/contract_pictures.hpp"
 #include "fairway/run/find_at_risk.hpp"
 
@@ -24,21 +24,18 @@ void count_verdicts(const ContractCertificate& certificate, std::uint64_t seed, 
   constexpr int states = 8;
   map.states_per_sample = states;
   const Grid& grid = certificate.grid;
-  const Flow flow = certificate.flow();
-  const Parts parts = certificate.parts();
-  const double per_cell = certificate.parts_per_cell;
+  const ContractQueries queries(certificate);
   for_ranges(map.samples(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (map.kind[i] != CellKind::ordinary) continue;
       const Cell cell = map.cell_of_sample(i);
       Random random = Random::stream(seed, grid.index(cell));
       for (int k = 0; k < states; ++k) {
-        const Vec2 place{(cell.ix + random.unit()) * per_cell,
-                         (cell.iy + random.unit()) * per_cell};
+        const Vec2 in{random.unit(), random.unit()};
         const double heading_rad = -pi + two_pi * (k + random.unit()) / states;
-        const ContractAnswer answer = contract_answer(
-            parts, certificate.verdicts, certificate.least_speed_mps(), place, heading_rad);
-        ++map.count[i][static_cast<std::size_t>(flow.told(answer.verdict, {cell.ix, cell.iy}))];
+        const Vec2 place_m = grid.corner({cell.ix, cell.iy}) + grid.cell_m * in;
+        const ContractReply reply = queries.proved({place_m, Heading::from_rad(heading_rad)});
+        ++map.count[i][static_cast<std::size_t>(reply.verdict)];
       }
     }
   });

@@ -5,8 +5,8 @@
 
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/base/parallel.hpp"
-#include "fairway/inclusion/contract_lookup.hpp"
 #include "fairway/report/draw_verdicts.hpp"
+#include "fairway/run/ask_contract.hpp"
 
 namespace fairway {
 namespace {
@@ -41,21 +41,15 @@ VerdictMap contract_verdict_map(const ContractCertificate& certificate, int most
   VerdictMap map = VerdictMap::over(grid, 1, most_across);
   map = VerdictMap::over(grid, headings_for(map.samples(), most_headings), most_across);
   const Flow flow = certificate.flow();
-  const Parts parts = certificate.parts();
-  const double speed_mps = certificate.least_speed_mps();
+  const ContractQueries queries(certificate);
   for_ranges(map.samples(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Cell cell = map.cell_of_sample(i);
       map.kind[i] = flow.kind_at({cell.ix, cell.iy});
       if (map.kind[i] != CellKind::ordinary) continue;
-      const Vec2 at_m = map.place_m(i);
-      const Vec2 place{(at_m.x - grid.x0_m) / parts.part_m(),
-                       (at_m.y - grid.y0_m) / parts.part_m()};
       for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
-        map.verdict[h * map.samples() + i] = flow.told(
-            contract_answer(parts, certificate.verdicts, speed_mps, place, map.heading_rad[h])
-                .verdict,
-            {cell.ix, cell.iy});
+        map.verdict[h * map.samples() + i] =
+            queries.proved({map.place_m(i), Heading::from_rad(map.heading_rad[h])}).verdict;
       }
     }
   });

@@ -77,6 +77,7 @@ json LiveContract::state(const State& start) const {
   json answer = {{"verdict", reply.word()},
                  {"time_bound_s", is_bounded ? json(reply.time_bound_s) : json()},
                  {"witness", nullptr}};
+  if (certificate_.further_modes() > 0) answer["mode"] = reply.mode;
   if (reply.witness) {
     const ExplainedBehaviour behaviour = queries_.explained(*reply.witness);
     const Cell end = certificate_.grid.cell_of(behaviour.end.position_m);

@@ -179,3 +179,40 @@ def test_what_makes_no_contract_is_refused_in_words(small_plan, contract):
         fairway.verify(small_plan, contract=contract, parts_per_cell=17)
     with pytest.raises(TypeError, match="resume"):
         fairway.verify(small_plan, resume="a file")
+
+
+def test_a_pilot_flies_as_is_proved_from_what_it_takes_itself_to_be(small_plan, kept):
+    starts = small_plan.random_starts(300, seed=5)
+    verdict, bound_s, mode = kept.query_modes(starts)
+    assert kept.modes == 1 and not mode.any()
+    assert np.array_equal(verdict, kept.query(starts)[0])
+    radius, speed = small_plan.vehicle["turn_radius_m"], small_plan.vehicle["speed_mps"]
+    step_m, flown = 0.005, 0
+
+    def at_goal(x, y):
+        x0, y0 = small_plan.origin_m
+        cell = math.floor((y - y0) / small_plan.cell_m), math.floor((x - x0) / small_plan.cell_m)
+        return small_plan.region[cell] == fairway.Region.GOAL
+
+    for k in np.flatnonzero(verdict == fairway.Verdict.REACH)[:20]:
+        pilot = fairway.ContractPilot(kept)
+        x, y, course = starts[k]
+        now_s = 7.0
+        to, told, in_s, at_mode = pilot.steer(now_s, x + 0.05, y - 0.05, course)
+        if told != fairway.Verdict.REACH:
+            continue  # some state around it is not proved
+        flown += 1
+        assert at_mode == 0 and math.isfinite(in_s)
+        until_s = now_s + in_s
+        while not at_goal(x, y):
+            turn = math.remainder(to - course, 2 * math.pi)
+            turn = max(-step_m / radius, min(step_m / radius, turn))
+            x, y = x + step_m * math.cos(course + turn / 2), y + step_m * math.sin(course + turn / 2)
+            course = math.remainder(course + turn, 2 * math.pi)
+            now_s += step_m / speed
+            assert now_s < until_s + 0.1
+            to = pilot.steer(now_s, x + 0.05, y - 0.05, course)[0]
+    assert flown > 8
+    for bad in ((math.nan, 1, 1, 0), (0, math.inf, 1, 0), (0, 1, 1, math.nan), (0, 1, 1, 9.0)):
+        with pytest.raises(ValueError):
+            fairway.ContractPilot(kept).steer(*bad)

@@ -13,7 +13,7 @@ import type { Witness } from "./witness";
 type Piece = [number, number, number, number, number];
 interface FlightAnswer { outcome: string; time_s: number | null; length_m: number | null; cut: boolean; pieces: Piece[]; leg?: SteerAnswer }
 type WitnessStep = [...Piece, number, number, number];  // and the command in force: heading, place
-interface ContractAnswer { verdict: string; time_bound_s: number | null; witness: { end: string; steps: WitnessStep[] } | null }
+interface ContractAnswer { verdict: string; time_bound_s: number | null; mode?: number; witness: { end: string; steps: WitnessStep[] } | null }
 interface StateAnswer { verdict: string | null; time_bound_s: number | null; mode?: number; flight: FlightAnswer; contract: ContractAnswer | null }
 interface SteerAnswer { state: string; word: string; length_m: number; time_s: number; pieces: Piece[]; shortest?: { word: string; length_m: number; pieces: Piece[] } }
 type Mode = "look" | "fly" | "steer" | "goal";
@@ -280,7 +280,11 @@ class LiveTool implements Live {
     if (answer.verdict === null && this.moved.goal) parts.push(": this plan has not been verified");
     if (answer.time_bound_s !== null) parts.push(` within ${answer.time_bound_s.toFixed(1)} s`);
     if (answer.mode !== undefined && answer.verdict === "reach") parts.push(`, in ${modeWords(this.record, answer.mode)}`);
-    if (answer.contract) parts.push(el("br"), ...contractWords(answer.contract, names.after));
+    if (answer.contract) {
+      parts.push(el("br"), ...contractWords(answer.contract, names.after));
+      const { mode, verdict } = answer.contract;
+      if (mode !== undefined && verdict === "reach") parts.push(`, in ${modeWords(this.record, mode)}`);
+    }
     this.page.showWitness(answer.contract?.witness ? this.witnessOf(pose, answer.contract.witness) : null);
     parts.push(el("br"), `flown: ${flight.outcome}` +
       (flight.time_s === null ? "" : ` after ${flight.time_s.toFixed(1)} s, ${Math.round(flight.length_m!)} m`) + (flight.cut ? " (line cut short)" : ""));
