@@ -97,7 +97,8 @@ Values ParameterSearch::given_values() const {
   const Progress silent;
   StageClock own(silent);
   Scenario scenario = tuned_.given();
-  scenario.improve = false;  // changes no parameter
+  scenario.improve = false;  // changes no parameter, nor do modes
+  scenario.open.modes = false;
   const auto answer = plan_scenario(scenario, own);
   const auto* planned = std::get_if<Planned>(&answer);
   Values values;

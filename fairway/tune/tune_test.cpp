@@ -35,6 +35,7 @@ kind = "goal"
 goal_m = [60.0, 60.0]
 [plan]
 alpha = 2.0  # wide
+modes = 0
 [verify]
 undecided_max = 0.1
 )";
