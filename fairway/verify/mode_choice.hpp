@@ -11,7 +11,9 @@
 // flown on in a mode that may not be proved there; mostly, an earlier one is.
 #pragma once
 
+#include "fairway/base/grid.hpp"
 #include "fairway/verify/ask_modes.hpp"
+#include "fairway/verify/mode_trial.hpp"
 
 namespace fairway {
 
@@ -39,8 +41,8 @@ class ModeChoice {
   /// The vehicle is at this state. The returned mode is the one to fly from here; `verdict` and
   /// time are those of that mode. It is `reach` as long as the proof holds; where it is not, the
   /// vehicle has left what was proved (a gust, or a start that nothing saves). Then every mode is
-  /// asked anew, and the present one goes on where none is proved: undecided, unless it is the
-  /// first, which is known to fail from there or not.
+  /// asked anew, and where none is proved, the one is flown that a simulation likes best, from each
+  /// cell anew: undecided, unless it is the first, which is known to fail from there or not.
   ProvedState at(double x_m, double y_m, double heading_rad) {
     if (!begun_) return begin(x_m, y_m, heading_rad);
     const ProvedState known = mode_from(proof_, mode_, x_m, y_m, heading_rad);
@@ -54,15 +56,24 @@ class ModeChoice {
  private:
   ProvedState begin(double x_m, double y_m, double heading_rad) {
     ProvedState known = ask_all_modes(proof_, x_m, y_m, heading_rad);
-    if (known.verdict == Verdict::reach || !begun_) mode_ = known.mode;
     begun_ = true;
-    if (known.mode != mode_) known = {Verdict::undecided, known.time_s, mode_};
+    if (known.verdict == Verdict::reach) {
+      mode_ = known.mode;
+      return known;
+    }
+    const Cell cell = proof_.flow.grid.cell_of({x_m, y_m});
+    if (cell.ix != tried_.ix || cell.iy != tried_.iy) {
+      mode_ = liked_mode(proof_, mode_, x_m, y_m, heading_rad);
+    }
+    tried_ = cell;
+    if (mode_ != 0) known = {Verdict::undecided, known.time_s, mode_};
     return known;
   }
 
   ProofView proof_;
   int mode_ = 0;
   bool begun_ = false;
+  Cell tried_{-1, -1};  ///< where a simulation was last asked
 };
 
 }  // namespace fairway
