@@ -28,8 +28,8 @@ struct Section {
 constexpr Section sections[] = {
     {"distance", distance_rows}, {"cost", cost_rows},           {"error", cost_error_rows},
     {"filter", filter_rows},     {"pipeline", pipeline_rows},   {"flight", flight_rows},
-    {"bitmap", bitmap_rows},     {"certified", certified_rows}, {"contract", contract_rows},
-    {"steer", steer_rows},
+    {"bitmap", bitmap_rows},     {"certified", certified_rows}, {"modes", modes_rows},
+    {"contract", contract_rows}, {"steer", steer_rows},
 };
 
 struct Request {
@@ -43,7 +43,8 @@ struct Request {
 [[noreturn]] void usage() {
   fmt::print(stderr,
              "usage: fairway-bench [--quick] [--only SECTION]... [--repeats N] [--threads N]\n"
-             "sections: distance cost error filter pipeline flight bitmap certified steer\n");
+             "sections: distance cost error filter pipeline flight bitmap certified "
+             "modes contract steer\n");
   std::exit(64);
 }
 

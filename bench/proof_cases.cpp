@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <stdexcept>
 #include <utility>
 #include <variant>
@@ -59,6 +61,21 @@ Case blobs_case() {
   Case blobs{"128 x 128 cells, blobs", blob_map(128, map_seed), {10.0, 4.5}, {}};
   blobs.goal_m = blobs.map.grid.center(open_place(blobs.map, 10));
   return blobs;
+}
+
+Case streets_case(int side) {
+  Case streets{fmt::format("{0} x {0} cells, streets", side), open_map(side, 4.0), {10.0, 9.0}, {}};
+  constexpr int block = 20;
+  constexpr int street = 7;  // 28 m across, where a turn takes 18 m and room to come back
+  const int middle = side / 2;
+  for (std::size_t i = 0; i < streets.map.grid.size(); ++i) {
+    const Cell c = streets.map.grid.cell_at(i);
+    const bool is_built = c.ix % block >= street && c.iy % block >= street;
+    const bool on_square = std::max(std::abs(c.ix - middle), std::abs(c.iy - middle)) < 8;
+    streets.map.obstacle[i] = is_built && !on_square ? 1 : 0;
+  }
+  streets.goal_m = streets.map.grid.center({middle, middle});
+  return streets;
 }
 
 Plan plan_of(const Case& c) {

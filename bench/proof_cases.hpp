@@ -22,6 +22,8 @@ struct Case {
 [[nodiscard]] Case open_case();       ///< 20 x 20 cells, no obstacles
 [[nodiscard]] Case obstacles_case();  ///< 60 x 60 cells, four obstacles
 [[nodiscard]] Case blobs_case();      ///< 128 x 128 cells
+/// Blocks of buildings with streets narrower than two turns; the goal on a square in the middle.
+[[nodiscard]] Case streets_case(int side);
 
 /// Throws std::runtime_error when the mission is refused.
 [[nodiscard]] Plan plan_of(const Case& c);

@@ -34,6 +34,7 @@ inline constexpr std::uint64_t map_seed = 1;
 [[nodiscard]] std::vector<Row> bitmap_rows(const Settings& settings);
 [[nodiscard]] std::vector<Row> steer_rows(const Settings& settings);
 [[nodiscard]] std::vector<Row> certified_rows(const Settings& settings);
+[[nodiscard]] std::vector<Row> modes_rows(const Settings& settings);
 [[nodiscard]] std::vector<Row> contract_rows(const Settings& settings);
 
 /// One whole pipeline in this process, which must not have done anything else. Prints a line
