@@ -11,10 +11,9 @@
 
 #include "fairway/base/safetensors.hpp"
 #include "fairway/base/strict_json.hpp"
-#include "fairway/inclusion/contract_lookup.hpp"
 #include "fairway/inclusion/contract_verdicts.hpp"
 #include "fairway/inclusion/parts.hpp"
-#include "fairway/inclusion/verdict_cache.hpp"
+#include "fairway/inclusion/quick_lookup.hpp"
 #include "fairway/vehicle/contract_defect.hpp"
 #include "fairway/vehicle/contract_json.hpp"
 
@@ -99,7 +98,7 @@ struct ContractCertificate::Opened {
   double least_speed_mps = 0.0;
   ContractVerdictsView verdicts;
   std::optional<Parts> parts;
-  std::optional<VerdictCache> cache;
+  std::optional<QuickLookup> lookup;
 
   Status take(const void* bytes, std::size_t size);
 };
@@ -134,7 +133,7 @@ Status ContractCertificate::Opened::take(const void* bytes, std::size_t size) {
   if (!is_in_order(verdicts, sections)) return Status::misfit;
   parts.emplace(flow, ground, record.parts_per_cell);
   if (record.follows) parts->close_goal();
-  cache.emplace(*parts, verdicts, least_speed_mps);
+  lookup.emplace(*parts, verdicts, least_speed_mps);
   return Status::ok;
 }
 
@@ -163,7 +162,7 @@ Answer ContractCertificate::query(double x_m, double y_m, double heading_rad) co
   if (!opened_ || !finite) return answer;
   try {
     const ContractAnswer found =
-        opened_->cache->answer(opened_->flow.grid, {x_m, y_m}, heading_rad);
+        opened_->lookup->answer(opened_->flow.grid, {x_m, y_m}, heading_rad);
     answer.verdict = opened_->flow.told(found.verdict, opened_->flow.grid.cell_of({x_m, y_m}));
     if (found.verdict == Verdict::reach) answer.time_bound_s = found.worst_time_s;
   } catch (const std::exception&) {  // no memory

@@ -5,7 +5,7 @@
 
 #include "fairway/base/atomic_file.hpp"
 #include "fairway/base/parallel.hpp"
-#include "fairway/inclusion/contract_lookup.hpp"
+#include "fairway/inclusion/quick_lookup.hpp"
 #include "fairway/report/draw_verdicts.hpp"
 
 namespace fairway {
@@ -42,7 +42,7 @@ VerdictMap contract_verdict_map(const ContractCertificate& certificate, int most
   map = VerdictMap::over(grid, headings_for(map.samples(), most_headings), most_across);
   const Flow flow = certificate.flow();
   const Parts parts = certificate.parts();
-  const double speed_mps = certificate.least_speed_mps();
+  const QuickLookup lookup(parts, certificate.verdicts, certificate.least_speed_mps());
   for_ranges(map.samples(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Cell cell = map.cell_of_sample(i);
@@ -52,10 +52,8 @@ VerdictMap contract_verdict_map(const ContractCertificate& certificate, int most
       const Vec2 place{(at_m.x - grid.x0_m) / parts.part_m(),
                        (at_m.y - grid.y0_m) / parts.part_m()};
       for (std::size_t h = 0; h < map.heading_rad.size(); ++h) {
-        map.verdict[h * map.samples() + i] = flow.told(
-            contract_answer(parts, certificate.verdicts, speed_mps, place, map.heading_rad[h])
-                .verdict,
-            {cell.ix, cell.iy});
+        map.verdict[h * map.samples() + i] =
+            flow.told(lookup.answer(place, map.heading_rad[h]).verdict, {cell.ix, cell.iy});
       }
     }
   });
