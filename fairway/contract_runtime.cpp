@@ -15,10 +15,9 @@
 #include "fairway/base/strict_json.hpp"
 #include "fairway/certificate/contract_certificate.hpp"
 #include "fairway/inclusion/contract_hand_over.hpp"
-#include "fairway/inclusion/contract_lookup.hpp"
 #include "fairway/inclusion/contract_verdicts.hpp"
 #include "fairway/inclusion/parts.hpp"
-#include "fairway/inclusion/verdict_cache.hpp"
+#include "fairway/inclusion/quick_lookup.hpp"
 #include "fairway/vehicle/contract_defect.hpp"
 #include "fairway/vehicle/contract_json.hpp"
 
@@ -109,19 +108,19 @@ bool is_in_order(const ContractVerdictsView& v, std::uint64_t sections) {
   return true;
 }
 
-/// One mode with what is proved of it; not moved, as `cache` refers to `parts`.
+/// One mode with what is proved of it; not moved, as `lookup` refers to `parts`.
 struct ProvedMode {
-  ProvedMode(const Flow& flow, const VehicleContract& ground, int per_cell,
+  ProvedMode(const float* commands, Parts&& of_commands, const VehicleContract& ground,
              const ContractVerdictsView& of)
-      : heading_rad(flow.heading_rad),
+      : heading_rad(commands),
         verdicts(of),
-        parts(flow, ground, per_cell),
-        cache(parts, verdicts, ground.speed_mps.least) {}
+        parts(std::move(of_commands)),
+        lookup(parts, verdicts, ground.speed_mps.least) {}
 
   const float* heading_rad;
   ContractVerdictsView verdicts;
   Parts parts;
-  VerdictCache cache;
+  QuickLookup lookup;
 };
 
 /// Whether hand-overs of the leaves of a further mode are to earlier ones.
@@ -192,8 +191,9 @@ void ContractCertificate::Opened::add_first(const VehicleContract& kept, int per
                                             const ContractVerdictsView& verdicts) {
   contract = kept;
   ground = over_ground(contract);
-  modes.emplace_back(flow, ground, per_cell, verdicts);
-  if (follows) modes.front().parts.close_goal();
+  Parts parts(flow, ground, per_cell);
+  if (follows) parts.close_goal();
+  modes.emplace_back(flow.heading_rad, std::move(parts), ground, verdicts);
 }
 
 void ContractCertificate::Opened::add_further(const float* heading_rad, int per_cell,
@@ -201,7 +201,7 @@ void ContractCertificate::Opened::add_further(const float* heading_rad, int per_
   Flow of_mode = flow;
   of_mode.heading_rad = heading_rad;
   of_mode.holding = nullptr;
-  modes.emplace_back(of_mode, ground, per_cell, verdicts);
+  modes.emplace_back(heading_rad, Parts(of_mode, ground, per_cell), ground, verdicts);
 }
 
 Status ContractCertificate::Opened::take_further(const FileArrays& arrays, int per_cell,
@@ -269,7 +269,7 @@ Answer ContractCertificate::query(double x_m, double y_m, double heading_rad) co
   try {
     for (int mode = 0; mode < modes(); ++mode) {
       const ContractAnswer found =
-          opened_->mode(mode)->cache.answer(flow.grid, {x_m, y_m}, heading_rad);
+          opened_->mode(mode)->lookup.answer(flow.grid, {x_m, y_m}, heading_rad);
       if (found.verdict == Verdict::reach) {
         return {flow.told(found.verdict, flow.grid.cell_of({x_m, y_m})), found.worst_time_s, mode};
       }

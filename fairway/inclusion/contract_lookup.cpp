@@ -47,25 +47,17 @@ class Finding {
   void look(const Crossing& crossing) {
     const std::size_t section =
         4 * parts_.index(crossing.part) + static_cast<std::size_t>(crossing.side);
-    const auto first = verdicts_.begin.begin() + verdicts_.first[section];
-    const auto last = verdicts_.begin.begin() + verdicts_.first[section + 1];
-    auto at = std::upper_bound(first, last, crossing.lo * units,
-                               [](double lo, std::uint32_t begin) { return lo < begin; });
-    if (first == last) found_ |= bit(0);
-    if (at != first) --at;
-    // The last that begins at `lo` or before, and those that begin before `hi`.
-    for (bool next = true; at != last && next; ++at) {
-      next = at + 1 != last && at[1] < crossing.hi * units;
-      const auto leaf = static_cast<std::size_t>(at - verdicts_.begin.begin());
+    if (verdicts_.first[section] == verdicts_.first[section + 1]) found_ |= bit(0);
+    for_leaves(verdicts_, section, crossing.lo, crossing.hi, [&](std::size_t leaf) {
       found_ |= bit(verdicts_.verdict[leaf]);
       worst_time_s_ = std::max(
           worst_time_s_, crossing.flown * part_s_ +
                              static_cast<double>(verdicts_.group_time_s[verdicts_.group[leaf]]));
       if (verdicts_.verdict[leaf] == 0 && answer_.undecided_section == ContractAnswer::no_section) {
         answer_.undecided_section = section;
-        answer_.undecided_place = std::max(crossing.lo, *at / units);
+        answer_.undecided_place = std::max(crossing.lo, verdicts_.begin[leaf] / units);
       }
-    }
+    });
   }
 
   const Parts& parts_;

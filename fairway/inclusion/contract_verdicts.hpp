@@ -20,6 +20,7 @@
 //      proved to reach under that mode, within group_time_s (contract_hand_over.hpp).
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -62,6 +63,23 @@ struct ContractVerdictsView {
         group_time_s(v.group_time_s),
         group_next_mode(v.group_next_mode) {}
 };
+
+/// Calls body(leaf) for the leaves of a section that the range [lo, hi] of places touches, 0 to 1:
+/// the last that begins at `lo` or before, and those that begin before `hi`.
+template <typename Body>
+void for_leaves(const ContractVerdictsView& verdicts, std::size_t section, double lo, double hi,
+                const Body& body) {
+  constexpr double units = 0x1p32;
+  const auto first = verdicts.begin.begin() + verdicts.first[section];
+  const auto last = verdicts.begin.begin() + verdicts.first[section + 1];
+  auto at = std::upper_bound(first, last, lo * units,
+                             [](double place, std::uint32_t begin) { return place < begin; });
+  if (at != first) --at;
+  for (bool next = true; at != last && next; ++at) {
+    next = at + 1 != last && at[1] < hi * units;
+    body(static_cast<std::size_t>(at - verdicts.begin.begin()));
+  }
+}
 
 /// Of further modes joined (contract_modes.hpp), of `sections` sections each, those of one: 1 or
 /// more.

@@ -5,6 +5,7 @@
 
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
+#include "fairway/inclusion/set_flight.hpp"
 
 namespace fairway {
 namespace {
@@ -17,11 +18,6 @@ std::uint16_t unit_below(double place) {
 std::uint16_t last_unit(double place) {
   return static_cast<std::uint16_t>(
       std::clamp(std::ceil(place * side_units) - 1.0, 0.0, side_units - 1.0));
-}
-
-/// Whether some behaviour crosses out of the side.
-bool is_crossed(const Parts& parts, PartPlace part, std::size_t side) {
-  return parts.arc(part).meets({0.5 * pi * (static_cast<double>(side) - 1.0), pi});
 }
 
 }  // namespace
@@ -109,7 +105,7 @@ CrossingGraph::CrossingGraph(const Parts& parts, std::uint32_t pieces)
     for (std::size_t side = 0; side < sections_per_part; ++side) {
       first_[sections_per_part * p + side] = static_cast<Id>(leaf_.size());
       if (parts.kind(place) != PartKind::ordinary) continue;
-      const bool crossed = is_crossed(parts, place, side);
+      const bool crossed = is_crossed(parts.arc(place), static_cast<PartSide>(side));
       for (std::uint32_t k = 0; k < (crossed ? pieces : 1U); ++k) {
         Leaf& leaf = leaf_.emplace_back();
         leaf.begin = side_units / pieces * k;

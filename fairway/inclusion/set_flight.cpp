@@ -13,12 +13,6 @@ namespace {
 /// The cosine to a side's outward heading below which slopes are not computed.
 constexpr double least_outward = 0x1p-12;
 
-/// Longer than any way through a part along headings of `arc`: every bit of the way leads on along
-/// the arc's middle, by the cosine of half its width.
-double longest_way(const HeadingArc& arc) {
-  return 1.5 / std::max(std::cos(0.5 * arc.width_rad), 1e-6);
-}
-
 /// The headings of `arc` that lie in `range`, at most two runs: calls body(lo, hi).
 template <typename Body>
 void for_common(const HeadingArc& arc, double range_lo, double range_hi, const Body& body) {
@@ -62,7 +56,7 @@ void SetFlight::exits(PartPlace part, const ConvexSet& set, const HeadingArc& ar
   const Vec2 middle{part.ix + 0.5, part.iy + 0.5};
   for (std::size_t k = 0; k < side_axes.size(); ++k) {
     const SideAxis& axis = side_axes[k];
-    if (!arc.meets({axis.heading_rad - 0.5 * pi, pi})) continue;
+    if (!is_crossed(arc, static_cast<PartSide>(k))) continue;
     double lo = -0.5;
     double hi = 0.5;
     const auto bound = [&](double heading_rad, double& end, bool lower) {

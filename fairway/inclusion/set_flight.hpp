@@ -2,7 +2,9 @@
 // step. It never looks back: every set it is left with starts in a part with a range of headings.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -22,6 +24,17 @@ struct SideAxis {
 };
 inline constexpr std::array<SideAxis, 4> side_axes{
     {{{1.0, 0.0}, 0.0}, {{0.0, 1.0}, 0.5 * pi}, {{-1.0, 0.0}, pi}, {{0.0, -1.0}, 1.5 * pi}}};
+
+/// Whether some heading of a part's arc leads out over this side of it.
+inline bool is_crossed(const HeadingArc& arc, PartSide side) {
+  return arc.meets({side_axes[static_cast<std::size_t>(side)].heading_rad - 0.5 * pi, pi});
+}
+
+/// Longer than any way through a part along headings of `arc`: every bit of the way leads on along
+/// the arc's middle, by the cosine of half its width.
+inline double longest_way(const HeadingArc& arc) {
+  return 1.5 / std::max(std::cos(0.5 * arc.width_rad), 1e-6);
+}
 
 /// The segment of a side of a part over places [lo, hi].
 ConvexSet segment_of_side(PartPlace part, PartSide side, double lo, double hi);

@@ -8,7 +8,7 @@
 #include "fairway/behaviour/explain_behaviour.hpp"
 #include "fairway/behaviour/failure_guide.hpp"
 #include "fairway/behaviour/witness_csv.hpp"
-#include "fairway/inclusion/contract_lookup.hpp"
+#include "fairway/inclusion/quick_lookup.hpp"
 #include "fairway/run/ask_certificate.hpp"
 #include "fairway/vehicle/filled_commands.hpp"
 
@@ -24,17 +24,18 @@ struct SearchTools {
 
 struct ContractQueries::Parts {
   explicit Parts(const ContractCertificate& asked) : certificate(asked), parts(asked.parts()) {
+    const double speed_mps = asked.least_speed_mps();
+    lookup.push_back(std::make_unique<QuickLookup>(parts, asked.verdicts, speed_mps));
     for (int mode = 1; mode <= asked.further_modes(); ++mode) {
-      further.push_back(asked.parts_of_mode(mode));
+      further.push_back(std::make_unique<fairway::Parts>(asked.parts_of_mode(mode)));
+      lookup.push_back(
+          std::make_unique<QuickLookup>(*further.back(), asked.verdicts_of_mode(mode), speed_mps));
     }
   }
 
   ContractAnswer answer(const State& state, int mode) const {
-    const auto k = static_cast<std::size_t>(mode);
-    return contract_answer(
-        certificate.grid, mode == 0 ? parts : further[k - 1],
-        mode == 0 ? ContractVerdictsView(certificate.verdicts) : certificate.verdicts_of_mode(mode),
-        certificate.least_speed_mps(), state.position_m, state.heading.rad());
+    return lookup[static_cast<std::size_t>(mode)]->answer(certificate.grid, state.position_m,
+                                                          state.heading.rad());
   }
 
   const SearchTools& tools() {
@@ -44,7 +45,8 @@ struct ContractQueries::Parts {
 
   const ContractCertificate& certificate;
   fairway::Parts parts;
-  std::vector<fairway::Parts> further;  ///< of further modes
+  std::vector<std::unique_ptr<fairway::Parts>> further;  ///< of further modes
+  std::vector<std::unique_ptr<QuickLookup>> lookup;      ///< [modes]
   std::once_flag made;
   std::unique_ptr<SearchTools> made_tools;
 };

@@ -20,7 +20,7 @@ ContractProof::ContractProof(const Flow& flow, const VehicleContract& contract, 
   InclusionProver prover(parts_, limits);
   prover.run([this](const InclusionLevel& level) { undecided_share_ = level.undecided_share; });
   verdicts_ = prover.verdicts(over_ground_.speed_mps.least);
-  cache_.emplace(parts_, verdicts_, over_ground_.speed_mps.least);
+  lookup_.emplace(parts_, verdicts_, over_ground_.speed_mps.least);
 }
 
 ContractClaim ContractProof::claim(const State& state) const {
@@ -31,8 +31,8 @@ ContractClaim ContractProof::claim(const State& state) const {
   return {answer.verdict, answer.worst_time_s};
 }
 
-ContractClaim ContractProof::claim_of_box(const State& state) const {
-  const auto answer = cache_->answer(grid_, state.position_m, state.heading.rad());
+ContractClaim ContractProof::quick_claim(const State& state) const {
+  const auto answer = lookup_->answer(grid_, state.position_m, state.heading.rad());
   return {answer.verdict, answer.worst_time_s};
 }
 

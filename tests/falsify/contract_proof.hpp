@@ -1,12 +1,12 @@
-// The prover of verdicts under a contract, as the attack asks it: for single states, or for the
-// boxes of states that a vehicle's queries remember.
+// The prover of verdicts under a contract, as the attack asks it: by flights of single
+// states, or by the quick look-ups that a vehicle's queries are.
 #pragma once
 
 #include <optional>
 
 #include "fairway/inclusion/contract_verdicts.hpp"
 #include "fairway/inclusion/parts.hpp"
-#include "fairway/inclusion/verdict_cache.hpp"
+#include "fairway/inclusion/quick_lookup.hpp"
 #include "tests/falsify/contract_attack.hpp"
 
 namespace fairway {
@@ -18,7 +18,7 @@ class ContractProof {
                 double time_limit_s);
 
   ContractClaim claim(const State& state) const;
-  ContractClaim claim_of_box(const State& state) const;
+  ContractClaim quick_claim(const State& state) const;
   std::size_t leaves() const { return verdicts_.leaves(); }
   double undecided_share() const { return undecided_share_; }
 
@@ -27,7 +27,7 @@ class ContractProof {
   VehicleContract over_ground_;
   Parts parts_;
   ContractVerdicts verdicts_;
-  std::optional<VerdictCache> cache_;
+  std::optional<QuickLookup> lookup_;
   double undecided_share_ = 1.0;
 };
 

@@ -13,7 +13,7 @@
 // --contract: proves the plans under this vehicle contract instead, and attacks those verdicts with
 // --flights behaviours that keep it (contract_attack.hpp). --contract-plans: does the same to
 // random plans with random contracts. Every other random plan, and the plans for even seeds, answer
-// by boxes of states, as a vehicle's queries do (inclusion/verdict_cache.hpp).
+// as a vehicle's queries do (inclusion/quick_lookup.hpp).
 //
 // --odd-plans: certifies this many plans at the limits of what a plan may be, measures them with
 // few and with many samples, and checks them: fairway-check must accept everything verify makes.
@@ -498,18 +498,18 @@ std::size_t refused_odd_plans(const Settings& settings) {
 /// Proves a plan under a contract, and attacks the proof.
 ContractAttackTotals attack_contract(const std::string& name, const Plan& plan,
                                      const VehicleContract& contract, int parts, int last_level,
-                                     bool by_box, const Settings& settings) {
+                                     bool quick, const Settings& settings) {
   const PlanFlow plan_flow(plan);
   const Flow flow = plan_flow.flow();
   const ContractProof proof(flow, contract, parts, last_level, settings.certify.time_limit_s);
-  fmt::print("{}: {} x {} cells, {} parts a side, {} leaves, undecided {:.4f}, asked by {}\n", name,
-             flow.grid.nx, flow.grid.ny, parts, proof.leaves(), proof.undecided_share(),
-             by_box ? "box" : "state");
+  fmt::print("{}: {} x {} cells, {} parts a side, {} leaves, undecided {:.4f}, answered by {}\n",
+             name, flow.grid.nx, flow.grid.ny, parts, proof.leaves(), proof.undecided_share(),
+             quick ? "quick look-ups" : "flights of states");
   ContractAttackOptions options;
   options.flights = settings.flights;
   options.seed = settings.seed;
   const auto claim = [&](const State& state) {
-    return by_box ? proof.claim_of_box(state) : proof.claim(state);
+    return quick ? proof.quick_claim(state) : proof.claim(state);
   };
   const ContractAttackTotals totals = attack(name, flow, contract, claim, options);
   for (const std::string& story : totals.stories) fmt::print("  {}\n", story);

@@ -1,0 +1,72 @@
+#include "fairway/inclusion/quick_lookup.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "fairway/inclusion/quick_flight.hpp"
+
+namespace fairway {
+namespace {
+
+/// Places nearer to a part's border may be in the next part.
+constexpr double border = 2.0 * place_slack;
+
+constexpr int fine_steps = 256;
+/// Steps of half a part.
+int coarse_steps(double radius) {
+  int steps = 32;
+  while (steps < fine_steps && steps < 11.0 * radius) steps *= 2;
+  return steps;
+}
+
+}  // namespace
+
+QuickLookup::QuickLookup(const Parts& parts, const ContractVerdictsView& verdicts,
+                         double speed_least_mps)
+    : parts_(parts),
+      verdicts_(verdicts),
+      speed_least_mps_(speed_least_mps),
+      table_(parts, verdicts),
+      coarse_(
+          QuickFlightOptions::of(parts, speed_least_mps, coarse_steps(parts.turn_radius().most))),
+      fine_(QuickFlightOptions::of(parts, speed_least_mps, fine_steps)) {}
+
+ContractAnswer QuickLookup::answer(Vec2 place, double heading_rad) const {
+  const auto flown = [&] {
+    return contract_answer(parts_, verdicts_, speed_least_mps_, place, heading_rad);
+  };
+  const bool inside =
+      place.x > 0.0 && place.y > 0.0 && place.x < parts_.nx() && place.y < parts_.ny();
+  if (!inside || !(parts_.turn_radius().most <= QuickFlightOptions::most_radius)) return flown();
+  const Vec2 in{place.x - static_cast<int>(place.x), place.y - static_cast<int>(place.y)};
+  if (std::min(in.x, in.y) < border || std::max(in.x, in.y) > 1.0 - border) return flown();
+
+  const TurnUnits heading = units_of_angle(counted_from_zero(heading_rad));
+  const Vec2 unit{std::cos(heading_rad), std::sin(heading_rad)};
+  ContractAnswer answer;
+  answer.worst_time_s = std::numeric_limits<double>::infinity();
+  for (const QuickFlightOptions* options : {&coarse_, &fine_}) {
+    QuickFlight flight(table_, *options);
+    flight.fly(place, heading, unit);
+    answer.possible = static_cast<std::uint8_t>(flight.verdicts());
+    if (flight.follows_all() && !flight.is_undecided()) {
+      answer.verdict = static_cast<Verdict>(std::countr_zero(flight.verdicts()));
+      answer.worst_time_s = flight.worst_time_s();
+      return answer;
+    }
+    if (options == &fine_ && flight.was_too_wide()) return flown();
+  }
+  return answer;
+}
+
+ContractAnswer QuickLookup::answer(const Grid& grid, Vec2 position_m, double heading_rad) const {
+  const Vec2 place = (1.0 / parts_.part_m()) * (position_m - Vec2{grid.x0_m, grid.y0_m});
+  const bool inside =
+      place.x >= 0.0 && place.y >= 0.0 && place.x < parts_.nx() && place.y < parts_.ny();
+  if (inside) return answer(place, heading_rad);
+  return contract_answer(grid, parts_, verdicts_, speed_least_mps_, position_m, heading_rad);
+}
+
+}  // namespace fairway
