@@ -140,18 +140,17 @@ void QuickFlight::fly(Vec2 place, TurnUnits heading, Vec2 unit) {
 void QuickFlight::fly(PartPlace part, const Octagon& set, TurnUnits from, TurnUnits span) {
   const PartRecord& record = table_.ringed(part);
   if (ends_there(record.kind(), 0.0)) return;
+  from -= TurnUnits{quick_slack};
+  span += TurnUnits{2 * quick_slack};
   const TurnUnits to = from + span;
   const TurnUnits hi = record.lo + record.width;
   const auto beyond = [](TurnUnits angle, TurnUnits base) {
     return static_cast<std::uint64_t>(static_cast<TurnUnits>(angle - base));
   };
-  const auto is_in_arc = [&](TurnUnits heading) {
-    const std::uint64_t on = beyond(heading, record.lo);
-    return on <= record.width + quick_slack || on + quick_slack >= whole_turn_units;
-  };
   const bool holds_lo = beyond(record.lo, from) <= span;
   const bool holds_hi = beyond(hi, from) <= span;
-  if (is_in_arc(from) || is_in_arc(to) || holds_lo) align({part, &record, 0}, set, 0.0);
+  const bool begins_in_arc = beyond(from, record.lo) <= record.width;
+  if (begins_in_arc || holds_lo) align({part, &record, 0}, set, 0.0);
   const std::uint64_t most = options_.opposite + quick_slack;
   const auto begin = [&](Turn side, TurnUnits first, TurnUnits over) {
     const double angle_rad = static_cast<double>(first) / turn_units_per_rad;
@@ -167,9 +166,7 @@ void QuickFlight::fly(PartPlace part, const Octagon& set, TurnUnits from, TurnUn
     begin(Turn::left, from, record.lo - from);
     if (beyond(from, hi) <= most) begin(Turn::right, record.lo, record.lo - from);
   }
-  const std::uint64_t on = beyond(from, record.lo);
-  const bool lies_in_arc = on + span <= record.width;
-  if (!holds_lo && !holds_hi && !lies_in_arc) {
+  if (!holds_lo && !holds_hi && !begins_in_arc) {
     if (beyond(from, hi) <= most) begin(Turn::right, to, span);
     if (beyond(record.lo, to) <= most) begin(Turn::left, from, span);
   }

@@ -21,6 +21,18 @@ int coarse_steps(double radius) {
   return steps;
 }
 
+/// Whether the set touches none but ordinary parts.
+bool is_clear_of_ends(const Parts& parts, const ConvexSet& set) {
+  const auto [low, high] = set.box();
+  const auto floor_of = [](double v) { return static_cast<int>(std::floor(v)); };
+  for (int iy = floor_of(low.y - border); iy <= floor_of(high.y + border); ++iy) {
+    for (int ix = floor_of(low.x - border); ix <= floor_of(high.x + border); ++ix) {
+      if (parts.kind({ix, iy}) != PartKind::ordinary) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 QuickLookup::QuickLookup(const Parts& parts, const ContractVerdictsView& verdicts,
@@ -59,6 +71,28 @@ ContractAnswer QuickLookup::answer(Vec2 place, double heading_rad) const {
     if (options == &fine_ && flight.was_too_wide()) return flown();
   }
   return answer;
+}
+
+QuickLookup::SetReach QuickLookup::reach(PartPlace part, const ConvexSet& set,
+                                         const HeadingArc& headings) const {
+  if (!(parts_.turn_radius().most <= QuickFlightOptions::most_radius) ||
+      headings.width_rad > 0.5 * pi || !is_clear_of_ends(parts_, set)) {
+    return {};
+  }
+  Octagon octagon = Octagon::empty();
+  for (const Vec2 corner : set.corners()) octagon.hold(Octagon::about(corner, coarse_.grown));
+  const TurnUnits from = units_of_angle(counted_from_zero(headings.lo_rad));
+  const TurnUnits span = units_of_angle(headings.width_rad) + 2;
+  for (const QuickFlightOptions* options : {&coarse_, &fine_}) {
+    QuickFlight flight(table_, *options);
+    flight.fly(part, octagon, from, span);
+    if (flight.was_too_wide() && options == &fine_) return {};
+    const bool reaches = flight.follows_all() && !flight.is_undecided() &&
+                         flight.verdicts() == 1U << static_cast<unsigned>(Verdict::reach);
+    if (reaches && options == &coarse_) return {Reaches::yes, flight.worst_time_s()};
+    if (reaches) return {};
+  }
+  return {Reaches::no, 0.0};
 }
 
 ContractAnswer QuickLookup::answer(const Grid& grid, Vec2 position_m, double heading_rad) const {

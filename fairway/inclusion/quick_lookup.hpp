@@ -20,6 +20,8 @@
 #include "fairway/base/vec2.hpp"
 #include "fairway/inclusion/contract_lookup.hpp"
 #include "fairway/inclusion/contract_verdicts.hpp"
+#include "fairway/inclusion/convex_set.hpp"
+#include "fairway/inclusion/heading_arc.hpp"
 #include "fairway/inclusion/lookup_table.hpp"
 #include "fairway/inclusion/parts.hpp"
 #include "fairway/inclusion/quick_flight.hpp"
@@ -35,6 +37,16 @@ class QuickLookup {
   ContractAnswer answer(Vec2 place, double heading_rad) const;
   /// The same for a state in metres, wherever it is.
   ContractAnswer answer(const Grid& grid, Vec2 position_m, double heading_rad) const;
+
+  enum class Reaches { yes, unknown, no };
+  struct SetReach {
+    Reaches reaches = Reaches::unknown;
+    double time_s = 0.0;  ///< bound; of `yes`
+  };
+  /// Whether every behaviour reaches that starts at a place of `set`, in an ordinary part or on its
+  /// border, and with a heading of `headings`, and holds no side. `yes` is proved, by long steps:
+  /// what flies in short ones will find the same. `no`: not even short steps would prove it.
+  SetReach reach(PartPlace part, const ConvexSet& set, const HeadingArc& headings) const;
 
  private:
   const Parts& parts_;

@@ -137,6 +137,62 @@ TEST(QuickLookup, EveryBehaviourDoesWhatItAnswersAndInTime) {
   EXPECT_GT(ended[static_cast<std::size_t>(Verdict::leave)], 300);
 }
 
+/// Sets of states: wide ranges of headings, too, and parts of cells.
+TEST(QuickLookup, ASetReachesIfAllItsBehavioursDoAndInTime) {
+  int proved = 0;
+  int refused = 0;
+  int contradicted = 0;  // by a flight of the whole set in steps of 5 degrees
+  for (std::uint64_t seed = 60; seed < 84; ++seed) {
+    const Case c(seed);
+    const QuickLookup lookup(c.parts, c.verdicts, 1.0);
+    const Flow flow = c.held.flow();
+    const std::vector<float> commands = filled_commands(flow.grid, flow.heading_rad);
+    const double step_m = 0.01 * c.contract.turn_radius_m.least;
+    Random random(seed);
+    for (int k = 0; k < 400; ++k) {
+      const PartPlace part = c.parts.place(random.below(c.parts.size()));
+      if (c.parts.kind(part) != PartKind::ordinary) continue;
+      const Vec2 low{part.ix + 0.9 * random.unit(), part.iy + 0.9 * random.unit()};
+      const double side = random.below(4) == 0 ? 0.0 : random.uniform(0.0, 0.1);
+      Vec2 corners[]{low, low + Vec2{side, 0.0}, low + Vec2{0.0, side}, low + Vec2{side, side}};
+      const HeadingArc headings{random.uniform(-pi, pi),
+                                random.below(4) == 0 ? 0.0 : random.uniform(0.0, 0.6)};
+      const ConvexSet set = ConvexSet::hull(corners);
+      const QuickLookup::SetReach found = lookup.reach(part, set, headings);
+      const bool flown =
+          contract_answer(c.parts, c.verdicts, 1.0, part, set, headings).verdict == Verdict::reach;
+      if (found.reaches == QuickLookup::Reaches::no) {
+        ++refused;
+        contradicted += flown ? 1 : 0;
+      }
+      if (found.reaches != QuickLookup::Reaches::yes) continue;
+      ++proved;
+      contradicted += flown ? 0 : 1;
+      for (int flight = 0; flight < 3; ++flight) {
+        const Vec2 place = low + Vec2{side * random.unit(), side * random.unit()};
+        const double heading_rad =
+            headings.lo_rad + headings.width_rad * (flight == 0   ? 0.0
+                                                    : flight == 1 ? 1.0
+                                                                  : random.unit());
+        Behaviour behaviour(flow, commands, c.contract,
+                            c.parts.part_m() * place + flow.grid.corner({0, 0}), heading_rad,
+                            random.bits());
+        CellKind kind = CellKind::ordinary;
+        for (double way = 0.0; kind == CellKind::ordinary && way < found.time_s + step_m;
+             way += step_m) {
+          behaviour.step(step_m);
+          kind = flow.kind_at(flow.grid.cell_of(behaviour.place()));
+        }
+        ASSERT_EQ(kind, CellKind::target)
+            << "seed " << seed << ": " << place.x << ", " << place.y << ", " << heading_rad;
+      }
+    }
+  }
+  EXPECT_GT(proved, 100);
+  EXPECT_GT(refused, 300);
+  EXPECT_LT(contradicted, (proved + refused) / 50);
+}
+
 TEST(QuickLookup, AsksForAFlightWhereSetsAreVeryLarge) {
   const Case c(8, 2);
   VehicleContract wide = c.contract;

@@ -37,6 +37,7 @@ ReachBoxes::ReachBoxes(const Parts& parts, const ContractVerdictsView& verdicts,
     : parts_(parts),
       verdicts_(verdicts),
       speed_least_mps_(speed_least_mps),
+      quick_(parts, verdicts, speed_least_mps / generous),
       size_log2_(std::clamp(static_cast<int>(std::bit_width(bins * parts.size() / 4)), least_log2,
                             most_log2)),
       known_(std::make_unique<std::atomic<std::uint64_t>[]>(std::size_t{1} << size_log2_)) {}
@@ -83,8 +84,8 @@ bool ReachBoxes::may_reach(PartPlace part, double heading_rad) const {
       std::min(static_cast<std::uint64_t>(counted_from_zero(heading_rad) / hint_rad), hints - 1);
   const double time_s = known_or(1 + parts_.index(part) * keys_in_part + bins + bin, [&] {
     const Vec2 middle{part.ix + 0.5, part.iy + 0.5};
-    const ContractAnswer answer = contract_answer(parts_, verdicts_, speed_least_mps_, middle,
-                                                  (static_cast<double>(bin) + 0.5) * hint_rad);
+    const ContractAnswer answer =
+        quick_.answer(middle, (static_cast<double>(bin) + 0.5) * hint_rad);
     return answer.verdict == Verdict::reach ? 0.0 : not_proved;
   });
   return time_s != not_proved;
@@ -93,6 +94,9 @@ bool ReachBoxes::may_reach(PartPlace part, double heading_rad) const {
 double ReachBoxes::flown_time_s(PartPlace part, const ConvexSet& set,
                                 const HeadingArc& headings) const {
   // Of what is flown here, as of links: whoever checks may add it up in another way.
+  const QuickLookup::SetReach quick = quick_.reach(part, set, headings);
+  if (quick.reaches == QuickLookup::Reaches::yes) return quick.time_s;
+  if (quick.reaches == QuickLookup::Reaches::no) return not_proved;
   const ContractAnswer answer =
       contract_answer(parts_, verdicts_, speed_least_mps_ / generous, part, set, headings);
   return answer.verdict == Verdict::reach ? answer.worst_time_s : not_proved;

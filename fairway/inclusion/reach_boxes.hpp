@@ -15,6 +15,7 @@
 #include "fairway/inclusion/convex_set.hpp"
 #include "fairway/inclusion/heading_arc.hpp"
 #include "fairway/inclusion/parts.hpp"
+#include "fairway/inclusion/quick_lookup.hpp"
 
 namespace fairway {
 
@@ -45,6 +46,7 @@ class ReachBoxes {
   const Parts& parts_;
   ContractVerdictsView verdicts_;
   double speed_least_mps_;
+  QuickLookup quick_;
   int size_log2_;
   std::unique_ptr<std::atomic<std::uint64_t>[]> known_;  ///< a box and its time each, or 0
 };
