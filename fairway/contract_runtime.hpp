@@ -6,25 +6,23 @@
 //     if (certificate.open(bytes, size) != fairway::runtime::Status::ok) ...
 //     const fairway::runtime::Answer answer = certificate.query(x_m, y_m, heading_rad);
 //
-// It needs more than runtime.hpp does. A state under a contract is flown as sets of places, which
-// take memory, and sets may be many: so this is not a header alone, but part of the library
-// `fairway` (CMake: fairway::fairway). open() takes 17 bytes a part of a cell, at most 256 parts a
-// cell (docs/formats.md, "Contract certificate"), at most 8 MB for answers to remember, and a few
-// bytes a cell while it works; a query that flies takes some kilobytes and gives them back. Neither
-// throws: where memory runs out, open() says no_memory, and query() undecided.
+// It needs more than runtime.hpp does. A state under a contract is flown as sets of places, and
+// sets may be many: so this is not a header alone, but part of the library `fairway` (CMake:
+// fairway::fairway). open() takes 65 bytes a part of a cell, at most 256 parts a cell
+// (docs/formats.md, "Contract certificate"), and a few bytes a cell while it works; a query of a
+// state on the very border of two parts takes some kilobytes and gives them back. Neither throws:
+// where memory runs out, open() says no_memory, and query() undecided.
 //
 // open() checks what that of runtime::Certificate checks, and the contract; it neither checks
 // digests nor proves anything: `fairway check` does, once, on the ground. Properties that always
 // hold:
 //   1. A verdict other than undecided is that of every behaviour within the contract that starts in
 //      the state without a side held (docs/trust.md), provided that `fairway check` accepts the
-//      certificate: what `fairway query` answers, where it answers one. time_bound_s may be longer
-//      than there: it is that of a box of states, whose answer is remembered
-//      (inclusion/verdict_cache.hpp). What was asked before changes no answer.
+//      certificate: what `fairway query` answers (inclusion/quick_lookup.hpp). What was asked
+//      before changes no answer.
 //   2. A state that is not finite is undecided; outside the grid it is `leave`. What a query calls
 //      at_risk, after a search for a behaviour that fails, is undecided here.
-// Cost (docs/verification.md): half a microsecond where queries nearby were asked before and all
-// there has one verdict; else 0.02 to 0.1 ms. Safe to query from several threads at once.
+// Cost: one to two microseconds (docs/benchmarks.md). Safe to query from several threads at once.
 #pragma once
 
 #include <cstddef>

@@ -67,7 +67,7 @@ void LinkStore::keep(std::span<Place> places) {
   }
   std::vector<bool> is_sparse(block_.size());
   for (std::size_t b = 0; b < block_.size(); ++b) {
-    is_sparse[b] = 4 * waiting[b] < 3 * block_size;
+    is_sparse[b] = 8 * waiting[b] < 7 * block_size;
     if (waiting[b] == 0) block_[b] = {};
   }
   block_.emplace_back();  // full: what is moved goes to new ones
@@ -219,6 +219,11 @@ void CrossingGraph::fly(const Parts& parts, const BehaviourOptions& options,
 }
 
 void CrossingGraph::cut(const std::vector<bool>& which) {
+  if (which.empty()) {
+    place_.assign(leaf_.size(), {});
+    links_ = {};
+    return;
+  }
   // One array after the other, so that only one of them is there twice.
   const auto more = std::count(which.begin(), which.end(), true);
   const std::size_t count = leaf_.size() + static_cast<std::size_t>(more);
@@ -231,6 +236,7 @@ void CrossingGraph::cut(const std::vector<bool>& which) {
     if (which[id]) place.emplace_back();
   }
   place_ = std::move(place);
+  links_.keep(place_);
   std::vector<Leaf> leaf;
   leaf.reserve(count);
   for (std::size_t s = 0; s < sections(); ++s) {
@@ -251,7 +257,6 @@ void CrossingGraph::cut(const std::vector<bool>& which) {
   }
   first_.back() = static_cast<Id>(leaf.size());
   leaf_ = std::move(leaf);
-  links_.keep(place_);
 }
 
 }  // namespace fairway

@@ -109,31 +109,36 @@ void InclusionProver::hand_over_fresh() {
 }
 
 bool InclusionProver::run(const std::function<void(const InclusionLevel&)>& progress) {
-  double before = 1.0;
-  for (int level = limits_.first_level; level <= limits_.last_level; ++level) {
-    // Within a level, until it decides next to nothing more.
-    while (true) {
-      if (!earlier_.empty()) hand_over_fresh();
-      graph_.fly(parts_, limits_.flight, limits_.go_on);
-      last_ = {};  // not there twice
-      last_ = decide_groups(parts_, graph_, groups_);
-      const InclusionLevel now = level_now(level);
-      progress(now);
-      const double gain = before - now.undecided_share;
-      before = now.undecided_share;
-      if (!limits_.go_on()) return false;
-      if (limits_.memory_bytes > 0 && graph_.bytes() > limits_.memory_bytes) return false;
-      const std::vector<bool> which = to_cut(level);
-      if (std::abs(gain) < limits_.least_gain ||
-          std::find(which.begin(), which.end(), true) == which.end()) {
-        break;
+  const auto decide_levels = [&] {
+    double before = 1.0;
+    for (int level = limits_.first_level; level <= limits_.last_level; ++level) {
+      // Within a level, until it decides next to nothing more.
+      while (true) {
+        if (!earlier_.empty()) hand_over_fresh();
+        graph_.fly(parts_, limits_.flight, limits_.go_on);
+        last_ = {};  // not there twice
+        last_ = decide_groups(parts_, graph_, groups_);
+        const InclusionLevel now = level_now(level);
+        progress(now);
+        const double gain = before - now.undecided_share;
+        before = now.undecided_share;
+        if (!limits_.go_on()) return false;
+        if (limits_.memory_bytes > 0 && graph_.bytes() > limits_.memory_bytes) return false;
+        const std::vector<bool> which = to_cut(level);
+        if (std::abs(gain) < limits_.least_gain ||
+            std::find(which.begin(), which.end(), true) == which.end()) {
+          break;
+        }
+        cut(which);
       }
-      cut(which);
+      if (level == limits_.last_level) break;
+      cut(to_cut(level + 1));
     }
-    if (level == limits_.last_level) break;
-    cut(to_cut(level + 1));
-  }
-  return true;
+    return true;
+  };
+  const bool done = decide_levels();
+  graph_.cut({});  // nobody asks for links any more
+  return done;
 }
 
 ContractVerdicts InclusionProver::verdicts(double speed_least_mps) const {
