@@ -15,6 +15,9 @@
 #include <vector>
 
 #include <fcntl.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
@@ -240,6 +243,12 @@ int when_written(int code) {
 }  // namespace fairway
 
 int main(int argc, char** argv) {
+#ifdef __GLIBC__
+  // Large arrays are given back as soon as they are freed. (Of itself, malloc soon keeps them in
+  // its heap, where what lies behind them keeps them in memory.)
+  mallopt(M_MMAP_THRESHOLD, 256 * 1024);
+  mallopt(M_TRIM_THRESHOLD, 256 * 1024);
+#endif
   fairway::keep_standard_descriptors();
   fairway::tidy_up_on_signals();
   return fairway::when_written(fairway::main_with(argc, argv));

@@ -190,35 +190,59 @@ FailureGuide::FailureGuide(const BehaviourChoices& choices, const FailureGuideOp
   x0_m_ = g.x0_m;
   y0_m_ = g.y0_m;
   bins_per_m_ = per_cell / g.cell_m;
-  level_.assign(g.size() * static_cast<std::size_t>(per_cell * per_cell) * headings, never);
-  // Queues give back their memory as they are emptied; the first hold most of what there is.
+  row_of_.assign(g.size() * static_cast<std::size_t>(per_cell * per_cell), 0);
+  rows_.emplace_back().reserve(rows_together);
+  rows_.back().emplace_back().fill(never);
+  // Those that are about to fail are many: they are made twice, not kept.
+  std::vector<bool> is_first;  // in its bin
+  visit_edges(choices.flow(), per_cell, [&](const Reached& state) {
+    is_first.push_back(add(state.place, state.heading_rad, code_of(0)));
+  });
+  // Queues give back their memory as they are emptied.
   std::deque<Reached> reached;
   std::deque<Reached> next;
-  const auto add = [&](const Reached& state, int steps) {
-    const std::size_t bin = bin_of(state.place, state.heading_rad);
-    if (bin >= level_.size() || level_[bin] != never) return false;
-    level_[bin] = code_of(steps);
-    next.push_back(state);
-    return true;
-  };
-  visit_edges(choices.flow(), per_cell, [&](const Reached& state) { add(state, 0); });
   StepsBack back(choices);
-  for (int steps = 1; !next.empty(); ++steps) {
-    reached.swap(next);
-    for (; !reached.empty(); reached.pop_front()) {
-      const Reached to = reached.front();
-      bool moved = true;
-      for (std::size_t kind = 0; kind < StepsBack::kinds; ++kind) {
-        Reached at = to;
-        Reached from;
-        for (int again = 0; again < most_repeats; ++again, at = from) {
-          if (again > 0 || moved) back.gather(at);
-          moved = again > 0;
-          if (!back.step(kind, at, from) || add(from, steps + again)) break;
-        }
+  int steps = 1;
+  const auto go_back_from = [&](const Reached& to) {
+    bool moved = true;
+    for (std::size_t kind = 0; kind < StepsBack::kinds; ++kind) {
+      Reached at = to;
+      Reached from;
+      for (int again = 0; again < most_repeats; ++again, at = from) {
+        if (again > 0 || moved) back.gather(at);
+        moved = again > 0;
+        if (!back.step(kind, at, from)) break;
+        if (!add(from.place, from.heading_rad, code_of(steps + again))) continue;
+        next.push_back(from);
+        break;
       }
     }
+  };
+  std::size_t visited = 0;
+  visit_edges(choices.flow(), per_cell, [&](const Reached& state) {
+    if (is_first[visited++]) go_back_from(state);
+  });
+  for (++steps; !next.empty(); ++steps) {
+    reached.swap(next);
+    for (; !reached.empty(); reached.pop_front()) go_back_from(Reached(reached.front()));
   }
+}
+
+/// False when it is there already, or there is no such bin.
+bool FailureGuide::add(Vec2 place, double heading_rad, std::uint8_t level) {
+  const std::size_t at = place_number(place);
+  if (at >= row_of_.size()) return false;
+  std::uint32_t& row = row_of_[at];
+  if (row == 0) {
+    if (rows_.back().size() == rows_together) rows_.emplace_back().reserve(rows_together);
+    row = static_cast<std::uint32_t>((rows_.size() - 1) * rows_together + rows_.back().size());
+    rows_.back().emplace_back().fill(never);
+  }
+  std::uint8_t& known =
+      rows_[row / rows_together][row % rows_together][heading_number(heading_rad)];
+  if (known != never) return false;
+  known = level;
+  return true;
 }
 
 }  // namespace fairway

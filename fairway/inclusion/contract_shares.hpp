@@ -1,5 +1,5 @@
 // How many states are proved under a contract, and what the others wait for: measured by sampled
-// states, equally many in each ordinary cell, each answered as a query answers it.
+// states, equally many in each ordinary cell, each answered by contract_answer.
 //
 // Properties that always hold: each sum of shares is 1, or 0 when there are no such cells; the
 // result depends on the arguments alone, not on threads.

@@ -6,6 +6,7 @@
 #include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/inclusion/set_flight.hpp"
+#include "fairway/inclusion/tube.hpp"
 
 namespace fairway {
 namespace {
@@ -66,7 +67,7 @@ void LinkStore::keep(std::span<Place> places) {
   }
   std::vector<bool> is_sparse(block_.size());
   for (std::size_t b = 0; b < block_.size(); ++b) {
-    is_sparse[b] = 4 * waiting[b] < 3 * block_size;
+    is_sparse[b] = 8 * waiting[b] < 7 * block_size;
     if (waiting[b] == 0) block_[b] = {};
   }
   block_.emplace_back();  // full: what is moved goes to new ones
@@ -153,8 +154,7 @@ void CrossingGraph::fly_leaf(Id id, std::size_t section, const Parts& parts,
   leaf.state = LeafState::open;
   leaf.ends = image.ends;
   leaf.gave_up = image.gave_up || image.crossings.size() > LinkStore::block_size;
-  leaf.distance_m = image.distance_m;
-  leaf.off_rad = std::nextafter(static_cast<float>(image.off_rad), HUGE_VALF);
+  leaf.is_beside_tube = image.distance_m == Tube::outside;
   leaf.end_flown = static_cast<float>(image.flown * generous);
   links.clear();
   if (leaf.gave_up) return;
@@ -219,10 +219,26 @@ void CrossingGraph::fly(const Parts& parts, const BehaviourOptions& options,
 }
 
 void CrossingGraph::cut(const std::vector<bool>& which) {
-  std::vector<Leaf> leaf;
-  std::vector<LinkStore::Place> place;
+  if (which.empty()) {
+    place_.assign(leaf_.size(), {});
+    links_ = {};
+    return;
+  }
+  // One array after the other, so that only one of them is there twice.
   const auto more = std::count(which.begin(), which.end(), true);
-  leaf.reserve(leaf_.size() + static_cast<std::size_t>(more));
+  const std::size_t count = leaf_.size() + static_cast<std::size_t>(more);
+  require(count < ~Id{0}, "a plan has fewer than 2^32 leaves");
+  std::vector<LinkStore::Place> place;
+  place.reserve(count);
+  for (Id id = 0; id < leaf_.size(); ++id) {
+    const bool kept = leaf_[id].state == LeafState::open && !which[id];
+    place.push_back(kept ? place_[id] : LinkStore::Place{});
+    if (which[id]) place.emplace_back();
+  }
+  place_ = std::move(place);
+  links_.keep(place_);
+  std::vector<Leaf> leaf;
+  leaf.reserve(count);
   for (std::size_t s = 0; s < sections(); ++s) {
     const Id begin = first_[s];
     const Id end = first_[s + 1];
@@ -240,16 +256,7 @@ void CrossingGraph::cut(const std::vector<bool>& which) {
     first_[s] = new_first;  // read no more: ends are taken before
   }
   first_.back() = static_cast<Id>(leaf.size());
-  require(leaf.size() < ~Id{0}, "a plan has fewer than 2^32 leaves");
-  place.reserve(leaf.size());
-  for (Id id = 0; id < leaf_.size(); ++id) {
-    const bool kept = leaf_[id].state == LeafState::open && !which[id];
-    place.push_back(kept ? place_[id] : LinkStore::Place{});
-    if (which[id]) place.emplace_back();
-  }
   leaf_ = std::move(leaf);
-  place_ = std::move(place);
-  links_.keep(place_);
 }
 
 }  // namespace fairway

@@ -87,11 +87,11 @@ struct Leaf {
   Verdict verdict = Verdict::undecided;
   LeafState state = LeafState::fresh;
   std::uint8_t ends = 0;  ///< of the image: bit v, Verdict v
-  bool gave_up = false;
-  float end_flown = 0.0F;   ///< by behaviours that end, in parts
-  float distance_m = 0.0F;  ///< as in the image
-  float off_rad = 0.0F;
+  bool gave_up : 1 = false;
+  bool is_beside_tube : 1 = false;  ///< some part on the way lies outside the tube
+  float end_flown = 0.0F;           ///< by behaviours that end, in parts
 };
+static_assert(sizeof(Leaf) == 16);
 
 class CrossingGraph {
  public:
@@ -128,7 +128,7 @@ class CrossingGraph {
   /// Flies all fresh leaves, for as long as `go_on` (asked by several threads at once) says so; the
   /// others stay fresh.
   void fly(const Parts& parts, const BehaviourOptions& options, const std::function<bool()>& go_on);
-  /// Cuts these leaves in halves, which are fresh, and forgets the links of closed leaves.
+  /// Cuts these leaves in halves, which are fresh, and forgets links of closed ones ({}: of all).
   void cut(const std::vector<bool>& which);
 
   std::size_t bytes() const {

@@ -15,6 +15,10 @@ namespace {
 
 using Id = CrossingGraph::Id;
 
+// In place of the leaf that another one waits for.
+constexpr Id nobody = ~Id{0};
+constexpr Id one_of_group = nobody - 1;  // of that which is being decided
+
 constexpr unsigned bit(Verdict v) { return 1U << static_cast<unsigned>(v); }
 
 /// What is known of one group before it is decided.
@@ -24,16 +28,16 @@ struct Prospect {
   bool comes_back = false;
   HeadingArc headings;  ///< of what comes back
   double flown = 0.0;   ///< by what does not
-  Id waits_for = ~Id{0};
+  Id waits_for = nobody;
   bool meets_decided = false;
 };
 
 class Decider {
  public:
   Decider(const Parts& parts, CrossingGraph& graph, GroupRecord& groups)
-      : parts_(parts), graph_(graph), groups_(groups), member_of_(graph.leaves(), 0) {
+      : parts_(parts), graph_(graph), groups_(groups) {
     result_.hope.assign(graph.leaves(), CutHope::none);
-    result_.cause.assign(graph.leaves(), ~Id{0});
+    result_.cause.assign(graph.leaves(), nobody);
     result_.trouble.assign(graph.leaves(), Trouble::none);
     groups.begin();
   }
@@ -56,14 +60,14 @@ class Decider {
       for (Id to = range.first; to < range.last; ++to) {
         const Leaf& target = graph_.leaf(to);
         const double flown = static_cast<double>(link.flown);
-        if (member_of_[to] == current_) {
+        if (result_.cause[to] == one_of_group) {
           p.headings = p.comes_back ? p.headings.with(link.headings()) : link.headings();
           p.comes_back = true;
         } else if (target.state == LeafState::closed) {
           p.verdicts |= bit(target.verdict);
           p.meets_decided = true;
           p.flown = std::max(p.flown, flown + static_cast<double>(groups_.flown[target.group]));
-        } else if (p.waits_for == ~Id{0}) {
+        } else if (p.waits_for == nobody) {
           p.waits_for = to;
         }
       }
@@ -72,13 +76,12 @@ class Decider {
   }
 
   void decide(std::span<const Id> members) {
-    ++current_;
-    for (const Id id : members) member_of_[id] = current_;
+    for (const Id id : members) result_.cause[id] = one_of_group;
     Prospect all;
     for (const Id id : members) look(id, all);
     const bool progress =
         !all.comes_back || all.headings.width_rad < 2.0 * most_off_progress_rad - 1e-3;
-    const bool known = !all.gave_up && all.waits_for == ~Id{0};
+    const bool known = !all.gave_up && all.waits_for == nobody;
     // Behaviours that move on come to an end or an exit: where there is none, something is wrong,
     // and nothing is claimed.
     const bool one = known && std::has_single_bit(all.verdicts);
@@ -98,6 +101,7 @@ class Decider {
       leaf.state = LeafState::closed;
       leaf.verdict = verdict;
       leaf.group = group;
+      result_.cause[id] = nobody;
     }
     result_.decided += members.size();
   }
@@ -133,7 +137,7 @@ class Decider {
   void tell_trouble(std::span<const Id> members, const Prospect& all, bool one) {
     // A group that waits is cut only where a leaf meets something decided, or itself.
     const Trouble of_group = one ? Trouble::no_progress : Trouble::waits;
-    Id cause = ~Id{0};
+    Id cause = nobody;
     Trouble reason = Trouble::none;
     for (const Id id : members) {
       Prospect own;
@@ -155,10 +159,10 @@ class Decider {
       cause = members.front();
       reason = of_group;
     }
-    if (reason == Trouble::none && all.waits_for != ~Id{0}) {
+    if (reason == Trouble::none && all.waits_for != nobody) {
       cause = result_.cause[all.waits_for];
       // Of a leaf that nothing should cross nothing is known: the trouble is here.
-      if (cause != ~Id{0}) reason = Trouble::waits;
+      if (cause != nobody) reason = Trouble::waits;
     }
     if (reason == Trouble::none) {  // its leaves have one verdict each, but not the same
       cause = members.front();
@@ -173,8 +177,6 @@ class Decider {
   const Parts& parts_;
   CrossingGraph& graph_;
   GroupRecord& groups_;
-  std::vector<std::uint32_t> member_of_;
-  std::uint32_t current_ = 0;
   Deciding result_;
 };
 

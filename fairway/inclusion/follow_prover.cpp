@@ -45,7 +45,7 @@ std::vector<bool> FollowProver::near_path() const {
   for (Id id = 0; id < graph_.leaves(); ++id) {
     const Leaf& leaf = graph_.leaf(id);
     which[id] = leaf.state == LeafState::open && !leaf.gave_up && (leaf.ends & bad_ends) == 0 &&
-                leaf.distance_m < Tube::outside;
+                !leaf.is_beside_tube;
   }
   return which;
 }

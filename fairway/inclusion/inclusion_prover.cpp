@@ -57,6 +57,11 @@ std::vector<bool> InclusionProver::to_cut(int level) const {
   return which;
 }
 
+void InclusionProver::cut(const std::vector<bool>& which) {
+  last_ = {};  // of leaves whose numbers change
+  graph_.cut(which);
+}
+
 /// Asked before a leaf is flown, since most leaves of a further mode are handed over at once.
 void InclusionProver::hand_over_fresh() {
   const std::uint32_t least = side_units >> static_cast<unsigned>(limits_.hand_over_level);
@@ -104,35 +109,44 @@ void InclusionProver::hand_over_fresh() {
 }
 
 bool InclusionProver::run(const std::function<void(const InclusionLevel&)>& progress) {
-  double before = 1.0;
-  for (int level = limits_.first_level; level <= limits_.last_level; ++level) {
-    // Within a level, until it decides next to nothing more.
-    while (true) {
-      if (!earlier_.empty()) hand_over_fresh();
-      graph_.fly(parts_, limits_.flight, limits_.go_on);
-      last_ = decide_groups(parts_, graph_, groups_);
-      const InclusionLevel now = level_now(level);
-      progress(now);
-      const double gain = before - now.undecided_share;
-      before = now.undecided_share;
-      if (!limits_.go_on()) return false;
-      if (limits_.memory_bytes > 0 && graph_.bytes() > limits_.memory_bytes) return false;
-      const std::vector<bool> which = to_cut(level);
-      if (std::abs(gain) < limits_.least_gain ||
-          std::find(which.begin(), which.end(), true) == which.end()) {
-        break;
+  const auto decide_levels = [&] {
+    double before = 1.0;
+    for (int level = limits_.first_level; level <= limits_.last_level; ++level) {
+      // Within a level, until it decides next to nothing more.
+      while (true) {
+        if (!earlier_.empty()) hand_over_fresh();
+        graph_.fly(parts_, limits_.flight, limits_.go_on);
+        last_ = {};  // not there twice
+        last_ = decide_groups(parts_, graph_, groups_);
+        const InclusionLevel now = level_now(level);
+        progress(now);
+        const double gain = before - now.undecided_share;
+        before = now.undecided_share;
+        if (!limits_.go_on()) return false;
+        if (limits_.memory_bytes > 0 && graph_.bytes() > limits_.memory_bytes) return false;
+        const std::vector<bool> which = to_cut(level);
+        if (std::abs(gain) < limits_.least_gain ||
+            std::find(which.begin(), which.end(), true) == which.end()) {
+          break;
+        }
+        cut(which);
       }
-      graph_.cut(which);
+      if (level == limits_.last_level) break;
+      cut(to_cut(level + 1));
     }
-    if (level == limits_.last_level) break;
-    graph_.cut(to_cut(level + 1));
-  }
-  return true;
+    return true;
+  };
+  const bool done = decide_levels();
+  graph_.cut({});  // nobody asks for links any more
+  return done;
 }
 
 ContractVerdicts InclusionProver::verdicts(double speed_least_mps) const {
   ContractVerdicts made;
   made.first.resize(graph_.sections() + 1);
+  made.begin.reserve(graph_.leaves());
+  made.group.reserve(graph_.leaves());
+  made.verdict.reserve(graph_.leaves());
   for (std::size_t s = 0; s < graph_.sections(); ++s) {
     made.first[s] = static_cast<std::uint32_t>(made.begin.size());
     for (auto id = graph_.first(s); id < graph_.first(s + 1); ++id) {

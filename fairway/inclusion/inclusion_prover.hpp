@@ -78,6 +78,7 @@ class InclusionProver {
  private:
   InclusionLevel level_now(int level) const;
   std::vector<bool> to_cut(int level) const;
+  void cut(const std::vector<bool>& which);
   void hand_over_fresh();
 
   const Parts& parts_;

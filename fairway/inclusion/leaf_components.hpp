@@ -15,7 +15,7 @@ template <typename Counts>
 class LeafComponents {
  public:
   LeafComponents(const CrossingGraph& graph, const Counts& counts)
-      : graph_(graph), counts_(counts), number_(graph.leaves(), 0), low_(graph.leaves(), 0) {}
+      : graph_(graph), counts_(counts), number_(graph.leaves(), 0) {}
 
   template <typename Body>
   void for_each(const Body& body) {
@@ -30,14 +30,15 @@ class LeafComponents {
           if (number_[to] == 0) {
             enter(to);
           } else if (number_[to] != done) {
-            low_[visit.leaf] = std::min(low_[visit.leaf], number_[to]);
+            visit.low = std::min(visit.low, number_[to]);
           }
           continue;
         }
         const Id left = visit.leaf;
+        const std::uint32_t low = visit.low;
         way_.pop_back();
-        if (!way_.empty()) low_[way_.back().leaf] = std::min(low_[way_.back().leaf], low_[left]);
-        if (low_[left] != number_[left]) continue;
+        if (!way_.empty()) way_.back().low = std::min(way_.back().low, low);
+        if (low != number_[left]) continue;
         auto first = stack_.end();
         while (*--first != left) {
         }
@@ -57,12 +58,13 @@ class LeafComponents {
     Id target;
     Id last;
     std::uint32_t link;  // the next one
+    std::uint32_t low;   // the lowest number on the stack that is met so far
   };
 
   void enter(Id id) {
-    number_[id] = low_[id] = ++count_;
+    number_[id] = ++count_;
     stack_.push_back(id);
-    way_.push_back({id, 0, 0, 0});
+    way_.push_back({id, 0, 0, 0, count_});
   }
   bool next_target(Visit& visit) const {
     const auto links = graph_.links(visit.leaf);
@@ -78,7 +80,6 @@ class LeafComponents {
   const CrossingGraph& graph_;
   Counts counts_;
   std::vector<std::uint32_t> number_;
-  std::vector<std::uint32_t> low_;
   std::vector<Id> stack_;
   std::vector<Visit> way_;
   std::uint32_t count_ = 0;

@@ -51,19 +51,21 @@ ContractAnswer QuickLookup::answer(Vec2 place, double heading_rad) const {
   };
   const bool inside =
       place.x > 0.0 && place.y > 0.0 && place.x < parts_.nx() && place.y < parts_.ny();
-  if (!inside || !(parts_.turn_radius().most <= QuickFlightOptions::most_radius)) return flown();
+  const bool fits = parts_.turn_radius().most <= QuickFlightOptions::most_radius;
+  if (!inside || !fits || !std::isfinite(heading_rad)) return flown();
   const Vec2 in{place.x - static_cast<int>(place.x), place.y - static_cast<int>(place.y)};
   if (std::min(in.x, in.y) < border || std::max(in.x, in.y) > 1.0 - border) return flown();
 
-  const TurnUnits heading = units_of_angle(counted_from_zero(heading_rad));
-  const Vec2 unit{std::cos(heading_rad), std::sin(heading_rad)};
+  const double in_turn_rad = counted_from_zero(heading_rad);
+  const TurnUnits heading = units_of_angle(in_turn_rad);
+  const Vec2 unit{std::cos(in_turn_rad), std::sin(in_turn_rad)};
   ContractAnswer answer;
   answer.worst_time_s = std::numeric_limits<double>::infinity();
   for (const QuickFlightOptions* options : {&coarse_, &fine_}) {
     QuickFlight flight(table_, *options);
     flight.fly(place, heading, unit);
     answer.possible = static_cast<std::uint8_t>(flight.verdicts());
-    if (flight.follows_all() && !flight.is_undecided()) {
+    if (flight.follows_all() && std::has_single_bit(flight.verdicts()) && !flight.is_undecided()) {
       answer.verdict = static_cast<Verdict>(std::countr_zero(flight.verdicts()));
       answer.worst_time_s = flight.worst_time_s();
       return answer;
