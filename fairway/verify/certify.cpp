@@ -79,7 +79,7 @@ Certified certify(const Flow& flow, const std::vector<bool>& is_free, const Cert
     } else {
       continue;
     }
-    answer.sections = prover.graph().sections();
+    answer.sections = prover.into_sections();
     break;
   }
   if (!further_rad.empty()) prove_modes(flow, further_rad, options, go_on, meter, answer);
