@@ -108,12 +108,42 @@ bool least_by_rounds(Worklist& waiting, const std::function<bool()>& go_on, cons
   return true;
 }
 
+/// The part of `among` from which no way of links leads to a leaf that `leaks`, through leaves of
+/// `among`. In their order. Faster than what follows, which looks at images again and again.
+template <typename Leaks>
+std::vector<LeafGraph::Id> without_leaks(const LeafGraph& graph, std::vector<LeafGraph::Id> among,
+                                         const Leaks& leaks) {
+  enum : std::uint8_t { absent, in, out };
+  std::vector<std::uint8_t> state(graph.ids(), absent);
+  for_ranges(among.size(), 1024, [&](std::size_t a, std::size_t b) {
+    for (std::size_t k = a; k < b; ++k) state[among[k]] = leaks(among[k]) ? out : in;
+  });
+  std::vector<LeafGraph::Id> next;  // out; what leads there is still to be looked at
+  for (const LeafGraph::Id id : among) {
+    if (state[id] == out) next.push_back(id);
+  }
+  std::size_t left = among.size() - next.size();
+  while (!next.empty() && left > 0) {
+    const LeafPlace place = graph.place(next.back());
+    next.pop_back();
+    graph.for_dependents(place.section, place.range, [&](LeafGraph::Id other) {
+      if (state[other] != in) return;
+      state[other] = out;
+      next.push_back(other);
+      --left;
+    });
+  }
+  std::erase_if(among, [&](LeafGraph::Id id) { return state[id] != in; });
+  return among;
+}
+
 /// A greatest fixpoint, by removal: the largest part of `among` in which `stays(leaf, is_in)` holds
 /// for every leaf, where `is_in(leaf)` says which leaves are left. In the order of `among`.
 template <typename Stays>
 std::vector<LeafGraph::Id> greatest_by_removal(const LeafGraph& graph,
                                                std::vector<LeafGraph::Id> among,
                                                const Stays& stays) {
+  if (among.empty()) return among;
   std::vector<std::uint8_t> in(graph.ids(), 0);
   const auto is_in = [&](LeafGraph::Id id) { return id != LeafGraph::none && in[id] != 0; };
   for (const LeafGraph::Id id : among) in[id] = 1;

@@ -36,7 +36,7 @@ LeafGraph::Id LeafGraph::new_id(std::size_t section, UnitRange range) {
     if (keeps_all_links()) known_.resize(open_.size());
   }
   open_[id] = {
-      static_cast<std::uint32_t>(section), range, 0, 0, Verdict::undecided, 0, 0, 0.0};
+      static_cast<std::uint32_t>(section), range, 0, 0, Verdict::undecided, 0, 0, 0, 0.0};
   ++leaf_count_;
   ++open_count_;
   return id;
@@ -193,7 +193,7 @@ LeafGraph::Id LeafGraph::cut(Id id) {
   const std::uint32_t middle = range.lo + half;
   const std::uint32_t section = open_[id].section;
   const Id high = new_id(section, {middle, range.hi});
-  open_[id] = {section, {range.lo, middle}, 0, 0, Verdict::undecided, 0, 0, 0.0};
+  open_[id] = {section, {range.lo, middle}, 0, 0, Verdict::undecided, 0, 0, 0, 0.0};
   const std::size_t at =
       static_cast<std::size_t>(&entry_of(id) - on_section_[section].data());
   on_section_.insert(section, at + 1, entry(middle, high));

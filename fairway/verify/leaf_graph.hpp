@@ -80,6 +80,9 @@ class LeafGraph {
   bool gave_up(Id id) const { return (open_[id].flags & gave_up_flag) != 0; }
   /// Not handed over, but a part of it might be (hand_over.hpp).
   bool hands_over_in_part(Id id) const { return (open_[id].flags & in_part_flag) != 0; }
+  /// The verdicts that its image met when it was last examined, a bit for each.
+  std::uint8_t seen(Id id) const { return open_[id].seen; }
+  void set_seen(Id id, std::uint8_t bits) { open_[id].seen = bits; }
   /// Never decided unless it is cut: whatever its links lead to.
   bool is_hopeless(Id id) const { return (open_[id].flags & hopeless_flag) != 0; }
   std::span<const Link> links(Id id) const {
@@ -101,7 +104,7 @@ class LeafGraph {
   /// decided or cut.
   void keep_image(Id id, const Image& image);
   /// From now on, it is among the dependents of what its links lead to. What is decided of that is
-  /// added to its ends, unless all links are kept. Twice is as good as once.
+  /// added to its ends, unless all links are kept. May be called again.
   void await_links(Id id);
   void set_image(Id id, const Image& image) {
     keep_image(id, image);
@@ -154,6 +157,7 @@ class LeafGraph {
     Verdict verdict;
     std::uint8_t end_bits;
     std::uint8_t flags;
+    std::uint8_t seen;
     double end_time_s;
   };
   static constexpr std::uint8_t gave_up_flag = 1;

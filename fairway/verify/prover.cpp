@@ -13,6 +13,8 @@ namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
+constexpr unsigned bit_of(Verdict verdict) { return 1U << static_cast<unsigned>(verdict); }
+
 /// Leaves that are flown at once: their images are held twice for a moment.
 constexpr std::size_t batch = 32768;
 
@@ -158,8 +160,8 @@ void Prover::conclude(const std::vector<Id>& round, const std::vector<Finding>& 
 
 /// Undecided and not cut: until what its image lies on is decided, or for ever.
 void Prover::keep_waiting(Id id, const Finding& finding) {
-  constexpr unsigned undecided = 1U << static_cast<unsigned>(Verdict::undecided);
-  const bool hopeless = graph_.gave_up(id) || std::popcount(finding.bits & ~undecided) > 1;
+  graph_.set_seen(id, finding.bits);
+  const bool hopeless = graph_.gave_up(id) || std::popcount(finding.bits & ~bit_of(Verdict::undecided)) > 1;
   if (may_give_up_hope_ && hopeless) {
     graph_.give_up_hope(id, {finding.bits, 0.0});
   } else {
@@ -225,14 +227,23 @@ bool Prover::settle(double least_units) {
   return true;
 }
 
-/// Everything undecided, minus what may get out. What remains wakes the leaves that lead there.
+/// All open leaves, minus what may get out. What remains wakes the leaves that lead there.
 void Prover::prove_trapped() {
   std::vector<Id> open;
   for (Id id = 0; id < graph_.ids(); ++id) {
-    if (graph_.is_open(id) && !graph_.is_hopeless(id)) open.push_back(id);
+    if (graph_.is_open(id)) open.push_back(id);
   }
+  // Nobody waits to be examined, so that what was seen last is still so.
+  std::vector<Id> candidates = without_leaks(graph_, std::move(open), [this](Id id) {
+    constexpr unsigned may = bit_of(Verdict::undecided) | bit_of(Verdict::trapped);
+    if (graph_.is_hopeless(id) || graph_.gave_up(id) || (graph_.seen(id) & ~may) != 0) return true;
+    const auto links = graph_.links(id);
+    return std::any_of(links.begin(), links.end(), [this](const LeafGraph::Link& link) {
+      return !graph_.has_leaves(link.section);
+    });
+  });
   const std::vector<Id> trapped =
-      greatest_by_removal(graph_, std::move(open), [this](Id id, const auto& is_in) {
+      greatest_by_removal(graph_, std::move(candidates), [this](Id id, const auto& is_in) {
         const auto verdict_at = [&](const LeafGraph::Leaf& other) {
           return is_in(other.id) ? Verdict::trapped : other.verdict;
         };
