@@ -7,10 +7,12 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -118,20 +120,35 @@ std::vector<LeafGraph::Id> without_leaks(const LeafGraph& graph, std::vector<Lea
   for_ranges(among.size(), 1024, [&](std::size_t a, std::size_t b) {
     for (std::size_t k = a; k < b; ++k) state[among[k]] = leaks(among[k]) ? out : in;
   });
-  std::vector<LeafGraph::Id> next;  // out; what leads there is still to be looked at
+  std::vector<LeafGraph::Id> round;  // out; what leads there is still to be looked at
   for (const LeafGraph::Id id : among) {
-    if (state[id] == out) next.push_back(id);
+    if (state[id] == out) round.push_back(id);
   }
-  std::size_t left = among.size() - next.size();
-  while (!next.empty() && left > 0) {
-    const LeafPlace place = graph.place(next.back());
-    next.pop_back();
-    graph.for_dependents(place.section, place.range, [&](LeafGraph::Id other) {
-      if (state[other] != in) return;
-      state[other] = out;
-      next.push_back(other);
-      --left;
-    });
+  std::mutex gathering;
+  std::vector<LeafGraph::Id> next;
+  const auto spread = [&](std::size_t a, std::size_t b) {
+    std::vector<LeafGraph::Id> found;
+    for (std::size_t k = a; k < b; ++k) {
+      const LeafPlace place = graph.place(round[k]);
+      graph.for_dependents(place.section, place.range, [&](LeafGraph::Id other) {
+        std::atomic_ref<std::uint8_t> its(state[other]);
+        std::uint8_t was = in;
+        if (its.load(std::memory_order_relaxed) != in) return;
+        if (its.compare_exchange_strong(was, out)) found.push_back(other);
+      });
+    }
+    const std::lock_guard<std::mutex> lock(gathering);
+    next.insert(next.end(), found.begin(), found.end());
+  };
+  while (!round.empty()) {
+    constexpr std::size_t worth_sharing = 1024;
+    if (round.size() < worth_sharing) {
+      spread(0, round.size());
+    } else {
+      for_ranges(round.size(), worth_sharing / 2, spread);
+    }
+    round.swap(next);
+    next.clear();
   }
   std::erase_if(among, [&](LeafGraph::Id id) { return state[id] != in; });
   return among;

@@ -60,6 +60,7 @@ void Prover::fly_some(std::span<const Id> ids) {
   std::vector<LeafPlace> places(ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i) places[i] = graph_.place(ids[i]);
   const ImageStore images = leaf_images(flow_, places, most_crossings_, go_on_);
+  is_new_since_trapped_ = is_new_since_trapped_ || !ids.empty();
   for (std::size_t i = 0; i < ids.size(); ++i) {
     // Most are decided or cut when they are examined, before they have waited for others.
     graph_.keep_image(ids[i], images[i]);
@@ -229,6 +230,8 @@ bool Prover::settle(double least_units) {
 
 /// All open leaves, minus what may get out. What remains wakes the leaves that lead there.
 void Prover::prove_trapped() {
+  // Whatever was open the last time led to something else, and still does unless that was cut.
+  if (!std::exchange(is_new_since_trapped_, false)) return;
   std::vector<Id> open;
   for (Id id = 0; id < graph_.ids(); ++id) {
     if (graph_.is_open(id)) open.push_back(id);
@@ -265,6 +268,7 @@ void Prover::prove_trapped() {
 }
 
 void Prover::invalidate(const std::vector<bool>& changed_cells) {
+  is_new_since_trapped_ = true;
   waiting_.take();  // some may no longer be leaves; `settle` starts with all open ones
   fly(graph_.invalidate(flow_, changed_cells));
 }

@@ -89,6 +89,7 @@ class Prover {
   std::uint32_t rank_ = 0;
   bool may_give_up_hope_;
   bool last_round_decided_ = false;
+  bool is_new_since_trapped_ = true;  // an image
 };
 
 }  // namespace fairway
