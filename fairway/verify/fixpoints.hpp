@@ -7,12 +7,10 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -108,50 +106,6 @@ bool least_by_rounds(Worklist& waiting, const std::function<bool()>& go_on, cons
     conclude(round, std::as_const(findings));
   }
   return true;
-}
-
-/// The part of `among` from which no way of links leads to a leaf that `leaks`, through leaves of
-/// `among`. In their order. Faster than what follows, which looks at images again and again.
-template <typename Leaks>
-std::vector<LeafGraph::Id> without_leaks(const LeafGraph& graph, std::vector<LeafGraph::Id> among,
-                                         const Leaks& leaks) {
-  enum : std::uint8_t { absent, in, out };
-  std::vector<std::uint8_t> state(graph.ids(), absent);
-  for_ranges(among.size(), 1024, [&](std::size_t a, std::size_t b) {
-    for (std::size_t k = a; k < b; ++k) state[among[k]] = leaks(among[k]) ? out : in;
-  });
-  std::vector<LeafGraph::Id> round;  // out; what leads there is still to be looked at
-  for (const LeafGraph::Id id : among) {
-    if (state[id] == out) round.push_back(id);
-  }
-  std::mutex gathering;
-  std::vector<LeafGraph::Id> next;
-  const auto spread = [&](std::size_t a, std::size_t b) {
-    std::vector<LeafGraph::Id> found;
-    for (std::size_t k = a; k < b; ++k) {
-      const LeafPlace place = graph.place(round[k]);
-      graph.for_dependents(place.section, place.range, [&](LeafGraph::Id other) {
-        std::atomic_ref<std::uint8_t> its(state[other]);
-        std::uint8_t was = in;
-        if (its.load(std::memory_order_relaxed) != in) return;
-        if (its.compare_exchange_strong(was, out)) found.push_back(other);
-      });
-    }
-    const std::lock_guard<std::mutex> lock(gathering);
-    next.insert(next.end(), found.begin(), found.end());
-  };
-  while (!round.empty()) {
-    constexpr std::size_t worth_sharing = 1024;
-    if (round.size() < worth_sharing) {
-      spread(0, round.size());
-    } else {
-      for_ranges(round.size(), worth_sharing / 2, spread);
-    }
-    round.swap(next);
-    next.clear();
-  }
-  std::erase_if(among, [&](LeafGraph::Id id) { return state[id] != in; });
-  return among;
 }
 
 /// A greatest fixpoint, by removal: the largest part of `among` in which `stays(leaf, is_in)` holds

@@ -35,8 +35,7 @@ LeafGraph::Id LeafGraph::new_id(std::size_t section, UnitRange range) {
     require(id <= most_of, "there are fewer than 2^29 open leaves");
     if (keeps_all_links()) known_.resize(open_.size());
   }
-  open_[id] = {
-      static_cast<std::uint32_t>(section), range, 0, 0, Verdict::undecided, 0, 0, 0, 0.0};
+  open_[id] = {static_cast<std::uint32_t>(section), range, 0, 0, Verdict::undecided, 0, 0, 0, 0.0};
   ++leaf_count_;
   ++open_count_;
   return id;
@@ -101,8 +100,8 @@ void LeafGraph::keep_image(Id id, const Image& image) {
   free_links(id);
   const auto count = static_cast<std::uint32_t>(image.pieces.size());
   Open& open = open_[id];
-  open.flags = static_cast<std::uint8_t>((open.flags & in_part_flag) |
-                                         (image.gave_up ? gave_up_flag : 0));
+  open.flags =
+      static_cast<std::uint8_t>((open.flags & in_part_flag) | (image.gave_up ? gave_up_flag : 0));
   open.end_bits = image.ends.bits;
   open.end_time_s = image.ends.time_s;
   if (count == 0) return;
@@ -194,8 +193,7 @@ LeafGraph::Id LeafGraph::cut(Id id) {
   const std::uint32_t section = open_[id].section;
   const Id high = new_id(section, {middle, range.hi});
   open_[id] = {section, {range.lo, middle}, 0, 0, Verdict::undecided, 0, 0, 0, 0.0};
-  const std::size_t at =
-      static_cast<std::size_t>(&entry_of(id) - on_section_[section].data());
+  const std::size_t at = static_cast<std::size_t>(&entry_of(id) - on_section_[section].data());
   on_section_.insert(section, at + 1, entry(middle, high));
   return high;
 }
@@ -227,9 +225,8 @@ SectionVerdicts LeafGraph::sections() const {
       }
       out.begin.push_back(entry.begin);
       out.rank.push_back(known.rank);
-      out.verdict.push_back(entry.state == handed_over
-                                ? static_cast<std::uint8_t>(Verdict::reach)
-                                : static_cast<std::uint8_t>(entry.state));
+      out.verdict.push_back(entry.state == handed_over ? static_cast<std::uint8_t>(Verdict::reach)
+                                                       : static_cast<std::uint8_t>(entry.state));
       out.time_s.push_back(known.time_s);
     }
     out.first.push_back(static_cast<std::uint32_t>(out.begin.size()));

@@ -64,6 +64,7 @@ void Prover::fly_some(std::span<const Id> ids) {
   for (std::size_t i = 0; i < ids.size(); ++i) {
     // Most are decided or cut when they are examined, before they have waited for others.
     graph_.keep_image(ids[i], images[i]);
+    ways_out_.forget(ids[i]);
     if (graph_.keeps_all_links()) graph_.await_links(ids[i]);
     if (graph_.is_open(ids[i])) waiting_.add(ids[i]);
   }
@@ -162,7 +163,8 @@ void Prover::conclude(const std::vector<Id>& round, const std::vector<Finding>& 
 /// Undecided and not cut: until what its image lies on is decided, or for ever.
 void Prover::keep_waiting(Id id, const Finding& finding) {
   graph_.set_seen(id, finding.bits);
-  const bool hopeless = graph_.gave_up(id) || std::popcount(finding.bits & ~bit_of(Verdict::undecided)) > 1;
+  const bool hopeless =
+      graph_.gave_up(id) || std::popcount(finding.bits & ~bit_of(Verdict::undecided)) > 1;
   if (may_give_up_hope_ && hopeless) {
     graph_.give_up_hope(id, {finding.bits, 0.0});
   } else {
@@ -232,12 +234,8 @@ bool Prover::settle(double least_units) {
 void Prover::prove_trapped() {
   // Whatever was open the last time led to something else, and still does unless that was cut.
   if (!std::exchange(is_new_since_trapped_, false)) return;
-  std::vector<Id> open;
-  for (Id id = 0; id < graph_.ids(); ++id) {
-    if (graph_.is_open(id)) open.push_back(id);
-  }
   // Nobody waits to be examined, so that what was seen last is still so.
-  std::vector<Id> candidates = without_leaks(graph_, std::move(open), [this](Id id) {
+  std::vector<Id> candidates = ways_out_.lacking(graph_, [this](Id id) {
     constexpr unsigned may = bit_of(Verdict::undecided) | bit_of(Verdict::trapped);
     if (graph_.is_hopeless(id) || graph_.gave_up(id) || (graph_.seen(id) & ~may) != 0) return true;
     const auto links = graph_.links(id);
@@ -256,7 +254,8 @@ void Prover::prove_trapped() {
   for (const Id id : trapped) wake_dependents(id);
   if (!trapped.empty() && waiting_.empty()) {
     std::vector<std::pair<std::size_t, std::uint32_t>> begins;
-    for (const Id id : trapped) begins.emplace_back(graph_.place(id).section, graph_.place(id).range.lo);
+    for (const Id id : trapped)
+      begins.emplace_back(graph_.place(id).section, graph_.place(id).range.lo);
     std::sort(begins.begin(), begins.end());
     const auto is_new = [&](std::size_t section, const LeafGraph::Leaf& leaf) {
       return leaf.verdict == Verdict::trapped &&
@@ -269,6 +268,7 @@ void Prover::prove_trapped() {
 
 void Prover::invalidate(const std::vector<bool>& changed_cells) {
   is_new_since_trapped_ = true;
+  ways_out_.forget_all();
   waiting_.take();  // some may no longer be leaves; `settle` starts with all open ones
   fly(graph_.invalidate(flow_, changed_cells));
 }

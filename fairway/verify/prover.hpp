@@ -21,6 +21,7 @@
 #include "fairway/verify/hand_over.hpp"
 #include "fairway/verify/leaf_graph.hpp"
 #include "fairway/verify/section_verdicts.hpp"
+#include "fairway/verify/ways_out.hpp"
 
 namespace fairway {
 
@@ -43,6 +44,7 @@ class Prover {
   /// The leaves, when the work is done: frees everything else first.
   SectionVerdicts into_sections() {
     waiting_ = {};
+    ways_out_ = {};
     worth_asking_ = {};
     return graph_.into_sections();
   }
@@ -51,14 +53,15 @@ class Prover {
   void look_up(std::size_t section, UnitRange range, double flown_s, VerdictSet& found) const;
 
   std::size_t bytes() const {
-    return graph_.bytes() + waiting_.bytes() + worth_asking_.capacity() * sizeof(ModeSet);
+    return graph_.bytes() + waiting_.bytes() + ways_out_.bytes() +
+           worth_asking_.capacity() * sizeof(ModeSet);
   }
 
  private:
   using Id = LeafGraph::Id;
   /// What an image has led to. A round may have millions of these.
   struct Finding {
-    float time_s = 0.0F;     ///< upper bound
+    float time_s = 0.0F;    ///< upper bound
     std::uint8_t bits = 0;  ///< verdicts found, as in VerdictSet
     bool cut = false;
 
@@ -86,6 +89,7 @@ class Prover {
   LeafGraph graph_;
   std::vector<ModeSet> worth_asking_;  // [id] or shorter: every mode
   Worklist waiting_;
+  WaysOut ways_out_;  // to find those that are trapped
   std::uint32_t rank_ = 0;
   bool may_give_up_hope_;
   bool last_round_decided_ = false;

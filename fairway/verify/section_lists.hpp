@@ -46,9 +46,7 @@ class SectionLists {
   void make_room(std::size_t section, std::size_t count) {
     if (count > 0) resize(section, count);
   }
-  void add(std::size_t section, const T& value) {
-    insert(section, (*this)[section].size(), value);
-  }
+  void add(std::size_t section, const T& value) { insert(section, (*this)[section].size(), value); }
   void insert(std::size_t section, std::size_t at, const T& value) {
     Block* block = list_[section];
     if (block == nullptr || block->count == block->room) block = resize(section, grown(block));
