@@ -177,6 +177,7 @@ TEST(WaysOut, AreFoundAgainWhateverIsCutAndDecided) {
     std::vector<bool> leak(n);
     for (std::size_t i = 0; i < n; ++i) leak[i] = random.below(8) == 0;
     WaysOut ways;
+    ways.forget_all(graph);
     for (int step = 0; step < 60; ++step) {
       const auto leaks = [&](Id id) { return leak[id]; };
       const std::vector<Id> found = ways.lacking(graph, leaks);
@@ -188,10 +189,16 @@ TEST(WaysOut, AreFoundAgainWhateverIsCutAndDecided) {
         if (random.below(3) == 0) {  // what leads to it leaks
           const LeafPlace place = graph.place(id);
           graph.decide(id, Verdict::reach, 1, 1.0F);
-          graph.for_dependents(place.section, place.range, [&](Id other) { leak[other] = true; });
+          graph.for_dependents(place.section, place.range, [&](Id other) {
+            leak[other] = true;
+            ways.forget_step(other, id);
+          });
           graph.release(id);
           continue;
         }
+        const LeafPlace before = graph.place(id);
+        graph.for_dependents(before.section, before.range,
+                             [&](Id other) { ways.forget_step(other, id); });
         const Id upper = graph.cut(id);
         leak.resize(graph.ids());
         for (const Id half : {id, upper}) {
@@ -224,6 +231,7 @@ TEST(WaysOut, OfManyAreFoundOnAllThreads) {
   const LeafGraph graph = drawn_graph(chains);
   const auto leaks = [](Id id) { return id % length + 1 == length && id / length % 3 != 0; };
   WaysOut ways;
+  ways.forget_all(graph);
   for (int time = 0; time < 2; ++time) {
     const std::vector<Id> found = ways.lacking(graph, leaks);
     ASSERT_EQ(found.size(), chains.size() / 3);

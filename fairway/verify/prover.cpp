@@ -175,6 +175,7 @@ void Prover::keep_waiting(Id id, const Finding& finding) {
 void Prover::cut(std::span<const Id> ids) {
   std::vector<Id> halves;
   for (std::size_t i = 0; i < ids.size(); ++i) {
+    forget_ways_over(ids[i]);
     const Id upper = graph_.cut(ids[i]);
     halves.insert(halves.end(), {ids[i], upper});
     if (!earlier_.empty()) {
@@ -190,8 +191,16 @@ void Prover::cut(std::span<const Id> ids) {
 void Prover::wake_dependents(Id id) {
   const LeafPlace place = graph_.place(id);
   graph_.for_dependents(place.section, place.range, [&](Id other) {
-    if (graph_.is_open(other)) waiting_.add(other);
+    if (!graph_.is_open(other)) return;
+    waiting_.add(other);
+    ways_out_.forget_step(other, id);
   });
+}
+
+void Prover::forget_ways_over(Id id) {
+  const LeafPlace place = graph_.place(id);
+  graph_.for_dependents(place.section, place.range,
+                        [&](Id other) { ways_out_.forget_step(other, id); });
 }
 
 /// Whether any leaf that waits for no one has a link to a leaf of which `is_new` holds.
@@ -268,7 +277,7 @@ void Prover::prove_trapped() {
 
 void Prover::invalidate(const std::vector<bool>& changed_cells) {
   is_new_since_trapped_ = true;
-  ways_out_.forget_all();
+  ways_out_.forget_all(graph_);
   waiting_.take();  // some may no longer be leaves; `settle` starts with all open ones
   fly(graph_.invalidate(flow_, changed_cells));
 }

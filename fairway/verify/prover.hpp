@@ -78,6 +78,7 @@ class Prover {
   void keep_waiting(Id id, const Finding& finding);
   void cut(std::span<const Id> ids);
   void wake_dependents(Id id);
+  void forget_ways_over(Id id);
   void prove_trapped();
   template <typename IsNew>
   bool hopeless_lead_to(const IsNew& is_new) const;

@@ -1,9 +1,10 @@
 // Which open leaves lead only to each other, found again and again while the graph changes.
 //
 // A leaf that is not one of them has a way of links, over open leaves, to one that `leaks`: that
-// leads to something else, whatever becomes of other leaves. One such way is kept of every leaf, by
-// its first step. It holds until a leaf on it is cut or decided; only then another is looked for.
-// So the work follows what has changed, not what is open.
+// leads to something else, whatever becomes of other leaves. Of every leaf the first step of such a
+// way is kept, until the leaf that it leads to is cut or decided; only then another is looked for,
+// of it and of those whose ways led over it. So the work follows what has changed, not what is
+// open.
 //
 // What is found is no proof: it may be too much, never too little (greatest_by_removal proves).
 #pragma once
@@ -29,29 +30,26 @@ class WaysOut {
   void forget(Id id) {
     if (id >= step_.size()) step_.resize(id + std::size_t{1}, unknown);
     step_[id] = unknown;
+    changed_.push_back(id);
   }
-  void forget_all() { step_.clear(); }
+  /// The leaf `to` is about to be cut, or was decided; that one is among its dependents.
+  void forget_step(Id id, Id to) {
+    if (step_[id] == to) forget(id);
+  }
+  void forget_all(const LeafGraph& graph) {
+    for (Id id = 0; id < graph.ids(); ++id) forget(id);
+  }
 
   /// The open leaves, in the order of their ids, that have no way to one that leaks. A leaf that
   /// leaks does so until it is cut; every other one is among the dependents of its links.
   template <typename Leaks>
   std::vector<Id> lacking(const LeafGraph& graph, const Leaks& leaks) {
-    step_.resize(graph.ids(), unknown);
-    state_.assign(graph.ids(), unseen);
-    for_ranges(graph.ids(), 4096, [&](std::size_t a, std::size_t b) {
-      std::vector<Id> way;
-      for (std::size_t id = a; id < b; ++id) {
-        if (graph.is_open(static_cast<Id>(id))) follow(graph, static_cast<Id>(id), way);
-      }
-    });
-    std::vector<Id> lacking;
-    for (Id id = 0; id < graph.ids(); ++id) {
-      if (state_[id] == is_lost) lacking.push_back(id);
-    }
-    gather(lacking, [&](Id id, std::vector<Id>& found) {
+    lost_.resize(step_.size(), 0);
+    std::vector<Id> lost = without_step(graph);
+    gather(lost, [&](Id id, std::vector<Id>& found) {
       step_[id] = leaks(id) ? it_leaks : first_step(graph, id);
       if (step_[id] == unknown) return;
-      state(id).store(gets_out, std::memory_order_relaxed);
+      is_lost(id).store(0, std::memory_order_relaxed);
       found.push_back(id);
     });
     while (!round_.empty()) {
@@ -59,44 +57,51 @@ class WaysOut {
       gather(round, [&](Id id, std::vector<Id>& found) {
         const LeafPlace place = graph.place(id);
         graph.for_dependents(place.section, place.range, [&](Id other) {
-          if (state(other).load(std::memory_order_relaxed) != is_lost) return;
-          std::uint8_t was = is_lost;
-          if (!state(other).compare_exchange_strong(was, gets_out)) return;
+          if (is_lost(other).load(std::memory_order_relaxed) == 0) return;
+          if (is_lost(other).exchange(0, std::memory_order_relaxed) == 0) return;
           step_[other] = id;
           found.push_back(other);
         });
       });
     }
-    std::erase_if(lacking, [&](Id id) { return state_[id] != is_lost; });
-    return lacking;
+    std::erase_if(lost, [&](Id id) { return lost_[id] == 0; });
+    for (const Id id : lost) {
+      lost_[id] = 0;
+      forget(id);  // if they stay, they are looked at again
+    }
+    std::sort(lost.begin(), lost.end());
+    return lost;
   }
-  std::size_t bytes() const { return step_.capacity() * sizeof(Id) + state_.capacity(); }
+  std::size_t bytes() const {
+    return step_.capacity() * sizeof(Id) + lost_.capacity() + changed_.capacity() * sizeof(Id);
+  }
 
  private:
   static constexpr Id unknown = LeafGraph::none;
   static constexpr Id it_leaks = unknown - 1;
-  enum State : std::uint8_t { unseen, is_lost, gets_out };
 
-  std::atomic_ref<std::uint8_t> state(Id id) { return std::atomic_ref(state_[id]); }
+  std::atomic_ref<std::uint8_t> is_lost(Id id) { return std::atomic_ref(lost_[id]); }
 
-  /// Follows the way kept of a leaf; what it ends in holds for every leaf on it.
-  void follow(const LeafGraph& graph, Id id, std::vector<Id>& way) {
-    way.clear();
-    std::uint8_t end = unseen;
-    while ((end = state(id).load(std::memory_order_relaxed)) == unseen) {
-      way.push_back(id);
-      const Id next = step_[id];
-      if (next == it_leaks) {
-        end = gets_out;
-        break;
-      }
-      if (next == unknown || !graph.is_open(next)) {
-        end = is_lost;
-        break;
-      }
-      id = next;
+  /// The open leaves that have lost their way, each once: those that changed, and those whose ways
+  /// lead over them.
+  std::vector<Id> without_step(const LeafGraph& graph) {
+    std::vector<Id> lost;
+    for (const Id id : std::exchange(changed_, {})) {
+      if (!graph.is_open(id) || step_[id] != unknown || lost_[id] != 0) continue;
+      lost_[id] = 1;
+      lost.push_back(id);
     }
-    for (const Id on_it : way) state(on_it).store(end, std::memory_order_relaxed);
+    for (std::size_t k = 0; k < lost.size(); ++k) {
+      const Id id = lost[k];
+      const LeafPlace place = graph.place(id);
+      graph.for_dependents(place.section, place.range, [&](Id other) {
+        if (step_[other] != id || lost_[other] != 0) return;
+        lost_[other] = 1;
+        step_[other] = unknown;
+        lost.push_back(other);
+      });
+    }
+    return lost;
   }
 
   /// Another leaf that it leads to and that gets out, or unknown.
@@ -105,7 +110,7 @@ class WaysOut {
     for (const LeafGraph::Link& link : graph.links(id)) {
       graph.for_leaves(link.section, link.range, [&](const LeafGraph::Leaf& other) {
         if (found != unknown || other.id == LeafGraph::none || !graph.is_open(other.id)) return;
-        if (state(other.id).load(std::memory_order_relaxed) == gets_out) found = other.id;
+        if (is_lost(other.id).load(std::memory_order_relaxed) == 0) found = other.id;
       });
       if (found != unknown) break;
     }
@@ -130,9 +135,10 @@ class WaysOut {
     }
   }
 
-  std::vector<Id> step_;             // [id], the next leaf on its way out
-  std::vector<std::uint8_t> state_;  // [id]
-  std::vector<Id> round_;            // get out; what leads there is still to be looked at
+  std::vector<Id> step_;            // [id], where its way out goes on
+  std::vector<std::uint8_t> lost_;  // [id], while they are looked for
+  std::vector<Id> changed_;         // without a step; some twice, or of no leaf any more
+  std::vector<Id> round_;           // get out; what leads there is still to be looked at
 };
 
 }  // namespace fairway
