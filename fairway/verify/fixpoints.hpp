@@ -127,7 +127,7 @@ std::vector<LeafGraph::Id> greatest_by_removal(const LeafGraph& graph,
   for (std::size_t k = 0; k < among.size(); ++k) {
     if (doubted[k] != 0) doubtful.add(among[k]);
   }
-  doubted = {};
+  doubted = std::vector<std::uint8_t>();
   while (!doubtful.empty()) {
     const LeafGraph::Id id = doubtful.take_last();
     if (!is_in(id) || stays(id, is_in)) continue;

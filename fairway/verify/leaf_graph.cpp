@@ -238,7 +238,7 @@ SectionVerdicts LeafGraph::into_sections() {
   if (!keeps_all_links()) {
     open_ = {};
     link_ = {};
-    free_ = {};
+    free_.clear();
     dependents_ = SectionLists<Dependent>(0);
   }
   SectionVerdicts out = sections();

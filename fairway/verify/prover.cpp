@@ -156,7 +156,7 @@ void Prover::conclude(const std::vector<Id>& round, const std::vector<Finding>& 
   for (const Id id : decided) wake_dependents(id);
   for (const Id id : decided) graph_.release(id);
   last_round_decided_ = !decided.empty();
-  decided = {};
+  decided = std::vector<Id>();
   cut(to_cut);
 }
 
@@ -263,8 +263,10 @@ void Prover::prove_trapped() {
   for (const Id id : trapped) wake_dependents(id);
   if (!trapped.empty() && waiting_.empty()) {
     std::vector<std::pair<std::size_t, std::uint32_t>> begins;
-    for (const Id id : trapped)
-      begins.emplace_back(graph_.place(id).section, graph_.place(id).range.lo);
+    for (const Id id : trapped) {
+      const LeafPlace place = graph_.place(id);
+      begins.emplace_back(place.section, place.range.lo);
+    }
     std::sort(begins.begin(), begins.end());
     const auto is_new = [&](std::size_t section, const LeafGraph::Leaf& leaf) {
       return leaf.verdict == Verdict::trapped &&

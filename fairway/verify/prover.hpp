@@ -45,7 +45,7 @@ class Prover {
   SectionVerdicts into_sections() {
     waiting_ = {};
     ways_out_ = {};
-    worth_asking_ = {};
+    worth_asking_ = std::vector<ModeSet>();
     return graph_.into_sections();
   }
 
