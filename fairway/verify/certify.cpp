@@ -55,8 +55,9 @@ Certified certify(const Flow& flow, const std::vector<bool>& is_free, const Cert
            std::chrono::duration<double>(Clock::now() - began).count() < options.time_limit_s;
   };
   if (start.first.empty()) start = undecided_sections(flow, options.first_level);
-  VolumeMeter meter(flow, is_free, options);
+  VolumeMeter meter(flow, is_free, options, !further_rad.empty());
   Prover prover(flow, start, options.most_crossings, go_on);
+  start = {};
   Certified answer;
   for (int level = options.first_level;; ++level) {
     const double least_units = std::ldexp(1.0, 32 - level);
@@ -79,7 +80,7 @@ Certified certify(const Flow& flow, const std::vector<bool>& is_free, const Cert
     } else {
       continue;
     }
-    answer.sections = prover.graph().sections();
+    answer.sections = prover.into_sections();
     break;
   }
   if (!further_rad.empty()) prove_modes(flow, further_rad, options, go_on, meter, answer);

@@ -32,8 +32,9 @@ class Components {
     open_.push_back(id);
     Visit visit{id, {}};
     for (const LeafGraph::Link& link : graph_.links(id)) {
-      graph_.for_leaves(link.section, link.range, [&](Id other) {
-        if (number_[other] != absent && other != id) visit.next.push_back(other);
+      graph_.for_leaves(link.section, link.range, [&](const LeafGraph::Leaf& other) {
+        const bool counts = other.id != LeafGraph::none && number_[other.id] != absent;
+        if (counts && other.id != id) visit.next.push_back(other.id);
       });
     }
     visits_.push_back(std::move(visit));

@@ -32,17 +32,21 @@ template <typename VerdictAt>
 VerdictSet image_verdicts(const LeafGraph& graph, LeafGraph::Id id, const VerdictAt& verdict_at) {
   VerdictSet found = graph.ends(id);
   if (graph.gave_up(id)) found.add(Verdict::undecided, 0.0);
+  if (graph.is_hopeless(id)) return found;
   double hops_s = 0.0;
   for (const LeafGraph::Link& link : graph.links(id)) {
     const auto flown_s = static_cast<double>(link.flown_s);
     if (!graph.has_leaves(link.section)) found.add(Verdict::undecided, 0.0);
-    graph.for_leaves(link.section, link.range, [&](LeafGraph::Id other) {
-      if (other == id && link.own_move > 0) {
-        const double hops = std::floor(width_of(graph.place(id).range) / link.own_move);
-        hops_s = std::max(hops_s, above(hops * flown_s));
-        return;
+    graph.for_leaves(link.section, link.range, [&](const LeafGraph::Leaf& other) {
+      if (other.id == id && link.hop != 0) {
+        const double move = graph.own_move(id, link);
+        if (move > 0.0) {
+          const double hops = std::floor(width_of(graph.place(id).range) / move);
+          hops_s = std::max(hops_s, above(hops * flown_s));
+          return;
+        }
       }
-      found.add(verdict_at(other), above(flown_s + static_cast<double>(graph.time_s(other))));
+      found.add(verdict_at(other), above(flown_s + static_cast<double>(other.time_s)));
     });
   }
   found.time_s = above(found.time_s + hops_s);
@@ -110,13 +114,20 @@ template <typename Stays>
 std::vector<LeafGraph::Id> greatest_by_removal(const LeafGraph& graph,
                                                std::vector<LeafGraph::Id> among,
                                                const Stays& stays) {
+  if (among.empty()) return among;
   std::vector<std::uint8_t> in(graph.ids(), 0);
-  const auto is_in = [&](LeafGraph::Id id) { return in[id] != 0; };
+  const auto is_in = [&](LeafGraph::Id id) { return id != LeafGraph::none && in[id] != 0; };
+  for (const LeafGraph::Id id : among) in[id] = 1;
+  // Most are found out at once, on all threads: each writes to its own place.
+  std::vector<std::uint8_t> doubted(among.size(), 0);
+  for_ranges(among.size(), 1024, [&](std::size_t a, std::size_t b) {
+    for (std::size_t k = a; k < b; ++k) doubted[k] = stays(among[k], is_in) ? 0 : 1;
+  });
   Worklist doubtful;
-  for (const LeafGraph::Id id : among) {
-    in[id] = 1;
-    doubtful.add(id);
+  for (std::size_t k = 0; k < among.size(); ++k) {
+    if (doubted[k] != 0) doubtful.add(among[k]);
   }
+  doubted = std::vector<std::uint8_t>();
   while (!doubtful.empty()) {
     const LeafGraph::Id id = doubtful.take_last();
     if (!is_in(id) || stays(id, is_in)) continue;

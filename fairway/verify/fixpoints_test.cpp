@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fairway/base/random.hpp"
+#include "fairway/verify/ways_out.hpp"
 
 namespace fairway {
 namespace {
@@ -126,7 +127,8 @@ TEST(GreatestByRemoval, IsTheLargestPartThatNothingLeads) {
       if (leak[id]) return false;
       bool all = true;
       for (const LeafGraph::Link& link : graph.links(id)) {
-        graph.for_leaves(link.section, link.range, [&](Id other) { all = all && is_in(other); });
+        graph.for_leaves(link.section, link.range,
+                         [&](const LeafGraph::Leaf& other) { all = all && is_in(other.id); });
       }
       return all;
     };
@@ -142,6 +144,101 @@ TEST(GreatestByRemoval, IsTheLargestPartThatNothingLeads) {
   }
 }
 
+/// Of the open leaves: those from which no way of links leads to a leak.
+std::vector<Id> lacking_a_way(const LeafGraph& graph, const std::vector<bool>& leak) {
+  std::vector<bool> out = leak;
+  for (bool more = true; more;) {
+    more = false;
+    for (Id id = 0; id < graph.ids(); ++id) {
+      if (!graph.is_open(id) || out[id]) continue;
+      bool leads_out = false;
+      for (const LeafGraph::Link& link : graph.links(id)) {
+        graph.for_leaves(link.section, link.range, [&](const LeafGraph::Leaf& other) {
+          leads_out = leads_out || (other.id != LeafGraph::none && out[other.id]);
+        });
+      }
+      out[id] = leads_out;
+      more = more || leads_out;
+    }
+  }
+  std::vector<Id> lacking;
+  for (Id id = 0; id < graph.ids(); ++id) {
+    if (graph.is_open(id) && !out[id]) lacking.push_back(id);
+  }
+  return lacking;
+}
+
+TEST(WaysOut, AreFoundAgainWhateverIsCutAndDecided) {
+  std::size_t lacked = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    Random random(seed);
+    const std::size_t n = 2 + random.below(60);
+    LeafGraph graph = drawn_graph(random_links(random, n, 1.2 / static_cast<double>(n)));
+    std::vector<bool> leak(n);
+    for (std::size_t i = 0; i < n; ++i) leak[i] = random.below(8) == 0;
+    WaysOut ways;
+    ways.forget_all(graph);
+    for (int step = 0; step < 60; ++step) {
+      const auto leaks = [&](Id id) { return leak[id]; };
+      const std::vector<Id> found = ways.lacking(graph, leaks);
+      ASSERT_EQ(found, lacking_a_way(graph, leak)) << seed << " " << step;
+      lacked += found.size();
+      for (std::size_t changes = random.below(4); changes > 0; --changes) {
+        const Id id = static_cast<Id>(random.below(graph.ids()));
+        if (!graph.is_open(id)) continue;
+        if (random.below(3) == 0) {  // what leads to it leaks
+          const LeafPlace place = graph.place(id);
+          graph.decide(id, Verdict::reach, 1, 1.0F);
+          graph.for_dependents(place.section, place.range, [&](Id other) {
+            leak[other] = true;
+            ways.forget_step(other, id);
+          });
+          graph.release(id);
+          continue;
+        }
+        const LeafPlace before = graph.place(id);
+        graph.for_dependents(before.section, before.range,
+                             [&](Id other) { ways.forget_step(other, id); });
+        const Id upper = graph.cut(id);
+        leak.resize(graph.ids());
+        for (const Id half : {id, upper}) {
+          std::vector<ImagePiece> pieces(random.below(3));
+          leak[half] = random.below(12) == 0;
+          for (ImagePiece& piece : pieces) {
+            piece = {static_cast<std::uint32_t>(random.below(n)), whole, 1.0F, false};
+            graph.for_leaves(piece.section, whole, [&](const LeafGraph::Leaf& other) {
+              leak[half] = leak[half] || other.verdict == Verdict::reach;
+            });
+          }
+          Image image;
+          image.pieces = pieces;
+          graph.set_image(half, image);
+          ways.forget(half);
+        }
+      }
+    }
+  }
+  EXPECT_GT(lacked, 10000U);
+}
+
+TEST(WaysOut, OfManyAreFoundOnAllThreads) {
+  // Chains of 100, some of which end in a leak.
+  constexpr Id length = 100;
+  std::vector<std::vector<Id>> chains(3000 * length);
+  for (Id id = 0; id < chains.size(); ++id) {
+    if (id % length + 1 < length) chains[id].push_back(id + 1);
+  }
+  const LeafGraph graph = drawn_graph(chains);
+  const auto leaks = [](Id id) { return id % length + 1 == length && id / length % 3 != 0; };
+  WaysOut ways;
+  ways.forget_all(graph);
+  for (int time = 0; time < 2; ++time) {
+    const std::vector<Id> found = ways.lacking(graph, leaks);
+    ASSERT_EQ(found.size(), chains.size() / 3);
+    for (const Id id : found) ASSERT_EQ(id / length % 3, 0U);
+  }
+}
+
 TEST(LeastByRounds, DecidesInTheRoundOfTheLongestWay) {
   // 3 ends; the others lead to the next, and 5 leads to itself forever.
   LeafGraph graph = drawn_graph({{1}, {2}, {3}, {}, {0, 3}, {5}});
@@ -152,8 +249,9 @@ TEST(LeastByRounds, DecidesInTheRoundOfTheLongestWay) {
     if (id == 3) return 1;
     bool all = !graph.links(id).empty();
     for (const LeafGraph::Link& link : graph.links(id)) {
-      graph.for_leaves(link.section, link.range,
-                       [&](Id other) { all = all && graph.verdict(other) == Verdict::reach; });
+      graph.for_leaves(link.section, link.range, [&](const LeafGraph::Leaf& other) {
+        all = all && other.verdict == Verdict::reach;
+      });
     }
     return all ? 1 : 0;
   };
@@ -171,11 +269,12 @@ TEST(LeastByRounds, DecidesInTheRoundOfTheLongestWay) {
   };
   EXPECT_TRUE(least_by_rounds(
       waiting, [] { return true; }, examine, conclude));
-  EXPECT_EQ(graph.rank(3), 1U);
-  EXPECT_EQ(graph.rank(2), 2U);
-  EXPECT_EQ(graph.rank(1), 3U);
-  EXPECT_EQ(graph.rank(0), 4U);
-  EXPECT_EQ(graph.rank(4), 5U);
+  const std::vector<std::uint32_t> rank = graph.sections().rank;  // a leaf a section
+  EXPECT_EQ(rank[3], 1U);
+  EXPECT_EQ(rank[2], 2U);
+  EXPECT_EQ(rank[1], 3U);
+  EXPECT_EQ(rank[0], 4U);
+  EXPECT_EQ(rank[4], 5U);
   EXPECT_TRUE(graph.is_open(5));
   waiting.add(5);
   EXPECT_FALSE(least_by_rounds(
@@ -195,7 +294,7 @@ TEST(ImageVerdicts, CountTheHopsOnTheLeafItself) {
   graph.set_image(own, image);
   graph.decide(upper, Verdict::reach, 1, 3.0F);
   graph.decide(1, Verdict::reach, 1, 4.0F);
-  const auto verdict_at = [&](Id id) { return graph.verdict(id); };
+  const auto verdict_at = [](const LeafGraph::Leaf& leaf) { return leaf.verdict; };
   const VerdictSet found = image_verdicts(graph, own, verdict_at);
   EXPECT_EQ(found.only(), Verdict::reach);
   const double hops = std::floor(width_of(range) / 1000.0);

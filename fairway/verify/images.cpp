@@ -137,9 +137,9 @@ VerdictSet verdicts_of(const Image& image, const SectionView& sections) {
   return found;
 }
 
-double least_move(const ImagePiece& hop, UnitRange leaf) {
-  if (hop.range.lo > leaf.lo) return static_cast<double>(hop.range.lo - leaf.lo);
-  if (hop.range.hi < leaf.hi) return static_cast<double>(leaf.hi - hop.range.hi);
+double least_move(UnitRange hop, UnitRange leaf) {
+  if (hop.lo > leaf.lo) return static_cast<double>(hop.lo - leaf.lo);
+  if (hop.hi < leaf.hi) return static_cast<double>(leaf.hi - hop.hi);
   return 0.0;
 }
 

@@ -85,6 +85,9 @@ VerdictSet verdicts_of(const Image& image, const SectionView& sections);
 /// How far, at least, the hop of a weave moves every state of the leaf along the border, in units;
 /// 0 when it may not move at all. All move alike (section_flight.hpp, property 4), so one end of
 /// the leaf is enough: the end that the side's end cannot have cut.
-double least_move(const ImagePiece& hop, UnitRange leaf);
+double least_move(UnitRange hop, UnitRange leaf);
+inline double least_move(const ImagePiece& hop, UnitRange leaf) {
+  return least_move(hop.range, leaf);
+}
 
 }  // namespace fairway

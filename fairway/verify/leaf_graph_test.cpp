@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "fairway/base/error.hpp"
@@ -44,20 +46,46 @@ struct PlainGraph {
     Id from;
     ImagePiece piece;
   };
-  std::map<Id, LeafPlace> leaf;  // not cut
+  struct Decided {
+    LeafPlace place;
+    float time_s;
+  };
+  std::map<Id, LeafPlace> leaf;  // open
+  std::vector<Decided> decided;
   std::vector<Piece> links;
 
-  std::vector<Id> on(std::size_t section, UnitRange range) const {
+  /// Start and id of each leaf there; none: decided.
+  std::vector<std::pair<std::uint32_t, Id>> on(std::size_t section, UnitRange range) const {
     std::vector<std::pair<std::uint32_t, Id>> found;
-    for (const auto& [id, place] : leaf) {
+    const auto add = [&](const LeafPlace& place, Id id) {
       if (place.section == section && overlap(place.range, range)) {
         found.emplace_back(place.range.lo, id);
       }
-    }
+    };
+    for (const auto& [id, place] : leaf) add(place, id);
+    for (const Decided& it : decided) add(it.place, LeafGraph::none);
     std::sort(found.begin(), found.end());
-    std::vector<Id> ids;
-    for (const auto& [lo, id] : found) ids.push_back(id);
-    return ids;
+    return found;
+  }
+  bool leads_to_decided(const ImagePiece& piece) const {
+    const auto found = on(piece.section, piece.range);
+    return std::all_of(found.begin(), found.end(),
+                       [](const auto& it) { return it.second == LeafGraph::none; });
+  }
+  /// Of what a leaf waits for, what is decided by now: forgotten. The longest time there.
+  double fold(Id id) {
+    double time_s = 0.0;
+    std::erase_if(links, [&](const Piece& link) {
+      if (link.from != id || !leads_to_decided(link.piece)) return false;
+      for (const Decided& it : decided) {
+        if (it.place.section != link.piece.section) continue;
+        if (!overlap(it.place.range, link.piece.range)) continue;
+        time_s = std::max(time_s,
+                          static_cast<double>(link.piece.flown_s) + static_cast<double>(it.time_s));
+      }
+      return true;
+    });
+    return time_s;
   }
   std::multiset<Id> into(std::size_t section, UnitRange range) const {
     std::multiset<Id> from;
@@ -65,6 +93,10 @@ struct PlainGraph {
       if (link.piece.section == section && overlap(link.piece.range, range)) from.insert(link.from);
     }
     return from;
+  }
+  std::size_t links_of(Id id) const {
+    return static_cast<std::size_t>(
+        std::count_if(links.begin(), links.end(), [id](const Piece& it) { return it.from == id; }));
   }
   void forget(Id id) {
     std::erase_if(links, [id](const Piece& link) { return link.from == id; });
@@ -84,11 +116,10 @@ TEST(LeafGraph, AgreesWithAPlainOneWhateverIsCutLinkedAndDecided) {
     LeafGraph graph(even_sections(sections, 1U << random.below(4)));
     PlainGraph plain;
     for (Id id = 0; id < graph.ids(); ++id) plain.leaf[id] = graph.place(id);
-    std::size_t decided = 0;
     for (int step = 0; step < 300; ++step) {
       const Id id = static_cast<Id>(random.below(graph.ids()));
       if (!graph.is_open(id)) continue;
-      const std::uint64_t act = random.below(5);
+      const std::uint64_t act = random.below(6);
       if (act == 0 && width_of(graph.place(id).range) > 4.0) {
         const LeafPlace whole_leaf = graph.place(id);
         const Id high = graph.cut(id);
@@ -100,36 +131,55 @@ TEST(LeafGraph, AgreesWithAPlainOneWhateverIsCutLinkedAndDecided) {
         ASSERT_EQ(graph.place(high).range.hi, whole_leaf.range.hi);
         ASSERT_TRUE(graph.links(id).empty());
       } else if (act == 1) {
-        graph.decide(id, Verdict::reach, 7, 1.5F);
+        const auto time_s = static_cast<float>(random.unit());
+        graph.decide(id, Verdict::reach, 7, time_s);
+        ASSERT_FALSE(graph.is_open(id));
+        graph.release(id);
         plain.forget(id);
-        ++decided;
+        plain.decided.push_back({plain.leaf[id], time_s});
+        plain.leaf.erase(id);
       } else {
-        std::vector<ImagePiece> pieces(random.below(4));
-        for (ImagePiece& piece : pieces) {
-          piece = {static_cast<std::uint32_t>(random.below(sections)), random_range(random),
-                   static_cast<float>(random.unit()), false};
+        if (act != 2) {
+          std::vector<ImagePiece> pieces(random.below(4));
+          for (ImagePiece& piece : pieces) {
+            piece = {static_cast<std::uint32_t>(random.below(sections)), random_range(random),
+                     static_cast<float>(random.unit()), false};
+          }
+          Image image;
+          image.pieces = pieces;
+          graph.keep_image(id, image);
+          plain.forget(id);
+          ASSERT_EQ(graph.links(id).size(), pieces.size());
+          for (std::size_t k = 0; k < pieces.size(); ++k) {
+            ASSERT_EQ(graph.links(id)[k].section, pieces[k].section);
+          }
+          for (const ImagePiece& piece : pieces) plain.links.push_back({id, piece});
         }
-        Image image;
-        image.pieces = pieces;
-        graph.set_image(id, image);
-        plain.forget(id);
-        for (const ImagePiece& piece : pieces) plain.links.push_back({id, piece});
-        ASSERT_EQ(graph.links(id).size(), pieces.size());
-        for (std::size_t k = 0; k < pieces.size(); ++k) {
-          ASSERT_EQ(graph.links(id)[k].section, pieces[k].section);
+        const double ended_s = graph.ends(id).time_s;
+        const std::size_t links = plain.links_of(id);
+        graph.await_links(id);
+        const double folded_s = plain.fold(id);
+        ASSERT_EQ(graph.links(id).size(), plain.links_of(id));
+        ASSERT_GE(graph.ends(id).time_s, std::max(ended_s, folded_s));
+        ASSERT_LE(graph.ends(id).time_s, std::max(ended_s, folded_s * (1.0 + 1e-12)));
+        if (graph.links(id).size() < links) {
+          ASSERT_EQ(graph.ends(id).only(), Verdict::reach);
         }
       }
-      ASSERT_EQ(graph.leaves(), plain.leaf.size());
-      ASSERT_EQ(graph.undecided(), plain.leaf.size() - decided);
+      ASSERT_EQ(graph.leaves(), plain.leaf.size() + plain.decided.size());
+      ASSERT_EQ(graph.undecided(), plain.leaf.size());
       const std::size_t section = random.below(sections);
       const UnitRange range = random.below(4) == 0 ? whole : random_range(random);
-      std::vector<Id> found;
-      graph.for_leaves(section, range, [&](Id leaf) { found.push_back(leaf); });
+      std::vector<std::pair<std::uint32_t, Id>> found;
+      graph.for_leaves(section, range, [&](const LeafGraph::Leaf& leaf) {
+        found.emplace_back(leaf.begin, leaf.id);
+      });
       ASSERT_EQ(found, plain.on(section, range)) << "seed " << seed << " step " << step;
       std::multiset<Id> from;
       graph.for_dependents(section, range, [&](Id leaf) { from.insert(leaf); });
       ASSERT_EQ(from, plain.into(section, range)) << "seed " << seed << " step " << step;
     }
+    ASSERT_LE(graph.ids(), plain.leaf.size() + plain.decided.size());
   }
 }
 
@@ -159,6 +209,11 @@ TEST(LeafGraph, FreesWhatDecidedLeavesHeldAndUsesItAgain) {
   for (Id id = 0; id < 4; ++id) graph.decide(id, Verdict::reach, 1, 1.0F);
   for (Id id = 4; id < 8; ++id) graph.set_image(id, image);
   EXPECT_LE(graph.bytes(), before + 200);  // the free list
+  const Id ids = graph.ids();
+  for (Id id = 0; id < 4; ++id) graph.release(id);
+  for (Id id = 4; id < 8; ++id) graph.cut(id);
+  EXPECT_EQ(graph.ids(), ids);
+  EXPECT_EQ(graph.leaves(), 12U);
 }
 
 TEST(LeafGraph, KnowsAHopOntoItsOwnSectionByHowFarItMoves) {
@@ -172,9 +227,9 @@ TEST(LeafGraph, KnowsAHopOntoItsOwnSectionByHowFarItMoves) {
   Image image;
   image.pieces = pieces;
   graph.set_image(id, image);
-  EXPECT_EQ(graph.links(id)[0].own_move, 1000U);
-  EXPECT_EQ(graph.links(id)[1].own_move, 0U);
-  EXPECT_EQ(graph.links(id)[2].own_move, 0U);
+  EXPECT_EQ(graph.own_move(id, graph.links(id)[0]), 1000.0);
+  EXPECT_EQ(graph.own_move(id, graph.links(id)[1]), 0.0);
+  EXPECT_EQ(graph.own_move(id, graph.links(id)[2]), 0.0);
 }
 
 TEST(LeafGraph, ThatDoesNotKeepLinksCannotBeInvalidated) {
@@ -227,8 +282,8 @@ TEST(LeafGraph, AfterAnInvalidationProvesWhatAProofFromScratchProves) {
           const auto verdict = static_cast<Verdict>(now.verdict[i]);
           if (verdict == Verdict::undecided) continue;
           const UnitRange inner{now.range_of(s, i).lo + 1, now.range_of(s, i).hi - 1};
-          fresh.graph().for_leaves(s, inner, [&](Id id) {
-            const Verdict other = fresh.graph().verdict(id);
+          fresh.graph().for_leaves(s, inner, [&](const LeafGraph::Leaf& leaf) {
+            const Verdict other = leaf.verdict;
             EXPECT_TRUE(other == Verdict::undecided || other == verdict)
                 << "seed " << seed << " section " << s;
             ++kept;
@@ -267,8 +322,8 @@ TEST(LeafGraph, AnInvalidationReachesLeavesThatWereDecidedWhenItBegan) {
   prover.settle(0x1p26);
   std::size_t before_it = 0;
   const std::size_t section = section_of(plan.grid.index({8, 1}), Side::right);
-  prover.graph().for_leaves(section, whole, [&](Id id) {
-    EXPECT_EQ(prover.graph().verdict(id), Verdict::collide);
+  prover.graph().for_leaves(section, whole, [&](const LeafGraph::Leaf& leaf) {
+    EXPECT_EQ(leaf.verdict, Verdict::collide);
     ++before_it;
   });
   EXPECT_GT(before_it, 0U);

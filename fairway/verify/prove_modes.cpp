@@ -76,7 +76,7 @@ void prove_modes(const Flow& flow, std::span<const float* const> further_rad,
       if (!settled || (level > first_level + 2 && gain < least_gain)) break;
     }
     proved.emplace_back();
-    append_reaching(prover.graph().sections(), proved.back());
+    append_reaching(prover.into_sections(), proved.back());
     earlier.push_back({mode, proved.back().view()});
     append_reaching(proved.back(), answer.further);
   }

@@ -21,6 +21,7 @@
 #include "fairway/verify/hand_over.hpp"
 #include "fairway/verify/leaf_graph.hpp"
 #include "fairway/verify/section_verdicts.hpp"
+#include "fairway/verify/ways_out.hpp"
 
 namespace fairway {
 
@@ -40,28 +41,47 @@ class Prover {
   void invalidate(const std::vector<bool>& changed_cells);
 
   const LeafGraph& graph() const { return graph_; }
+  /// The leaves, when the work is done: frees everything else first.
+  SectionVerdicts into_sections() {
+    waiting_ = {};
+    ways_out_ = {};
+    worth_asking_ = std::vector<ModeSet>();
+    return graph_.into_sections();
+  }
 
   /// Adds the verdicts of the leaves that touch `range`.
   void look_up(std::size_t section, UnitRange range, double flown_s, VerdictSet& found) const;
 
   std::size_t bytes() const {
-    return graph_.bytes() + waiting_.bytes() + worth_asking_.capacity() * sizeof(ModeSet);
+    return graph_.bytes() + waiting_.bytes() + ways_out_.bytes() +
+           worth_asking_.capacity() * sizeof(ModeSet);
   }
 
  private:
   using Id = LeafGraph::Id;
+  /// What an image has led to. A round may have millions of these.
   struct Finding {
-    VerdictSet found;
+    float time_s = 0.0F;    ///< upper bound
+    std::uint8_t bits = 0;  ///< verdicts found, as in VerdictSet
     bool cut = false;
+
+    Verdict only() const { return VerdictSet{bits, 0.0}.only(); }
+    bool decides() const;
   };
 
-  void fly(std::vector<Id> ids);
-  std::vector<Id> not_handed_over(const std::vector<Id>& ids);
+  void fly(std::span<const Id> ids);
+  void fly_some(std::span<const Id> ids);
+  std::vector<Id> not_handed_over(std::span<const Id> ids);
   bool is_worth_cutting(Id id) const;
   Finding examine(Id id, double least_units) const;
   void conclude(const std::vector<Id>& round, const std::vector<Finding>& findings);
+  void keep_waiting(Id id, const Finding& finding);
+  void cut(std::span<const Id> ids);
   void wake_dependents(Id id);
+  void forget_ways_over(Id id);
   void prove_trapped();
+  template <typename IsNew>
+  bool hopeless_lead_to(const IsNew& is_new) const;
 
   Flow flow_;
   int most_crossings_;
@@ -70,7 +90,11 @@ class Prover {
   LeafGraph graph_;
   std::vector<ModeSet> worth_asking_;  // [id] or shorter: every mode
   Worklist waiting_;
+  WaysOut ways_out_;  // to find those that are trapped
   std::uint32_t rank_ = 0;
+  bool may_give_up_hope_;
+  bool last_round_decided_ = false;
+  bool is_new_since_trapped_ = true;  // an image
 };
 
 }  // namespace fairway

@@ -117,6 +117,35 @@ TEST(Prover, KeepsTheRuleForEveryLeafItProves) {
   EXPECT_GT(trapped, 10U);
 }
 
+/// What is forgotten of leaves that are decided, or that can only be cut, changes nothing: not even
+/// ranks, which count rounds.
+TEST(Prover, ProvesTheSameWhetherItKeepsAllLinksOrNot) {
+  std::size_t decided = 0;
+  for (std::uint64_t number = 0; number < 60; ++number) {
+    Plan plan = random_plan(number);
+    if (number % 4 == 0) turn_to_a_vortex(plan);
+    const PlanFlow plan_flow(plan);
+    const Flow flow = plan_flow.flow();
+    Prover lean(flow, undecided_sections(flow, 2), most_crossings, always);
+    Prover full(flow, undecided_sections(flow, 2), most_crossings, always,
+                LeafGraph::Keep::all_links);
+    for (int level = 2; level <= 9; ++level) {
+      lean.settle(std::ldexp(1.0, 32 - level));
+      full.settle(std::ldexp(1.0, 32 - level));
+    }
+    EXPECT_EQ(lean.graph().undecided(), full.graph().undecided());
+    const SectionVerdicts kept = full.graph().sections();
+    const SectionVerdicts same = lean.into_sections();
+    ASSERT_EQ(same.first, kept.first) << number;
+    ASSERT_EQ(same.begin, kept.begin) << number;
+    ASSERT_EQ(same.verdict, kept.verdict) << number;
+    ASSERT_EQ(same.rank, kept.rank) << number;
+    ASSERT_EQ(same.time_s, kept.time_s) << number;
+    for (const std::uint8_t verdict : same.verdict) decided += verdict != 0;
+  }
+  EXPECT_GT(decided, 20000U);
+}
+
 TEST(Prover, ProvesForPlacesWhatExactFlightsDoAndWithinTheTime) {
   Random random(2);
   int flown = 0;

@@ -51,17 +51,17 @@ LeafGraph flown(const Flow& flow, const SectionVerdicts& claimed, int most_cross
 
 /// The rule, where `holds[leaf]` says which verdicts count.
 bool obeys_the_rule(const LeafGraph& graph, Id id, const std::vector<std::uint8_t>& holds) {
-  const auto verdict_at = [&](Id other) {
-    return holds[other] != 0 ? graph.verdict(other) : Verdict::undecided;
+  const auto verdict_at = [&](const LeafGraph::Leaf& other) {
+    return holds[other.id] != 0 ? other.verdict : Verdict::undecided;
   };
   const VerdictSet found = image_verdicts(graph, id, verdict_at);
   if (found.only() != graph.verdict(id)) return false;
   if (graph.verdict(id) == Verdict::trapped) return true;
   bool ranks_fall = true;
   for (const LeafGraph::Link& link : graph.links(id)) {
-    graph.for_leaves(link.section, link.range, [&](Id other) {
-      const bool hops_off = other == id && link.own_move > 0;
-      ranks_fall = ranks_fall && (hops_off || graph.rank(other) < graph.rank(id));
+    graph.for_leaves(link.section, link.range, [&](const LeafGraph::Leaf& other) {
+      const bool hops_off = other.id == id && graph.own_move(id, link) > 0.0;
+      ranks_fall = ranks_fall && (hops_off || graph.rank(other.id) < graph.rank(id));
     });
   }
   return ranks_fall && found.time_s <= static_cast<double>(graph.time_s(id));
@@ -70,7 +70,7 @@ bool obeys_the_rule(const LeafGraph& graph, Id id, const std::vector<std::uint8_
 /// Further work needs ranks above these: ranks that no correct proof would reach are renumbered in
 /// their order, which is all that matters.
 void make_room_above(std::vector<std::uint32_t>& rank) {
-  constexpr std::uint32_t high = 0x7fffffff;
+  constexpr std::uint32_t high = 0x10000000;
   if (rank.empty() || *std::max_element(rank.begin(), rank.end()) < high) return;
   std::vector<std::uint32_t> in_order = rank;
   std::sort(in_order.begin(), in_order.end());

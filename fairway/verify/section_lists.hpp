@@ -1,10 +1,15 @@
-// A list for each section, all in one array: a list is a block of the array that grows into one of
-// twice the size; its old block is reused by other lists.
+// A list for each section: a block of its own that grows by a quarter, and shrinks again. The lists
+// of neighbours grow and shrink at different times, so that an allocator that joins free blocks
+// keeps them with less room than blocks of fixed sizes in one array.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <new>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "fairway/base/error.hpp"
@@ -14,66 +19,97 @@ namespace fairway {
 template <typename T>
 class SectionLists {
  public:
-  explicit SectionLists(std::size_t sections) : list_(sections) {}
+  static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= alignof(std::uint64_t));
+
+  explicit SectionLists(std::size_t sections) : list_(sections, nullptr) {}
+  SectionLists(SectionLists&& other) noexcept
+      : list_(std::exchange(other.list_, {})), bytes_(std::exchange(other.bytes_, 0)) {}
+  SectionLists& operator=(SectionLists&& other) noexcept {
+    std::swap(list_, other.list_);
+    std::swap(bytes_, other.bytes_);
+    return *this;
+  }
+  ~SectionLists() {
+    for (Block* const block : list_) std::free(block);
+  }
 
   std::size_t size() const { return list_.size(); }
   std::span<const T> operator[](std::size_t section) const {
-    return {slot_.data() + list_[section].first, list_[section].count};
+    const Block* const block = list_[section];
+    return block == nullptr ? std::span<const T>{} : std::span(entries(block), block->count);
   }
-  void add(std::size_t section, const T& value) { insert(section, list_[section].count, value); }
+  std::span<T> operator[](std::size_t section) {
+    Block* const block = list_[section];
+    return block == nullptr ? std::span<T>{} : std::span(entries(block), block->count);
+  }
+  /// For a list that begins, with room for `count` entries and no more.
+  void make_room(std::size_t section, std::size_t count) {
+    if (count > 0) resize(section, count);
+  }
+  void add(std::size_t section, const T& value) { insert(section, (*this)[section].size(), value); }
   void insert(std::size_t section, std::size_t at, const T& value) {
-    List& list = list_[section];
-    if (list.count == capacity(list)) grow(list);
-    T* const block = slot_.data() + list.first;
-    for (std::size_t i = list.count; i > at; --i) block[i] = block[i - 1];
-    block[at] = value;
-    ++list.count;
+    Block* block = list_[section];
+    if (block == nullptr || block->count == block->room) block = resize(section, grown(block));
+    T* const entry = entries(block);
+    for (std::size_t i = block->count; i > at; --i) entry[i] = entry[i - 1];
+    entry[at] = value;
+    ++block->count;
   }
   /// The last entry replaces the one removed.
   void remove(std::size_t section, std::size_t at) {
-    List& list = list_[section];
-    T* const block = slot_.data() + list.first;
-    block[at] = block[--list.count];
+    Block* const block = list_[section];
+    T* const entry = entries(block);
+    entry[at] = entry[--block->count];
+    if (block->count == 0 || block->count + least_waste < block->room / 2) {
+      resize(section, block->count);
+    }
   }
-  void clear(std::size_t section) { list_[section].count = 0; }
+  void clear(std::size_t section) {
+    if (list_[section] == nullptr) return;
+    list_[section]->count = 0;
+    resize(section, 0);
+  }
 
-  std::size_t bytes() const {
-    std::size_t total = list_.capacity() * sizeof(List) + slot_.capacity() * sizeof(T);
-    for (const auto& unused : free_) total += unused.capacity() * sizeof(std::uint32_t);
-    return total;
-  }
+  std::size_t bytes() const { return list_.capacity() * sizeof(Block*) + bytes_; }
 
  private:
-  static constexpr std::uint8_t no_block = 0xff;
-  struct List {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-    std::uint8_t power = no_block;  // it has room for 2^power
+  static constexpr std::uint32_t least_waste = 4;
+  struct Block {
+    std::uint32_t count;
+    std::uint32_t room;
   };
-  static std::uint32_t capacity(const List& list) {
-    return list.power == no_block ? 0U : std::uint32_t{1} << list.power;
+  static_assert(sizeof(Block) % alignof(T) == 0);
+
+  static const T* entries(const Block* block) { return reinterpret_cast<const T*>(block + 1); }
+  static T* entries(Block* block) { return reinterpret_cast<T*>(block + 1); }
+  static std::size_t bytes_of(std::size_t room) {  // with the allocator's own
+    return (sizeof(Block) + room * sizeof(T) + sizeof(std::size_t) + 15) / 16 * 16;
   }
-  void grow(List& list) {
-    const auto power = static_cast<std::uint8_t>(list.power == no_block ? 1 : list.power + 1);
-    if (free_.size() <= power) free_.resize(power + std::size_t{1});
-    std::uint32_t first = static_cast<std::uint32_t>(slot_.size());
-    if (free_[power].empty()) {
-      require(slot_.size() + (std::size_t{1} << power) <= ~std::uint32_t{0},
-              "the lists together hold fewer than 2^32 entries");
-      slot_.resize(slot_.size() + (std::size_t{1} << power));
-    } else {
-      first = free_[power].back();
-      free_[power].pop_back();
+  /// More room than a block has, and as much as the allocator gives anyway.
+  static std::size_t grown(const Block* block) {
+    const std::size_t count = block == nullptr ? 0 : block->count;
+    const std::size_t least = count + 1 + count / 4;
+    return (bytes_of(least) - sizeof(std::size_t) - sizeof(Block)) / sizeof(T);
+  }
+  Block* resize(std::size_t section, std::size_t room) {
+    Block*& block = list_[section];
+    require(room < ~std::uint32_t{0}, "a list has fewer than 2^32 entries");
+    bytes_ -= block == nullptr ? 0 : bytes_of(block->room);
+    if (room == 0) {
+      std::free(std::exchange(block, nullptr));
+      return nullptr;
     }
-    for (std::uint32_t i = 0; i < list.count; ++i) slot_[first + i] = slot_[list.first + i];
-    if (list.power != no_block) free_[list.power].push_back(list.first);
-    list.first = first;
-    list.power = power;
+    auto* const moved = static_cast<Block*>(std::realloc(block, sizeof(Block) + room * sizeof(T)));
+    if (moved == nullptr) throw std::bad_alloc();
+    if (block == nullptr) moved->count = 0;
+    block = moved;
+    block->room = static_cast<std::uint32_t>(room);
+    bytes_ += bytes_of(room);
+    return block;
   }
 
-  std::vector<List> list_;
-  std::vector<T> slot_;
-  std::vector<std::vector<std::uint32_t>> free_;  // [power] free blocks
+  std::vector<Block*> list_;
+  std::size_t bytes_ = 0;
 };
 
 }  // namespace fairway

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "fairway/base/error.hpp"
 #include "fairway/base/parallel.hpp"
 #include "fairway/base/random.hpp"
 
@@ -39,16 +40,17 @@ std::vector<Place> sampled_states(const Flow& flow, const CertifyOptions& option
   return states;
 }
 
-std::vector<std::size_t> numbers_below(std::size_t count) {
-  std::vector<std::size_t> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+std::vector<std::uint32_t> numbers_below(std::size_t count) {
+  require(count <= ~std::uint32_t{0}, "there are fewer than 2^32 samples");
+  std::vector<std::uint32_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), std::uint32_t{0});
   return numbers;
 }
 
 }  // namespace
 
 VolumeMeter::VolumeMeter(const Flow& flow, const std::vector<bool>& is_free,
-                         const CertifyOptions& options)
+                         const CertifyOptions& options, bool has_modes)
     : flow_(flow),
       is_free_(is_free),
       most_crossings_(options.most_crossings),
@@ -56,7 +58,9 @@ VolumeMeter::VolumeMeter(const Flow& flow, const std::vector<bool>& is_free,
       asked_(numbers_below(states_.size())),
       images_(state_images(flow, states_, options.most_crossings, [] { return true; })),
       found_(states_.size()),
-      mode_(states_.size(), 0) {}
+      mode_(states_.size(), 0) {
+  if (!has_modes) states_ = std::vector<Place>();
+}
 
 void VolumeMeter::begin_mode(const Flow& flow) {
   ++now_;
@@ -88,11 +92,11 @@ VolumeFractions VolumeMeter::measure(const Prover& prover) {
 
 VolumeFractions VolumeMeter::fractions() const {
   VolumeFractions volume;
-  volume.samples = states_.size();
+  volume.samples = found_.size();
   volume.reach_by_mode.assign(now_ + std::size_t{1}, 0.0);
   const auto cells = static_cast<std::size_t>(
       std::count(flow_.kind, flow_.kind + flow_.grid.size(), CellKind::ordinary));
-  const std::size_t each = cells == 0 ? 0 : states_.size() / cells;
+  const std::size_t each = cells == 0 ? 0 : found_.size() / cells;
   std::size_t free_count = 0;
   std::size_t commanded_count = 0;
   std::size_t usable_count = 0;
@@ -112,7 +116,7 @@ VolumeFractions VolumeMeter::fractions() const {
         commanded_count += is_free_[c] ? 1 : 0;
       }
       if (verdict == Verdict::reach) {
-        volume.reach_by_mode[mode_[i]] += 1.0 / static_cast<double>(states_.size());
+        volume.reach_by_mode[mode_[i]] += 1.0 / static_cast<double>(found_.size());
         volume.worst_time_s = std::max(volume.worst_time_s, found_[i].time_s);
       }
     }
@@ -120,11 +124,11 @@ VolumeFractions VolumeMeter::fractions() const {
   const auto share = [](std::array<double, verdict_count>& counts, std::size_t of) {
     for (double& count : counts) count = of == 0 ? 0.0 : count / static_cast<double>(of);
   };
-  share(volume.all, states_.size());
+  share(volume.all, found_.size());
   share(volume.free, free_count);
   share(volume.commanded, commanded_count);
   share(volume.usable, usable_count);
-  share(volume.buffer, states_.size() - free_count);
+  share(volume.buffer, found_.size() - free_count);
   return volume;
 }
 
