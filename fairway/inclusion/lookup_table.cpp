@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fairway/base/parallel.hpp"
 #include "fairway/inclusion/set_flight.hpp"
