@@ -7,6 +7,11 @@
 #include "fairway/base/error.hpp"
 
 namespace fairway {
+namespace {
+
+constexpr std::uint32_t chunk = std::uint32_t{1} << 14;  // entries of ChunkedArray
+
+}  // namespace
 
 LeafGraph::LeafGraph(const SectionVerdicts& start, Keep keep)
     : keep_(keep), on_section_(start.first.size() - 1), dependents_(start.first.size() - 1) {
@@ -61,7 +66,8 @@ LeafGraph::Known LeafGraph::known(Id id) const {
 
 std::uint32_t LeafGraph::room_for(std::uint32_t count) {
   if (free_.size() <= count) free_.resize(count + std::size_t{1});
-  if (free_[count].empty()) return link_.add(count);
+  // Next to a block longer than a chunk there is no other.
+  if (free_[count].empty()) return link_.add(count <= chunk ? count : (count / chunk + 1) * chunk);
   const std::uint32_t first = free_[count].back();
   free_[count].pop_back();
   return first;
@@ -145,7 +151,8 @@ void LeafGraph::await_links(Id id) {
     if (!awaits) dependents_.add(this_one.section, {this_one.range, id});
     link[left++] = this_one;
   }
-  free_room(open.first_link + left, open.link_count - left);
+  // Of a block longer than a chunk what is over is lost: it could not be named from its middle.
+  if (open.link_count <= chunk) free_room(open.first_link + left, open.link_count - left);
   open.link_count = left;
   open.flags |= awaits_flag;
 }
