@@ -130,7 +130,7 @@ void bind_contract_certificate(py::module_& m) {
   add_grid(certificate, [](const HeldContractCertificate& held) { return held.certificate.grid; });
   certificate
       .def("query", &query, "states"_a, py::kw_only(), "search"_a = true,
-           R"(Looks up the proved verdicts of states, in 0.02 to 0.1 ms each.
+           R"(Looks up the proved verdicts of states, in microseconds each.
 
 states  float64 [n, 3]: x_m, y_m, heading_rad
 search  from undecided states, search for a behaviour within the contract that fails: found, the
