@@ -27,8 +27,8 @@ struct ClaimedCells {
   std::size_t modes = 1;
 };
 
-/// Of the state at (x, y), in cells from the centre of an ordinary cell. Called by several threads at
-/// once.
+/// Of the state at (x, y), in cells from the centre of an ordinary cell. Called by several threads
+/// at once.
 using TellState = std::function<Told(std::size_t cell, double x, double y, double heading_rad)>;
 
 /// "" when no claimed share of volume is farther than five standard errors (of both samples) from
