@@ -70,7 +70,7 @@ class SectionLists {
     resize(section, 0);
   }
 
-  std::size_t bytes() const { return list_.capacity() * sizeof(Block*) + bytes_; }
+  std::size_t bytes() const { return list_.capacity() * sizeof(void*) + bytes_; }
 
  private:
   static constexpr std::uint32_t least_waste = 4;
