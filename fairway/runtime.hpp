@@ -287,6 +287,7 @@ class ModePilot {
       : certificate_(certificate), choice_(certificate.proof()) {}
 
   /// What to steer now. `answer.verdict` other than reach: what was proved does not hold from here.
+  /// Then modes are simulated, once in each cell, which may take milliseconds (mode_trial.hpp).
   struct Steered {
     Command command;
     Answer answer;

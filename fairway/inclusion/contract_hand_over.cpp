@@ -36,14 +36,14 @@ double time_of_states(const Parts& parts, const ConvexSet& set, const TimeOfPiec
   const auto below = [](double v) { return static_cast<int>(std::floor(v - place_slack)); };
   const auto above = [](double v) { return static_cast<int>(std::floor(v + place_slack)); };
   double worst_s = 0.0;
-  for (int iy = below(lowest.y); iy <= above(highest.y); ++iy) {
-    for (int ix = below(lowest.x); ix <= above(highest.x); ++ix) {
+  const int last_x = std::min(above(highest.x), parts.nx() - 1);
+  const int last_y = std::min(above(highest.y), parts.ny() - 1);
+  for (int iy = std::max(below(lowest.y), 0); iy <= last_y; ++iy) {
+    for (int ix = std::max(below(lowest.x), 0); ix <= last_x; ++ix) {
       const PartPlace part{ix, iy};
       const PartKind kind = parts.kind(part);
-      // The vehicle is not in an obstacle: its flight would have ended. Nor in a goal.
-      if (kind == PartKind::obstacle || kind == PartKind::outside || kind == PartKind::goal) {
-        continue;
-      }
+      // The vehicle is not in an obstacle: its flight would have ended. Nor in a goal, nor outside.
+      if (kind == PartKind::obstacle || kind == PartKind::goal) continue;
       const ConvexSet piece = set.within(grown_box(part));
       if (piece.empty()) continue;
       if (kind != PartKind::ordinary) return ReachBoxes::not_proved;

@@ -218,12 +218,12 @@ void CrossingGraph::fly(const Parts& parts, const BehaviourOptions& options,
   fly_batch();
 }
 
+void CrossingGraph::forget_links() {
+  place_.assign(leaf_.size(), {});
+  links_ = {};
+}
+
 void CrossingGraph::cut(const std::vector<bool>& which) {
-  if (which.empty()) {
-    place_.assign(leaf_.size(), {});
-    links_ = {};
-    return;
-  }
   // One array after the other, so that only one of them is there twice.
   const auto more = std::count(which.begin(), which.end(), true);
   const std::size_t count = leaf_.size() + static_cast<std::size_t>(more);

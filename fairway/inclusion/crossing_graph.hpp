@@ -128,8 +128,9 @@ class CrossingGraph {
   /// Flies all fresh leaves, for as long as `go_on` (asked by several threads at once) says so; the
   /// others stay fresh.
   void fly(const Parts& parts, const BehaviourOptions& options, const std::function<bool()>& go_on);
-  /// Cuts these leaves in halves, which are fresh, and forgets links of closed ones ({}: of all).
+  /// Cuts these leaves in halves, which are fresh, and forgets the links of closed leaves.
   void cut(const std::vector<bool>& which);
+  void forget_links();
 
   std::size_t bytes() const {
     return first_.capacity() * sizeof(Id) + leaf_.capacity() * sizeof(Leaf) +

@@ -137,7 +137,7 @@ bool InclusionProver::run(const std::function<void(const InclusionLevel&)>& prog
     return true;
   };
   const bool done = decide_levels();
-  graph_.cut({});  // nobody asks for links any more
+  graph_.forget_links();
   return done;
 }
 

@@ -66,6 +66,19 @@ std::vector<Asked> some_states(const Parts& parts, std::size_t count, Random& ra
   return states;
 }
 
+/// How a behaviour ends within that way, in metres; undecided, if it does not.
+Verdict end_of(Behaviour behaviour, const Flow& flow, double step_m, double most_m) {
+  CellKind kind = flow.kind_at(flow.grid.cell_of(behaviour.place()));
+  for (double way = 0.0; kind == CellKind::ordinary && way < most_m; way += step_m) {
+    behaviour.step(step_m);
+    kind = flow.kind_at(flow.grid.cell_of(behaviour.place()));
+  }
+  return kind == CellKind::obstacle  ? Verdict::collide
+         : kind == CellKind::outside ? Verdict::leave
+         : kind == CellKind::target  ? Verdict::reach
+                                     : Verdict::undecided;
+}
+
 TEST(QuickLookup, AnswersWhatAFlightAnswersButForAFew) {
   std::array<int, verdict_count> seen{};
   int more = 0;
@@ -115,17 +128,8 @@ TEST(QuickLookup, EveryBehaviourDoesWhatItAnswersAndInTime) {
       if (answer.verdict == Verdict::undecided || answer.verdict == Verdict::trapped) continue;
       const Vec2 from = c.parts.part_m() * s.place + flow.grid.corner({0, 0});
       for (int flight = 0; flight < 4; ++flight) {
-        Behaviour behaviour(flow, commands, c.contract, from, s.heading_rad, random.bits());
-        CellKind kind = flow.kind_at(flow.grid.cell_of(from));
-        for (double way = 0.0; kind == CellKind::ordinary && way < answer.worst_time_s + step_m;
-             way += step_m) {
-          behaviour.step(step_m);
-          kind = flow.kind_at(flow.grid.cell_of(behaviour.place()));
-        }
-        const Verdict end = kind == CellKind::obstacle  ? Verdict::collide
-                            : kind == CellKind::outside ? Verdict::leave
-                            : kind == CellKind::target  ? Verdict::reach
-                                                        : Verdict::undecided;
+        const Behaviour behaviour(flow, commands, c.contract, from, s.heading_rad, random.bits());
+        const Verdict end = end_of(behaviour, flow, step_m, answer.worst_time_s + step_m);
         ASSERT_EQ(end, answer.verdict)
             << "seed " << seed << ": " << s.place.x << ", " << s.place.y << ", " << s.heading_rad;
         ++ended[static_cast<std::size_t>(end)];
@@ -174,16 +178,10 @@ TEST(QuickLookup, ASetReachesIfAllItsBehavioursDoAndInTime) {
             headings.lo_rad + headings.width_rad * (flight == 0   ? 0.0
                                                     : flight == 1 ? 1.0
                                                                   : random.unit());
-        Behaviour behaviour(flow, commands, c.contract,
-                            c.parts.part_m() * place + flow.grid.corner({0, 0}), heading_rad,
-                            random.bits());
-        CellKind kind = CellKind::ordinary;
-        for (double way = 0.0; kind == CellKind::ordinary && way < found.time_s + step_m;
-             way += step_m) {
-          behaviour.step(step_m);
-          kind = flow.kind_at(flow.grid.cell_of(behaviour.place()));
-        }
-        ASSERT_EQ(kind, CellKind::target)
+        const Behaviour behaviour(flow, commands, c.contract,
+                                  c.parts.part_m() * place + flow.grid.corner({0, 0}), heading_rad,
+                                  random.bits());
+        ASSERT_EQ(end_of(behaviour, flow, step_m, found.time_s + step_m), Verdict::reach)
             << "seed " << seed << ": " << place.x << ", " << place.y << ", " << heading_rad;
       }
     }
