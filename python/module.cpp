@@ -50,6 +50,7 @@ void bind_modes(py::module_& m);
 void bind_contract_certificate(py::module_& m);
 void bind_cellular(py::module_& m);
 void bind_bitmap(py::module_& m);
+void bind_best_plan(py::module_& m);
 
 }  // namespace fairway::python
 
@@ -80,4 +81,5 @@ PYBIND11_MODULE(_fairway, m) {
   bind_steer(m);
   bind_report(m);
   bind_run(m);
+  bind_best_plan(m);  // after run, whose answer tuning gives, too
 }

@@ -28,7 +28,7 @@ struct ImproveArguments {
   ImprovementOptions options;
 };
 
-json shares_json(const ProvedShares& shares) {
+json shares_json(const SharesKept& shares) {
   json value = {{"exact", shares.exact}};
   if (shares.under_contract) value["under_contract"] = *shares.under_contract;
   return value;

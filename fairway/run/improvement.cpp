@@ -43,8 +43,8 @@ class Judge {
   Judge(const std::string& where, const ImprovementOptions& options)
       : where_(where), options_(options) {}
 
-  ProvedShares operator()(const Plan& plan, double limit_s) const {
-    ProvedShares proved;
+  SharesKept operator()(const Plan& plan, double limit_s) const {
+    SharesKept proved;
     if (!follows(plan)) {
       CertifyOptions certify;
       certify.undecided_max = options_.undecided_max;
@@ -82,7 +82,7 @@ class Judge {
   const ImprovementOptions& options_;
 };
 
-bool is_better(const ProvedShares& now, const ProvedShares& before) {
+bool is_better(const SharesKept& now, const SharesKept& before) {
   return now.exact > before.exact_at_most &&
          now.under_contract.value_or(0.0) >= before.under_contract.value_or(0.0);
 }
@@ -151,7 +151,7 @@ Improvement improved(const Plan& plan, const std::string& where, const Improveme
     Plan candidate = proposed(plan, manner, options, clock);
     if (differing_cells(plan, candidate).empty()) continue;
     clock.begin("proving the improved plan", unknown_time);
-    const ProvedShares proved = judge(candidate, limit_s);
+    const SharesKept proved = judge(candidate, limit_s);
     ++made.attempts;
     if (!is_better(proved, made.before)) continue;
     made.after = proved;

@@ -34,7 +34,7 @@ struct ImprovementOptions {
 };
 
 /// Shares of all states that are proved to do what the mission asks.
-struct ProvedShares {
+struct SharesKept {
   double exact = 0.0;
   double exact_at_most = 0.0;  ///< with what the proof left undecided before its end
   std::optional<double> under_contract;
@@ -43,8 +43,8 @@ struct ProvedShares {
 struct Improvement {
   Plan plan;                         ///< the improved one, or the one that was given
   std::vector<std::size_t> changed;  ///< cells whose commands differ
-  ProvedShares before;
-  ProvedShares after;        ///< of `plan`
+  SharesKept before;
+  SharesKept after;          ///< of `plan`
   std::size_t attempts = 0;  ///< improved plans that were proved
 };
 

@@ -351,6 +351,38 @@ class Bitmap:
         self, path: _Path, headings_rad: Optional[List[float]] = ..., *, force: bool = ...
     ) -> None: ...
 
+class Ceiling:
+    @property
+    def all(self) -> _Pair: ...
+    @property
+    def free(self) -> _Pair: ...
+    @property
+    def buffer(self) -> _Pair: ...
+    @property
+    def levels(self) -> int: ...
+    @property
+    def complete(self) -> bool: ...
+    @property
+    def inside(self) -> NDArray[np.float32]: ...
+    @property
+    def lost(self) -> NDArray[np.float32]: ...
+    def picture(self, title: str = ...) -> Picture: ...
+    def save(self, path: _Path, *, force: bool = ...) -> None: ...
+
+class Improvement:
+    @property
+    def plan(self) -> Plan: ...
+    @property
+    def improved(self) -> bool: ...
+    @property
+    def changes(self) -> NDArray[np.float64]: ...
+    @property
+    def proved_before(self) -> Dict[str, Optional[float]]: ...
+    @property
+    def proved_after(self) -> Dict[str, Optional[float]]: ...
+    @property
+    def attempts(self) -> int: ...
+
 class DubinsPath:
     @property
     def length_m(self) -> float: ...
@@ -546,4 +578,46 @@ def follow_waypoints(
     tie_m: float = ...,
     step_m: Optional[float] = ...,
 ) -> WaypointFlight: ...
+def ceiling(
+    plan: Plan,
+    *,
+    gap_max: float = ...,
+    levels_max: int = ...,
+    time_limit_s: Optional[float] = ...,
+    memory_limit_mb: float = ...,
+    progress: Optional[_Progress] = ...,
+) -> Ceiling: ...
+def improve(
+    plan: Plan,
+    *,
+    undecided_max: float = ...,
+    time_limit_s: Optional[float] = ...,
+    sweeps: int = ...,
+    most_bend_rad: Optional[float] = ...,
+    progress: Optional[_Progress] = ...,
+) -> Improvement: ...
+def compare(
+    plans: List[_Path],
+    dir: Optional[_Path] = ...,
+    *,
+    force: bool = ...,
+    quick: bool = ...,
+    states: int = ...,
+    seed: int = ...,
+    time_limit_s: float = ...,
+    progress: Optional[_Progress] = ...,
+) -> Dict[str, Any]: ...
+def tune(
+    scenario: _Path,
+    dir: _Path,
+    *,
+    vary: List[str] = ...,
+    objective: str = ...,
+    evaluations: int = ...,
+    time_limit_s: Optional[float] = ...,
+    finalists: int = ...,
+    resume: bool = ...,
+    force: bool = ...,
+    progress: Optional[_Progress] = ...,
+) -> RunResult: ...
 def limit_threads(n: Optional[int]) -> None: ...
