@@ -34,6 +34,7 @@ demo: build
 	build/release/bin/fairway run demo/contract.toml -o out/contract --force
 	build/release/bin/fairway run demo/track.toml -o out/track --force
 	build/release/bin/fairway run demo/town.toml -o out/town --force
+	build/release/bin/fairway run demo/street.toml -o out/street --force
 	build/release/bin/fairway run demo/demo.toml -o out/demo --force
 
 test: setup
