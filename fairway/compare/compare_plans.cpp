@@ -62,14 +62,24 @@ PairDifference difference_of(const Comparison& c, std::size_t second, Knowledge 
 /// A proof that ended early decides nothing about the plan.
 void warn_of_open_states(Comparison& c) {
   constexpr double most_unwarned = 0.02;
+  constexpr auto undecided = static_cast<std::size_t>(Verdict::undecided);
   for (std::size_t k = 0; k < c.names.size(); ++k) {
-    const SampledValue& open =
-        c.measures[k].exact.all[static_cast<std::size_t>(Verdict::undecided)];
-    if (!(open.value > most_unwarned)) continue;
-    c.warnings.push_back(fmt::format(
-        "{}: {} of all states are undecided, and count as not proved; they may go either way. "
-        "Verify longer (fairway verify, with --resume) to tell.",
-        c.names[k], percent_text(open.value)));
+    const SampledValue& open = c.measures[k].exact.all[undecided];
+    if (open.value > most_unwarned) {
+      c.warnings.push_back(fmt::format(
+          "{}: {} of all states are undecided, and count as not proved; they may go either way. "
+          "Verify longer (fairway verify, with --resume) to tell.",
+          c.names[k], percent_text(open.value)));
+    }
+    if (!c.measures[k].contract) continue;
+    const SampledValue& under = c.measures[k].contract->all[undecided];
+    if (under.value > most_unwarned) {
+      c.warnings.push_back(fmt::format(
+          "{}: under the contract {} of all states are undecided, and count as not proved: from "
+          "some of them a behaviour may fail, of others nothing is known. fairway verify tells how "
+          "many are at risk.",
+          c.names[k], percent_text(under.value)));
+    }
   }
 }
 
