@@ -1,4 +1,5 @@
 // certificate under a contract: what was proved of every vehicle that keeps it, and queries.
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -54,6 +55,33 @@ py::tuple query_modes(const HeldContractCertificate& held, const py::object& row
 py::tuple query(const HeldContractCertificate& held, const py::object& rows, bool search) {
   const py::tuple all = query_modes(held, rows, search);
   return py::make_tuple(all[0], all[1]);
+}
+
+/// Rows as witness_csv has them; None where no behaviour that fails is found.
+py::object witness(const HeldContractCertificate& held, const py::object& row) {
+  const State state = state_of(row, "state");
+  std::vector<double> rows;
+  {
+    const py::gil_scoped_release unlocked;
+    const std::vector<ContractReply> reply = ask(held.queries(), std::array{state});
+    if (reply[0].witness) {
+      constexpr double none = std::numeric_limits<double>::quiet_NaN();
+      const ExplainedBehaviour flown = held.queries().explained(*reply[0].witness);
+      for (const ExplainedStep& step : flown.steps) {
+        const Vec2 at = step.start.position_m;
+        const bool turns = step.turn != 0;
+        rows.insert(rows.end(),
+                    {step.time_s, at.x, at.y, step.start.heading.rad(),
+                     turns ? step.turn / step.radius_m : 0.0, turns ? step.radius_m : none,
+                     step.command_rad, step.command_m.x, step.command_m.y});
+      }
+      const Vec2 end = flown.end.position_m;
+      rows.insert(rows.end(), {flown.time_s, end.x, end.y, flown.end.heading.rad(), none, none,
+                               none, none, none});
+    }
+  }
+  if (rows.empty()) return py::none();
+  return owning(std::move(rows)).attr("reshape")(-1, 9);
 }
 
 Heading heading_of(double rad, const char* name) {
@@ -138,6 +166,13 @@ search  from undecided states, search for a behaviour within the contract that f
 
 Returns (verdict int8 [n], time_bound_s float64 [n]): codes of Verdict; a bound in seconds for
 states that reach or follow, until they reach the goal or have joined the path, else +inf.)")
+      .def("witness", &witness, "state"_a,
+           R"(How a vehicle within the contract may fail from a state (x_m, y_m, heading_rad).
+
+Returns float64 [steps + 1, 9], a row at the start of each step and one at the end: time_s, x_m,
+y_m, heading_rad, curvature_per_m (positive to the left), radius_m (NaN on straight steps), and the
+command in force, errors included: command_rad, of the place command_x_m, command_y_m. The last
+five are NaN in the last row. None where something is proved, or no such behaviour is found.)")
       .def("query_modes", &query_modes, "states"_a, py::kw_only(), "search"_a = true,
            R"(The same, and which mode of the plan to fly (docs/modes.md).
 

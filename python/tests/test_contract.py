@@ -80,6 +80,32 @@ def test_a_file_read_again_tells_the_same(small_plan, kept, command, tmp_path):
         kept.save(tmp_path / "k.safetensors", force=False)
 
 
+def test_a_witness_shows_how_a_vehicle_may_fail(plan, command, tmp_path):
+    kept = fairway.verify(plan, contract={
+        "command_error_m": 3.0, "look_ahead_m": 0.0, "heading_error_rad": 0.02,
+        "turn_radius_m": [11.0, 13.0], "speed_mps": [9.0, 11.0], "hold_side_rad": math.pi / 2,
+        "side_uncertain_rad": 0.0, "wind_mps": 0.0}, samples=3000)
+    starts = plan.random_starts(2000, seed=3, where="not_obstacle")
+    verdict, _ = kept.query(starts)
+    at_risk = starts[verdict == fairway.Verdict.AT_RISK]
+    assert len(at_risk) > 0
+    rows = kept.witness(at_risk[0])
+    assert np.array_equal(rows[0, 1:4], at_risk[0]) and np.isnan(rows[-1, 4:]).all()
+    assert (np.diff(rows[:, 0]) > 0).all() and np.isfinite(rows[:-1, [4, 6, 7, 8]]).all()
+    turning = rows[:-1][rows[:-1, 4] != 0.0]
+    assert np.allclose(np.abs(turning[:, 4]) * turning[:, 5], 1.0)
+    assert ((10.999 < turning[:, 5]) & (turning[:, 5] < 1e9)).all()
+    end = rows[-1, 1:3] / 4.0  # in an obstacle: cells of 4 m
+    assert plan.region[int(end[1]), int(end[0])] == fairway.Region.OBSTACLE
+    kept.save(tmp_path / "k.safetensors")
+    command("query", tmp_path / "k.safetensors", "--state",
+            ",".join(f"{v:.17g}" for v in at_risk[0]), "--witness", tmp_path / "w.csv")
+    told = np.genfromtxt(tmp_path / "w.csv", delimiter=",", skip_header=1)
+    assert np.array_equal(told, rows, equal_nan=True)
+    proved = starts[verdict == fairway.Verdict.REACH]
+    assert kept.witness(proved[0]) is None
+
+
 def test_a_map_of_verdicts_and_failing_states_are_queries(small_plan, kept, tmp_path):
     verdicts = kept.verdict_map(2.0, search=False)
     assert verdicts.shape == small_plan.shape and verdicts.dtype == np.int8
