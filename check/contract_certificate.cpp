@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "check/followed_mission.hpp"
 #include "check/leaf_findings.hpp"
 #include "check/tensors.hpp"
 
@@ -191,6 +192,7 @@ ContractCertificate read_contract_certificate(const std::string& path, const std
   take_arrays(file, c);
   if (!c.follow) take_further_modes(file, c);
   if (!plan.empty()) require_plan(file, c.geometry, plan);
+  if (!plan.empty() && c.follow) require_mission(*c.follow, file.record.at("follow"), plan);
   require_cells(c.geometry, c.loop, c.region, file.record.at("region_of_interest"));
   c.contract = contract_of(file.record.at("contract"));
   const auto radius = file.record.at("contract").at("turn_radius_m").get<std::vector<double>>();

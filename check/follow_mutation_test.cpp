@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <string>
+#include <variant>
 
 #include "check/lap_sums.hpp"
 #include "check/testing/refusal.hpp"
@@ -35,6 +38,9 @@ fairway::Plan plan_that_holds() {
   goal.goal_m = goal_m;
   goal.hold = true;
   plan.record.mission = goal;
+  for (float& rad : plan.heading_rad) {  // as files have them
+    if (std::abs(rad) < 1e-9F) rad = 0.0F;
+  }
   return plan;
 }
 
@@ -60,6 +66,14 @@ class FollowMutation : public testing::Test {
     write_contract_certificate(made.certificate, folder_ / "good", fairway::Existing::replace);
     std::ifstream in(folder_ / "good", std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
+  }
+  /// Of the certificate `bytes`, against the plan with another mission.
+  static std::string refusal_for(const std::string& bytes, fairway::Plan plan,
+                                 const fairway::Mission& mission) {
+    plan.record.mission = mission;
+    std::ofstream(folder_ / "kept", std::ios::binary) << bytes;
+    write_plan(plan, folder_ / "plan", fairway::Existing::replace);
+    return refusal_of(folder_ / "kept", folder_ / "plan", 2000);
   }
   static std::string refusal(TakenApart parts) {
     parts.sign();
@@ -355,6 +369,69 @@ TEST_F(FollowMutation, WhoHoldsStaysInItsDisc) {
       parts.put<std::uint16_t>("leaf_stage", leaf, 0);
   }
   expect_refused(parts, "leave the core");
+}
+
+TEST_F(FollowMutation, ThePathIsThatOfThePlansMission) {
+  const fairway::PathMission ellipse = fairway::ellipse_to_follow();
+  const fairway::Plan plan = plan_along(ellipse, 32, 30);
+  EXPECT_EQ(refusal_for(closed_, plan, ellipse), "");
+  const auto changed = [&](const auto& change) {
+    fairway::PathMission path = ellipse;
+    change(path);
+    return refusal_for(closed_, plan, path);
+  };
+  EXPECT_THAT(changed([](auto& path) { path.closed = false; }),
+              testing::HasSubstr("another kind of path"));
+  EXPECT_THAT(
+      changed([](auto& path) { std::reverse(path.vertices_m.begin(), path.vertices_m.end()); }),
+      testing::HasSubstr("another way"));
+  const double radius_m = plan.vehicle.turn_radius_m;
+  const auto with_spike = [&](double far_m) {  // beside the path: at its middle piece, outwards
+    return changed([&](auto& path) {
+      const std::size_t k = path.vertices_m.size() / 2;
+      const fairway::Vec2 a = path.vertices_m[k - 1];
+      const fairway::Vec2 by = path.vertices_m[k] - a;
+      const fairway::Vec2 out = (far_m / norm(by)) * fairway::Vec2{by.y, -by.x};
+      path.vertices_m.insert(path.vertices_m.begin() + static_cast<std::ptrdiff_t>(k),
+                             a + 0.5 * by + out);
+    });
+  };
+  EXPECT_THAT(with_spike(2.0 * radius_m), testing::HasSubstr("path_m is not its path"));
+  EXPECT_EQ(with_spike(0.5 * radius_m), "");  // as a corner that is cut
+  EXPECT_THAT(changed([](auto& path) { path.vertices_m.resize(path.vertices_m.size() / 2); }),
+              testing::HasSubstr("path_m is not its path"));
+  EXPECT_THAT(refusal_for(closed_, plan, fairway::GoalMission{fairway::Vec2{128.0, 128.0}, {}}),
+              testing::HasSubstr("another kind of path"));
+}
+
+TEST_F(FollowMutation, AnOpenPathBeginsAndEndsWhereTheMissionsDoes) {
+  const fairway::PathMission line = fairway::line_to_follow();
+  const fairway::Plan plan = plan_along(line, 30, 15);
+  EXPECT_EQ(refusal_for(open_, plan, line), "");
+  fairway::PathMission longer = line;
+  const fairway::Vec2 end = longer.vertices_m.back();
+  longer.vertices_m.push_back(end + fairway::Vec2{0.0, 0.5 * plan.vehicle.turn_radius_m});
+  EXPECT_THAT(refusal_for(open_, plan, longer), testing::HasSubstr("another way"));
+  longer.vertices_m = line.vertices_m;
+  std::reverse(longer.vertices_m.begin(), longer.vertices_m.end());
+  EXPECT_THAT(refusal_for(open_, plan, longer), testing::HasSubstr("another way"));
+}
+
+TEST_F(FollowMutation, TheDiscIsAboutThePlansGoal) {
+  const fairway::Plan plan = plan_that_holds();
+  auto goal = std::get<fairway::GoalMission>(*plan.record.mission);
+  EXPECT_EQ(refusal_for(hold_, plan, goal), "");
+  const double radius_m = TakenApart(hold_).record["follow"]["hold"]["radius_m"];
+  goal.hold_radius_m = 1.01 * radius_m;
+  EXPECT_EQ(refusal_for(hold_, plan, goal), "");
+  goal.hold_radius_m = 0.99 * radius_m;
+  EXPECT_THAT(refusal_for(hold_, plan, goal), testing::HasSubstr("wider than asked for"));
+  goal.hold_radius_m.reset();
+  goal.goal_m.x += 1.0;
+  EXPECT_THAT(refusal_for(hold_, plan, goal), testing::HasSubstr("holds at another place"));
+  goal.goal_m.x -= 1.0;
+  goal.hold = false;
+  EXPECT_THAT(refusal_for(hold_, plan, goal), testing::HasSubstr("holds at another place"));
 }
 
 TEST_F(FollowMutation, OpenIsNotClosed) {

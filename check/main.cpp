@@ -49,8 +49,9 @@ int run(const Request& r) {
   report["reason"] = defect.empty() ? nlohmann::json() : nlohmann::json(defect);
   report["wall_s"] = wall.count();
   const std::string not_proved =
-      std::string("program, options, levels and stopped_by; that a path is the plan's") +
-      (r.plan.empty() ? "; without --plan, frame, the digest of cost_m and where the plan holds"
+      std::string("program, options, levels and stopped_by") +
+      (r.plan.empty() ? "; without --plan, frame, the digest of cost_m, where the plan holds, and "
+                        "that a path, or a goal to hold at, is the plan's"
                       : "");
   report["not_proved"] = not_proved;
   std::string answer = defect.empty() ? "accepted" : "REFUSED: " + defect;
