@@ -56,6 +56,7 @@
 #include "tests/falsify/contract_proof.hpp"
 #include "tests/falsify/follow_attack.hpp"
 #include "tests/falsify/mode_attack.hpp"
+#include "tests/falsify/progress.hpp"
 
 namespace fairway {
 namespace {
@@ -508,6 +509,8 @@ ContractAttackTotals attack_contract(const std::string& name, const Plan& plan,
   ContractAttackOptions options;
   options.flights = settings.flights;
   options.seed = settings.seed;
+  options.claimed_there = [&](const State& state) { return proof.quick_claim(state); };
+  options.progress = ProgressLines(name);
   const auto claim = [&](const State& state) {
     return quick ? proof.quick_claim(state) : proof.claim(state);
   };
@@ -528,7 +531,7 @@ std::uint64_t contradicted_contracts(const Settings& settings) {
                                  settings.parts, 6, settings.seed % 2 == 0, settings));
     }
   }
-  for (std::uint64_t k = 0; k < settings.contract_plans; ++k) {
+  for (std::uint64_t k = 0; k < settings.contract_plans && !is_interrupted(); ++k) {
     const std::uint64_t number = 1000003 * settings.seed + k;
     const ContractTrial trial = contract_trial(number);
     totals.add(attack_contract(fmt::format("contract trial {}", number), trial.plan, trial.contract,
@@ -635,6 +638,7 @@ std::uint64_t contradicted_modes(const Settings& settings) {
 
 int falsify(int argc, char** argv) {
   const Settings settings = settings_of(argc, argv);
+  note_interrupts();
   if (!settings.follow.empty()) return contradicted_following(settings) == 0 ? 0 : 1;
   if (!settings.contract.empty() || settings.contract_plans > 0) {
     return contradicted_contracts(settings) == 0 ? 0 : 1;
