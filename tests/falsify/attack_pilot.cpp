@@ -162,14 +162,14 @@ AttackRun AttackPilot::fly(const BehaviourState& start, Adversary adversary, Ran
     steps.push_back(choice.step);
     const BehaviourState from = run.end;
     run.end = choice.end;
+    if (watch && watch(from, choice, run.length_m)) {
+      run.stopped = true;
+      return run;
+    }
     const CellKind met = choices_.met(from.place, run.end.place);
     if (met != CellKind::ordinary) {
       run.outcome = outcome_of(met);
       if (run.outcome == Outcome::reach) run.length_m += enter_goal(run.end, steps);
-      return run;
-    }
-    if (watch && watch(from, choice, run.length_m)) {
-      run.stopped = true;
       return run;
     }
   }

@@ -40,7 +40,8 @@ class AttackPilot {
               const NearestObstacle& obstacles)
       : choices_(choices), guide_(guide), obstacles_(obstacles) {}
 
-  /// Asked after every step that met no end, with the length flown so far; true: the flight stops.
+  /// Asked after every step, before what it meets ends the flight, with the length flown so far;
+  /// true: the flight stops.
   using Watch =
       std::function<bool(const BehaviourState& from, const BehaviourChoice& step, double)>;
 

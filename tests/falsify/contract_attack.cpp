@@ -208,7 +208,8 @@ class Attacker {
     double heading = flight.start.heading.rad();
     for (const BehaviourStep& step : flight.steps) {
       const Vec2 end = place + move_of(step, heading);
-      if (choices_.met(place, end) != CellKind::ordinary) return false;
+      // Where longer steps may have met something, who knows which these are.
+      if (pilots_.longer.met(place, end) != CellKind::ordinary) return false;
       flown_m += length_of(step, heading);
       if (flown_m > most_m) return true;
       place = end;

@@ -39,7 +39,7 @@ struct ContractAttackOptions {
   int halvings = 24;  ///< towards a boundary of what is proved, at most
   std::uint64_t whole_one_in = 8;
   ContractVerdictOf claimed_there;  ///< where flights end early; none: the one that is attacked
-  AttackProgress progress = [](std::uint64_t, std::uint64_t) { return true; };
+  AttackProgress progress = go_on_silently;
 };
 
 struct ContractAttackTotals {

@@ -28,9 +28,10 @@ ProgressLines::ProgressLines(std::string name) : name_(std::move(name)) {}
 
 bool ProgressLines::operator()(std::uint64_t flights, std::uint64_t wrong) {
   const Clock::time_point now = Clock::now();
-  const std::chrono::duration<double> since = now - told_;
+  static Clock::time_point told = begun_;
+  const std::chrono::duration<double> since = now - told;
   if (since.count() >= told_every_s) {
-    told_ = now;
+    told = now;
     const std::chrono::duration<double> all = now - begun_;
     fmt::print(stderr, "{}: {} flights, {:.0f} a second, {} wrong\n", name_, flights,
                static_cast<double>(flights) / all.count(), wrong);

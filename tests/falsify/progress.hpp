@@ -16,8 +16,10 @@ void note_interrupts();
 /// Told how many flights are done and how many of them contradict; false: end now. Called by one
 /// thread at a time.
 using AttackProgress = std::function<bool(std::uint64_t flights, std::uint64_t wrong)>;
+inline bool go_on_silently(std::uint64_t, std::uint64_t) { return true; }
 
-/// Prints "NAME: N flights, R a second, W wrong" every few seconds.
+/// Prints "NAME: N flights, R a second, W wrong" every few seconds, however many there are of these
+/// one after another.
 class ProgressLines {
  public:
   explicit ProgressLines(std::string name);
@@ -27,7 +29,6 @@ class ProgressLines {
   using Clock = std::chrono::steady_clock;
   std::string name_;
   Clock::time_point begun_ = Clock::now();
-  Clock::time_point told_ = begun_;
 };
 
 }  // namespace fairway
