@@ -12,6 +12,7 @@
 #include "fairway/behaviour/find_witness.hpp"
 #include "fairway/behaviour/proved_ends.hpp"
 #include "tests/falsify/attack_pilot.hpp"
+#include "tests/falsify/cut_flight.hpp"
 
 namespace fairway {
 namespace {
@@ -140,15 +141,18 @@ class Attacker {
     }
   }
 
+  double late_after_m(const ContractClaim& answer) const {
+    return choices_.contract().speed_mps.least * answer.time_bound_s * (1.0 + 1e-9);
+  }
+
   void attack_once(const State& s, const ContractClaim& answer) {
     static constexpr std::array turns{Adversary::greedy, Adversary::random,   Adversary::guided,
                                       Adversary::greedy, Adversary::circling, Adversary::random};
     const Adversary adversary = turns[random_.below(turns.size())];
     const bool whole = random_.below(options_.whole_one_in) == 0;
     const AttackPilot& pilot = random_.below(2) == 0 ? pilots_.by_usual : pilots_.by_longer;
-    const double bound_m = choices_.contract().speed_mps.least * answer.time_bound_s;
     const double limit_m = answer.verdict == Verdict::reach
-                               ? std::min(bound_m * (1.0 + 1e-8), pilots_.trapped_m)
+                               ? std::min(late_after_m(answer) * (1.0 + 1e-8), pilots_.trapped_m)
                            : whole ? pilots_.trapped_m
                                    : 0.125 * pilots_.trapped_m;
     const double radius_m = choices_.contract().turn_radius_m.most;
@@ -170,11 +174,12 @@ class Attacker {
       return;
     }
     const bool other = static_cast<int>(run.outcome) != static_cast<int>(answer.verdict);
-    const bool late = answer.verdict == Verdict::reach && run.length_m > bound_m * (1.0 + 1e-9);
+    const bool late = answer.verdict == Verdict::reach && run.length_m > late_after_m(answer);
     if (other || late) judge(flight_, answer, name_of(adversary));
   }
 
-  void judge(const BehaviourFlight& flight, const ContractClaim& answer, const char* adversary) {
+  void judge(const BehaviourFlight& flown, const ContractClaim& answer, const char* adversary) {
+    const auto [flight, end] = until_it_ends(choices_, flown);
     const ProvedEnds ends =
         proved_ends(choices_.flow(), choices_.commands(), choices_.contract(), flight);
     const double time_s = ends.length_m / choices_.contract().speed_mps.least;
@@ -182,13 +187,15 @@ class Attacker {
     // A flight without an end, or with that of the verdict, may still take longer than is proved.
     const bool late = ends.admissible && answer.verdict == Verdict::reach && !contradicts &&
                       (ends.ends == 0 || ends.surely(Verdict::reach)) &&
-                      still_flying_at(flight, answer.time_bound_s);
+                      is_still_flying_at(pilots_.longer, flight, late_after_m(answer));
     if (contradicts) {
       ++totals_.contradictions;
     } else if (late) {
       ++totals_.late;
     } else {
-      ++totals_.unproved;
+      const bool as_claimed = end != CellKind::ordinary && ends.admissible &&
+                              static_cast<int>(outcome_of(end)) == static_cast<int>(answer.verdict);
+      ++(as_claimed ? totals_.refuted : totals_.unproved);
       return;
     }
     if (totals_.stories.size() >= most_stories) return;
@@ -198,24 +205,6 @@ class Attacker {
                     contradicts ? "CONTRADICTION" : "LATE", name_, flight.start.position_m.x,
                     flight.start.position_m.y, flight.start.heading.rad(), name_of(answer.verdict),
                     answer.time_bound_s, adversary, ends.ends, time_s));
-  }
-
-  /// Whether at the slowest speed no goal cell was touched by then.
-  bool still_flying_at(const BehaviourFlight& flight, double time_s) const {
-    const double most_m = time_s * (1.0 + 1e-9) * choices_.contract().speed_mps.least;
-    double flown_m = 0.0;
-    Vec2 place = flight.start.position_m;
-    double heading = flight.start.heading.rad();
-    for (const BehaviourStep& step : flight.steps) {
-      const Vec2 end = place + move_of(step, heading);
-      // Where longer steps may have met something, who knows which these are.
-      if (pilots_.longer.met(place, end) != CellKind::ordinary) return false;
-      flown_m += length_of(step, heading);
-      if (flown_m > most_m) return true;
-      place = end;
-      heading = step.heading_rad;
-    }
-    return false;
   }
 
   const std::string& name_;
@@ -239,6 +228,7 @@ void ContractAttackTotals::add(const ContractAttackTotals& other) {
   searched += other.searched;
   contradictions += other.contradictions;
   late += other.late;
+  refuted += other.refuted;
   unproved += other.unproved;
   for (std::size_t v = 0; v < by_verdict.size(); ++v) by_verdict[v] += other.by_verdict[v];
   for (const std::string& story : other.stories) {
@@ -248,7 +238,8 @@ void ContractAttackTotals::add(const ContractAttackTotals& other) {
 
 std::string ContractAttackTotals::line() const {
   std::string text = fmt::format(
-      "{} flights ({} from beside boundaries, {} by search; {} ended where the same was claimed), "
+      "{} flights ({} from beside boundaries, {} found by search; {} ended where the same was "
+      "claimed), "
       "{} "
       "states asked (",
       flights, aimed, searched, handed_on, states);
@@ -256,8 +247,10 @@ std::string ContractAttackTotals::line() const {
     text += fmt::format("{}{} {}", verdict == verdicts_in_order[0] ? "" : ", ",
                         by_verdict[static_cast<std::size_t>(verdict)], name_of(verdict));
   }
-  return text + fmt::format("); {} contradictions, {} late, {} not proved", contradictions, late,
-                            unproved);
+  return text + fmt::format(
+                    "); {} contradictions, {} late, {} ended as claimed between steps, {} "
+                    "not proved",
+                    contradictions, late, refuted, unproved);
 }
 
 ContractAttackTotals attack(const std::string& name, const Flow& flow,

@@ -1,6 +1,7 @@
 // Attacks verdicts under a vehicle contract with behaviours that keep it: from every state with a
 // proved verdict some that want another outcome. Each contradiction is flown with bounds
-// (behaviour/proved_ends.hpp), so it is a fault of the proof.
+// (behaviour/proved_ends.hpp), so it is a fault of the proof. A flight with another end than
+// claimed is first cut where it surely meets something between the ends of its steps.
 //
 // What is left out, so that there are more flights: most of them (all but one in `whole_one_in`)
 // end where they come, with no side held, to a state of which the same verdict is claimed, once
@@ -50,6 +51,8 @@ struct ContractAttackTotals {
   std::uint64_t searched = 0;   ///< of the flights, found by a search
   std::uint64_t contradictions = 0;
   std::uint64_t late = 0;  ///< reached, but later than the bound
+  std::uint64_t refuted =
+      0;  ///< not another end: looked at closely, between steps, the claimed one
   std::uint64_t unproved =
       0;  ///< another outcome, by a flight that is not proved to keep the contract
   std::array<std::uint64_t, verdict_count> by_verdict{};

@@ -15,6 +15,7 @@
 #include "fairway/inclusion/set_flight.hpp"
 #include "tests/falsify/attacked_modes.hpp"
 #include "tests/falsify/contract_mode_flight.hpp"
+#include "tests/falsify/cut_flight.hpp"
 
 namespace fairway {
 namespace {
@@ -177,14 +178,16 @@ class ContractModeAttacker {
   }
 
   void judge(const ContractModeRun& run, const char* manner) {
-    const ModeStretch& last = run.stretches.back();
+    ModeStretch last = run.stretches.back();
     const AttackedMode& mode = modes_.mode(last.mode);
+    last.flight = until_it_ends(mode.choices, last.flight).flight;
     const ProvedEnds ends =
         proved_ends(mode.flow, mode.choices.commands(), modes_.contract, last.flight);
     const bool allowed = ends.admissible && !passes_hand_over(modes_, last);
     const bool contradicts = allowed && ends.ends != 0 && !ends.may_be(Verdict::reach);
     const bool late = allowed && !contradicts && (ends.ends == 0 || ends.surely(Verdict::reach)) &&
-                      still_flying_at(mode, last);
+                      is_still_flying_at(mode.choices, last.flight,
+                                         last.bound_s * modes_.least_mps * (1.0 + 1e-9));
     if (contradicts) {
       ++totals_.contradictions;
     } else if (late) {
@@ -207,23 +210,6 @@ class ContractModeAttacker {
                           s.flight.start.heading.rad(), s.mode, s.bound_s);
     }
     return text + fmt::format(" ends with {:#x} after {:.9g} m", ends.ends, ends.length_m);
-  }
-
-  /// Whether at the slowest speed no goal cell was touched by the bound.
-  bool still_flying_at(const AttackedMode& mode, const ModeStretch& stretch) const {
-    const double most_m = stretch.bound_s * (1.0 + 1e-9) * modes_.least_mps;
-    double flown_m = 0.0;
-    Vec2 place = stretch.flight.start.position_m;
-    double heading = stretch.flight.start.heading.rad();
-    for (const BehaviourStep& step : stretch.flight.steps) {
-      const Vec2 end = place + move_of(step, heading);
-      if (mode.choices.met(place, end) != CellKind::ordinary) return false;
-      flown_m += length_of(step, heading);
-      if (flown_m > most_m) return true;
-      place = end;
-      heading = step.heading_rad;
-    }
-    return false;
   }
 
   const AttackedModes& modes_;
