@@ -31,7 +31,9 @@ BehaviourChoices::BehaviourChoices(const Flow& flow, const VehicleContract& cont
       commands_(filled_commands(flow.grid, flow.heading_rad)),
       near_goal_(cells_near_goal(flow)),
       step_m_(std::min(0.4 * flow.grid.cell_m, 0.15 * contract.turn_radius_m.least)) {
-  if (step_m > 0.0) step_m_ = std::min(step_m, step_m_);
+  if (step_m > 0.0) {
+    step_m_ = std::min({step_m, 0.8 * flow.grid.cell_m, 0.35 * contract.turn_radius_m.least});
+  }
   const Grid& g = flow.grid;
   const double size_m = std::abs(g.x0_m) + std::abs(g.y0_m) + g.width_m() + g.height_m();
   // Flights have at most some ten thousand steps; each adds roundings of the coordinates' size.

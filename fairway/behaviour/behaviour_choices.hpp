@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "fairway/base/short_list.hpp"
@@ -39,14 +40,23 @@ struct BehaviourChoice {
 
 using BehaviourChoiceList = ShortList<BehaviourChoice, 9>;
 
+/// Sharp turns have the least radius, wide ones the greatest.
+enum class StepKind : std::uint8_t { left_sharp, left_wide, straight, right_wide, right_sharp };
+inline constexpr std::size_t step_kinds = 5;
+
 class BehaviourChoices {
  public:
-  /// `step_m`: the length of whole steps; 0: a share of the cell and of the radius. Wind is taken
-  /// as calm, which the contract allows. Keeps references to the arrays that `flow` points to.
+  /// `step_m`: the length of whole steps, limited to a share of the cell and of the radius; 0: half
+  /// of that limit, or less. Wind is taken as calm, which the contract allows. Keeps references to
+  /// the arrays that `flow` points to.
   BehaviourChoices(const Flow& flow, const VehicleContract& contract, double step_m = 0.0);
 
   /// At least one.
   void list(const BehaviourState& state, BehaviourChoiceList& choices) const;
+
+  /// Those of the first kind, in this order, that the contract allows; no others are looked at.
+  void list_first(const BehaviourState& state, const std::array<StepKind, step_kinds>& order,
+                  BehaviourChoiceList& choices) const;
 
   /// What a step meets: target when any position of it may be in one, else the kind of the cell
   /// that its end lies in by a margin, else ordinary.

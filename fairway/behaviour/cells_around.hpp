@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "fairway/base/grid.hpp"
 
@@ -14,7 +13,12 @@ struct CellRange {
 };
 
 inline CellRange cells_around(const Grid& grid, Vec2 a, Vec2 b, double by_m) {
-  const auto number = [&](double at) { return static_cast<int>(std::floor(at / grid.cell_m)); };
+  // As std::floor does, without a call.
+  const auto number = [&](double at) {
+    const double cells = at / grid.cell_m;
+    const auto whole = static_cast<int>(cells);
+    return whole - (static_cast<double>(whole) > cells ? 1 : 0);
+  };
   return {
       number(std::min(a.x, b.x) - grid.x0_m - by_m), number(std::max(a.x, b.x) - grid.x0_m + by_m),
       number(std::min(a.y, b.y) - grid.y0_m - by_m), number(std::max(a.y, b.y) - grid.y0_m + by_m)};

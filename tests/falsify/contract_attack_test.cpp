@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "fairway/behaviour/testing/contract_trial.hpp"
 #include "tests/falsify/contract_proof.hpp"
+#include "tests/falsify/cut_flight.hpp"
 
 namespace fairway {
 namespace {
@@ -48,6 +51,41 @@ TEST(ContractAttack, ContradictsNothingWhereNothingIsClaimed) {
   const auto totals = attack("none", held.flow(), trial.contract, claims, options);
   EXPECT_EQ(totals.flights, 0U);
   EXPECT_EQ(totals.contradictions + totals.late, 0U);
+}
+
+TEST(ContractAttack, EndsWhenItIsToldTo) {
+  const ContractTrial trial = contract_trial(1);
+  const PlanFlow held(trial.plan);
+  ContractAttackOptions options;
+  options.flights = 1000000000;
+  std::uint64_t told = 0;
+  options.progress = [&told](std::uint64_t flights, std::uint64_t) {
+    told = flights;
+    return flights < 3000;
+  };
+  const auto claims = [](const State&) { return ContractClaim{Verdict::collide, 0.0}; };
+  const auto totals = attack("told", held.flow(), trial.contract, claims, options);
+  EXPECT_GE(told, 3000U);
+  EXPECT_GE(totals.flights, told);
+  EXPECT_LT(totals.flights, 30000U);
+}
+
+TEST(ContractAttack, CutsFlightsWhereStepsPassACorner) {
+  Plan plan = empty_plan(9, 9, 2.0, 5.0);
+  plan.region[plan.grid.index({4, 4})] = Region::obstacle;
+  const PlanFlow held(plan);
+  const BehaviourChoices choices(held.flow(), VehicleContract::of(plan.vehicle));
+  // Straight over the corner at (8, 8): from and to ordinary cells, in one step.
+  const State start{{7.5, 8.7}, Heading::from_rad(-0.25 * pi)};
+  const BehaviourFlight over{start, {{0, 0.0, 2.0, -0.25 * pi, own_cell, 0.0}}};
+  EXPECT_EQ(choices.surely_in({7.5 + std::sqrt(2.0), 8.7 - std::sqrt(2.0)}), CellKind::ordinary);
+  const CutFlight cut = until_it_ends(choices, over);
+  EXPECT_EQ(cut.end, CellKind::obstacle);
+  ASSERT_EQ(cut.flight.steps.size(), 1U);
+  EXPECT_LT(cut.flight.steps[0].length_m, 1.5);
+  const BehaviourFlight beside{{{5.0, 7.0}, Heading::from_rad(-0.25 * pi)}, over.steps};
+  EXPECT_EQ(until_it_ends(choices, beside).end, CellKind::ordinary);
+  EXPECT_EQ(until_it_ends(choices, beside).flight.steps.size(), 1U);
 }
 
 TEST(ContractAttack, ContradictsAProofThatWasMadeForASteadierVehicle) {

@@ -4,7 +4,8 @@
 //   fairway-falsify [PLAN.safetensors ...] [--random-plans N] [--states N] [--seed S]
 //                   [--undecided-max F] [--time-limit S] [--last-level L] [--odd-plans N]
 //                   [--modes CERT.safetensors]... [--mode-plans N] [--hand-overs N]
-//                   [--contract FILE.toml] [--contract-plans N] [--flights N] [--parts K]
+//                   [--contract FILE.toml] [--contract-plans N] [--contract-mode-plans N]
+//                   [--flights N] [--parts K]
 //
 // --modes: attacks certificates of plans with modes (mode_attack.hpp), until --hand-overs flights
 // have changed modes on the way. --mode-plans: does the same to random plans with random modes. A
@@ -13,7 +14,12 @@
 // --contract: proves the plans under this vehicle contract instead, and attacks those verdicts with
 // --flights behaviours that keep it (contract_attack.hpp). --contract-plans: does the same to
 // random plans with random contracts. Every other random plan, and the plans for even seeds, answer
-// as a vehicle's queries do (inclusion/quick_lookup.hpp).
+// as a vehicle's queries do (inclusion/quick_lookup.hpp). A PLAN with modes is proved with them
+// under the contract, and attacked through hand-overs (contract_mode_attack.hpp);
+// --contract-mode-plans: so are random plans with modes.
+//
+// Attacks under a contract tell how far they are on stderr, and after an interrupt their totals so
+// far.
 //
 // --odd-plans: certifies this many plans at the limits of what a plan may be, measures them with
 // few and with many samples, and checks them: fairway-check must accept everything verify makes.
@@ -41,21 +47,20 @@
 #include "check/proof.hpp"
 #include "check/testing/sample_certificate.hpp"
 #include "fairway/base/random.hpp"
-#include "fairway/behaviour/testing/contract_trial.hpp"
 #include "fairway/certificate/certificate_file.hpp"
 #include "fairway/certificate/contract_certificate_file.hpp"
 #include "fairway/field/direction_field.hpp"
 #include "fairway/plan/plan_file.hpp"
-#include "fairway/run/contract_file.hpp"
 #include "fairway/simulate/exact_flight.hpp"
 #include "fairway/verify/certify.hpp"
 #include "fairway/verify/images.hpp"
 #include "fairway/verify/state_flight.hpp"
 #include "fairway/verify/testing/plans_to_verify.hpp"
 #include "fairway/verify/testing/wide_flight.hpp"
-#include "tests/falsify/contract_proof.hpp"
+#include "tests/falsify/contract_runs.hpp"
 #include "tests/falsify/follow_attack.hpp"
 #include "tests/falsify/mode_attack.hpp"
+#include "tests/falsify/progress.hpp"
 
 namespace fairway {
 namespace {
@@ -73,6 +78,7 @@ struct Settings {
   std::uint64_t mode_plans = 0;
   std::uint64_t hand_overs = 10000;
   std::uint64_t contract_plans = 0;
+  std::uint64_t contract_mode_plans = 0;
   std::uint64_t flights = 100000;
   int parts = 2;
 };
@@ -128,7 +134,9 @@ class Falsifier {
                flow_.grid.nx, flow_.grid.ny, flow_.grid.cell_m / flow_.vehicle.turn_radius_m,
                certified_.volume.all[0], certified_.sections.leaves());
     constexpr std::size_t batch = 20000;
-    while (totals_.states < settings_.states) {
+    ProgressLines progress(name_);
+    while (totals_.states < settings_.states &&
+           progress(totals_.states, totals_.contradictions + totals_.late)) {
       std::vector<Place> states;
       for (std::size_t i = 0; i < batch / 2; ++i) states.push_back(random_state());
       remember(states, check(states));
@@ -443,6 +451,8 @@ Settings settings_of(int argc, char** argv) {
       settings.states = whole;
     } else if (word == "--contract-plans") {
       settings.contract_plans = whole;
+    } else if (word == "--contract-mode-plans") {
+      settings.contract_mode_plans = whole;
     } else if (word == "--mode-plans") {
       settings.mode_plans = whole;
     } else if (word == "--hand-overs") {
@@ -472,7 +482,7 @@ std::size_t refused_odd_plans(const Settings& settings) {
   const std::filesystem::path file = std::filesystem::temp_directory_path() /
                                      fmt::format("fairway-falsify-{}.safetensors", ::getpid());
   std::size_t refused = 0;
-  for (std::uint64_t k = 0; k < settings.odd_plans; ++k) {
+  for (std::uint64_t k = 0; k < settings.odd_plans && !is_interrupted(); ++k) {
     const std::uint64_t number = 1000003 * settings.seed + k;
     CertifyOptions options = settings.certify;
     options.samples = k % 2 == 0 ? 1 : 20000;
@@ -495,56 +505,12 @@ std::size_t refused_odd_plans(const Settings& settings) {
   return refused;
 }
 
-/// Proves a plan under a contract, and attacks the proof.
-ContractAttackTotals attack_contract(const std::string& name, const Plan& plan,
-                                     const VehicleContract& contract, int parts, int last_level,
-                                     bool quick, const Settings& settings) {
-  const PlanFlow plan_flow(plan);
-  const Flow flow = plan_flow.flow();
-  const ContractProof proof(flow, contract, parts, last_level, settings.certify.time_limit_s);
-  fmt::print("{}: {} x {} cells, {} parts a side, {} leaves, undecided {:.4f}, answered by {}\n",
-             name, flow.grid.nx, flow.grid.ny, parts, proof.leaves(), proof.undecided_share(),
-             quick ? "quick look-ups" : "flights of states");
-  ContractAttackOptions options;
-  options.flights = settings.flights;
-  options.seed = settings.seed;
-  const auto claim = [&](const State& state) {
-    return quick ? proof.quick_claim(state) : proof.claim(state);
-  };
-  const ContractAttackTotals totals = attack(name, flow, contract, claim, options);
-  for (const std::string& story : totals.stories) fmt::print("  {}\n", story);
-  fmt::print("  {}\n", totals.line());
-  std::fflush(stdout);
-  return totals;
-}
-
-/// How many flights contradict a verdict under a contract.
-std::uint64_t contradicted_contracts(const Settings& settings) {
-  ContractAttackTotals totals;
-  if (!settings.contract.empty()) {
-    for (const std::string& path : settings.plans) {
-      const Plan plan = read_plan(path);
-      totals.add(attack_contract(path, plan, read_contract(settings.contract, plan.vehicle),
-                                 settings.parts, 6, settings.seed % 2 == 0, settings));
-    }
-  }
-  for (std::uint64_t k = 0; k < settings.contract_plans; ++k) {
-    const std::uint64_t number = 1000003 * settings.seed + k;
-    const ContractTrial trial = contract_trial(number);
-    totals.add(attack_contract(fmt::format("contract trial {}", number), trial.plan, trial.contract,
-                               1 + static_cast<int>(k % 3), 2 + static_cast<int>(k % 5), k % 2 == 1,
-                               settings));
-  }
-  if (totals.states > 0) fmt::print("under contracts, in all: {}\n", totals.line());
-  return totals.contradictions + totals.late;
-}
-
 /// How many flights contradict that a path is followed.
 std::uint64_t contradicted_following(const Settings& settings) {
   std::uint64_t wrong = 0;
   for (const std::string& path : settings.follow) {
-    const FollowAttackTotals totals =
-        attack_following(read_contract_certificate(path), settings.flights, settings.seed);
+    const FollowAttackTotals totals = attack_following(
+        read_contract_certificate(path), settings.flights, settings.seed, ProgressLines(path));
     for (const std::string& story : totals.stories) fmt::print("  {}\n", story);
     fmt::print("{}: {}\n", path, totals.line());
     wrong += totals.wrong();
@@ -558,6 +524,7 @@ ModeAttackTotals attack_proof(const std::string& name, const ProofView& proof, s
   options.hand_overs = settings.hand_overs;
   options.states = states;
   options.seed = settings.seed;
+  options.progress = ProgressLines(name);
   const auto begun = std::chrono::steady_clock::now();
   const ModeAttackTotals totals = attack_modes(proof, options);
   const double wall_s =
@@ -624,7 +591,7 @@ std::uint64_t contradicted_modes(const Settings& settings) {
     const Plan plan = read_plan(path);
     if (plan.further_modes() > 0) totals.add(attack_plan_with_modes(path, plan, 0, settings));
   }
-  for (std::uint64_t k = 0; k < settings.mode_plans; ++k) {
+  for (std::uint64_t k = 0; k < settings.mode_plans && !is_interrupted(); ++k) {
     const std::uint64_t number = 1000003 * settings.seed + k;
     totals.add(attack_plan_with_modes(fmt::format("random plan {} with modes", number),
                                       random_plan_with_modes(number), settings.states, settings));
@@ -635,15 +602,25 @@ std::uint64_t contradicted_modes(const Settings& settings) {
 
 int falsify(int argc, char** argv) {
   const Settings settings = settings_of(argc, argv);
+  note_interrupts();
   if (!settings.follow.empty()) return contradicted_following(settings) == 0 ? 0 : 1;
-  if (!settings.contract.empty() || settings.contract_plans > 0) {
-    return contradicted_contracts(settings) == 0 ? 0 : 1;
+  if (!settings.contract.empty() || settings.contract_plans + settings.contract_mode_plans > 0) {
+    ContractRuns runs;
+    runs.plans = settings.plans;
+    runs.contract = settings.contract;
+    runs.random_plans = settings.contract_plans;
+    runs.random_plans_with_modes = settings.contract_mode_plans;
+    runs.flights = settings.flights;
+    runs.seed = settings.seed;
+    runs.parts = settings.parts;
+    runs.time_limit_s = settings.certify.time_limit_s;
+    return contradicted_contracts(runs) == 0 ? 0 : 1;
   }
   Totals totals;
   for (const std::string& path : settings.plans) {
     totals.add(Falsifier(path, read_plan(path), settings).run());
   }
-  for (std::uint64_t k = 0; k < settings.random_plans; ++k) {
+  for (std::uint64_t k = 0; k < settings.random_plans && !is_interrupted(); ++k) {
     const std::uint64_t number = 1000003 * settings.seed + k;
     const Plan plan = random_plan(number);
     totals.add(Falsifier(fmt::format("random plan {}", number), plan, settings).run());

@@ -227,7 +227,7 @@ std::string FollowAttackTotals::line() const {
 }
 
 FollowAttackTotals attack_following(const ContractCertificate& certificate, std::uint64_t flights,
-                                    std::uint64_t seed) {
+                                    std::uint64_t seed, const AttackProgress& progress) {
   require(certificate.follow.has_value(), "the certificate says that a path is followed");
   const FollowAttacker attacker(certificate);
   FollowAttackTotals totals;
@@ -235,7 +235,8 @@ FollowAttackTotals attack_following(const ContractCertificate& certificate, std:
   constexpr std::size_t batch = 64;
   // Where nobody follows it gives up after as many states as flights were asked for.
   for (std::uint64_t item = 0;
-       totals.flights < flights && totals.states < std::max<std::uint64_t>(flights, 1000);
+       totals.flights < flights && totals.states < std::max<std::uint64_t>(flights, 1000) &&
+       progress(totals.flights, totals.wrong());
        item += batch) {
     for_ranges(batch, 4, [&](std::size_t begin, std::size_t end) {
       FollowAttackTotals here;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fairway/certificate/contract_certificate.hpp"
+#include "tests/falsify/progress.hpp"
 
 namespace fairway {
 
@@ -30,6 +31,7 @@ struct FollowAttackTotals {
 /// All cores. Throws PreconditionViolation when the certificate does not say that a path is
 /// followed.
 [[nodiscard]] FollowAttackTotals attack_following(const ContractCertificate& certificate,
-                                                  std::uint64_t flights, std::uint64_t seed);
+                                                  std::uint64_t flights, std::uint64_t seed,
+                                                  const AttackProgress& progress = go_on_silently);
 
 }  // namespace fairway

@@ -334,7 +334,8 @@ ModeAttackTotals attack_modes(const ProofView& proof, const ModeAttackOptions& o
   std::uint64_t first = 0;
   const auto goes_on = [&] {
     return totals.hand_overs < options.hand_overs && totals.wrong() < options.wrong_enough &&
-           (options.states == 0 || totals.states < options.states);
+           (options.states == 0 || totals.states < options.states) &&
+           options.progress(totals.flights, totals.wrong());
   };
   // A proof that says nothing of further modes hands nothing over.
   for (int idle = 0; goes_on() && idle < 20; first += blocks) {

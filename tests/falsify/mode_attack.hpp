@@ -18,6 +18,7 @@
 
 #include "fairway/plan/plan.hpp"
 #include "fairway/verify/ask_modes.hpp"
+#include "tests/falsify/progress.hpp"
 
 namespace fairway {
 
@@ -26,6 +27,7 @@ struct ModeAttackOptions {
   std::uint64_t states = 0;          ///< or so many states were asked; 0: no limit
   std::uint64_t wrong_enough = 50;   ///< or so many contradicted the proof
   std::uint64_t seed = 1;
+  AttackProgress progress = go_on_silently;
 };
 
 struct ModeAttackTotals {
