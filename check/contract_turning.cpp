@@ -86,19 +86,18 @@ bool TurningSets::advance(Turning& set) {
   step =
       std::min({step, joins ? finer_step : most_step, joins ? set.joined - set.clock : HUGE_VAL});
   Displacements by(set.turn, set.clock, step, following_.least_radius(), following_.most_radius());
-  Shape swept = sum(set.at, joins ? by.begun : by.partial);
-  const Box all = swept.bounds();
-  if ((all.x1 - all.x0 + 1.0) * (all.y1 - all.y0 + 1.0) > most_parts_met) {
-    following_.lose();
-    return false;
-  }
+  const Box at = set.at.bounds();
+  const Box way = (joins ? by.begun : by.partial).bounds();
+  const Box all{at.x0 + way.x0, at.y0 + way.y0, at.x1 + way.x1, at.y1 + way.y1};
+  if ((all.x1 - all.x0 + 1.0) * (all.y1 - all.y0 + 1.0) > most_parts_met) following_.lose();
+  if (following_.is_lost()) return false;
   const double sooner = step_before_changes(set, all, step);
   if (sooner < step) {
     step = sooner;
     by = Displacements(set.turn, set.clock, step, following_.least_radius(),
                        following_.most_radius());
-    swept = sum(set.at, joins ? by.begun : by.partial);
   }
+  const Shape swept = sum(set.at, joins ? by.begun : by.partial);
   const Point middle = unit(set.turn * (set.clock + 0.5 * step));  // all are in its quadrant
   (middle.x > 0.0 ? set.sure.x1 : set.sure.x0) = middle.x > 0.0 ? HUGE_VAL : -HUGE_VAL;
   (middle.y > 0.0 ? set.sure.y1 : set.sure.y0) = middle.y > 0.0 ? HUGE_VAL : -HUGE_VAL;
