@@ -24,14 +24,24 @@ inline Box box_of(Cell part) {
   return {static_cast<double>(part.x), static_cast<double>(part.y), part.x + 1.0, part.y + 1.0};
 }
 
+inline Cell part_of(Point p) {
+  return {static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y))};
+}
+/// Whether it is in the part and farther than this from all of its sides.
+inline bool is_deep_in(Point p, Cell part, double by) {
+  const Box box = box_of(part).grown(-by);
+  return p.x > box.x0 && p.x < box.x1 && p.y > box.y0 && p.y < box.y1;
+}
+
 Shape moved(const Shape& at, Point by);
 
 /// With all corners moved into the box, from at most `blur` beyond it.
 Shape within(const Shape& at, const Box& box);
 
-/// Calls for every part that `at` comes within `margin` of, with what lies there; by rows.
+/// Calls for every part that `at` comes within `margin` of, with what lies there; by rows, for as
+/// long as `visit` says true.
 template <typename Visit>
-void for_parts(const Shape& at, double margin, Visit visit) {
+void for_parts_while(const Shape& at, double margin, Visit visit) {
   const Box all = at.bounds();
   const auto first = [margin](double low) { return static_cast<int>(std::floor(low - margin)); };
   const auto last = [margin](double high) { return static_cast<int>(std::floor(high + margin)); };
@@ -41,9 +51,18 @@ void for_parts(const Shape& at, double margin, Visit visit) {
     const Box in_row = row.bounds();
     for (int x = first(in_row.x0); x <= last(in_row.x1); ++x) {
       const Shape there = clipped(row, box_of({x, y}).grown(margin));
-      if (!there.empty()) visit(Cell{x, y}, there);
+      if (!there.empty() && !visit(Cell{x, y}, there)) return;
     }
   }
+}
+
+/// The same for all.
+template <typename Visit>
+void for_parts(const Shape& at, double margin, Visit visit) {
+  for_parts_while(at, margin, [&visit](Cell part, const Shape& there) {
+    visit(part, there);
+    return true;
+  });
 }
 
 }  // namespace fairway_check

@@ -13,12 +13,18 @@ using std::numbers::pi;
 constexpr double depth_slack = 0x1p-28;
 
 /// Angle between headings that are `turn` apart, at most 180 degrees.
-double between(double turn) { return std::abs(std::remainder(turn, 2.0 * pi)); }
+double between(double turn) {
+  const double size = std::abs(turn);
+  if (size <= pi) return size;
+  if (size < 3.0 * pi) return std::abs(size - 2.0 * pi);
+  return std::abs(std::remainder(turn, 2.0 * pi));
+}
 
 }  // namespace
 
 double around_from(double angle) {
-  const double turn = angle - 2.0 * pi * std::floor(angle / (2.0 * pi));
+  const bool is_once = angle >= 0.0 && angle < 2.0 * pi;
+  const double turn = is_once ? angle : angle - 2.0 * pi * std::floor(angle / (2.0 * pi));
   return turn > 2.0 * pi - angle_slack ? turn - 2.0 * pi : turn;
 }
 
@@ -75,6 +81,13 @@ void find_turning_points(double first, double width, const Contract& contract,
   for (const double end : {first, first + width}) {
     for (const double away : {0.0, hold, -hold, opposite, -opposite}) found[n++] = end + away;
   }
+}
+
+bool keep_to(const Arc& arc, int turn, double clock, double step, Memory memory,
+             const Contract& contract) {
+  const double first = turn > 0 ? arc.right : -(arc.right + arc.width);
+  return around_from(clock - first) + step <= arc.width + angle_slack && !is_loose(arc, contract) &&
+         !choices_in(first, arc.width, clock, step, memory, contract).goes_on;
 }
 
 bool point_outwards(int side, double& least, double& most) {

@@ -33,6 +33,11 @@ inline constexpr int turning_points = 10;
 void find_turning_points(double first, double width, const Contract& contract,
                          double (&found)[turning_points]);
 
+/// Whether all that turn to one side (`turn`: 1 left, -1 right) with headings turn * `clock` over
+/// `step` are in the arc, and stay in it.
+bool keep_to(const Arc& arc, int turn, double clock, double step, Memory memory,
+             const Contract& contract);
+
 /// Whether an aligned behaviour may turn out of the arc, or any command may be in force.
 bool is_loose(const Arc& arc, const Contract& contract);
 

@@ -81,6 +81,42 @@ TEST(Shapes, SumsHullsAndClippedShapesHoldAllThatTheyShould) {
   }
 }
 
+/// Boxes that hold shapes, lie in them, cross them and lie beside them.
+TEST(Shapes, MeetABoxWhereAPartOfThemIsLeftInIt) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> low(-3.0, 6.0);
+  std::uniform_real_distribution<double> size(0.01, 4.0);
+  int met = 0;
+  for (int n = 0; n < 3000; ++n) {
+    const Shape a = n % 7 == 0 ? Shape{{1.0, 1.0}} : random_shape(random, 3.0);
+    const double x = low(random);
+    const double y = low(random);
+    const Box box{x, y, x + size(random), y + size(random)};
+    bool in_box = false;
+    for (int i = 0; i < 20; ++i) {
+      const Point p = drawn(a, random);
+      in_box = in_box || (p.x > box.x0 && p.x < box.x1 && p.y > box.y0 && p.y < box.y1);
+    }
+    ASSERT_EQ(meets(a, box), !clipped(a, box).empty());
+    ASSERT_TRUE(!in_box || meets(a, box));
+    met += meets(a, box) ? 1 : 0;
+  }
+  EXPECT_GT(met, 300);
+  EXPECT_LT(met, 2700);
+}
+
+TEST(Angles, AroundFromDiffersByWholeTurnsAndIsNeverNegativeButForTheSlack) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> angle(-40.0, 40.0);
+  for (int n = 0; n < 10000; ++n) {
+    const double from = n % 3 == 0 ? 2.0 * pi * (n % 11 - 5) + (n % 5 - 2) * 1e-9 : angle(random);
+    const double to = around_from(from);
+    ASSERT_GE(to, -angle_slack);
+    ASSERT_LE(to, 2.0 * pi - angle_slack);
+    ASSERT_NEAR(std::remainder(from - to, 2.0 * pi), 0.0, 1e-13);
+  }
+}
+
 TEST(Shapes, ManySumsStayConvexAndSimple) {
   std::mt19937_64 random(6);
   Shape all{{0.0, 0.0}};

@@ -30,14 +30,14 @@ void TurningSets::add(const Shape& at, int turn, double least, double most, Memo
   for (double i = 0.0; i < count; ++i) {
     const double low = least + (most - least) * (i / count);
     const double high = least + (most - least) * ((i + 1.0) / count);
-    waiting_.push_back({.at = at,
-                        .joining = at,
-                        .turn = turn,
-                        .clock = turn > 0 ? low : -high,
-                        .joined = turn > 0 ? high : -low,
-                        .memory = memory,
-                        .past = past.with(low, high, 0.0, 0.0),
-                        .sure = sure});
+    Turning& set = waiting_.emplace_back();
+    set.at = set.joining = at;
+    set.turn = turn;
+    set.clock = turn > 0 ? low : -high;
+    set.joined = turn > 0 ? high : -low;
+    set.memory = memory;
+    set.past = past.with(low, high, 0.0, 0.0);
+    set.sure = sure;
   }
 }
 
@@ -86,19 +86,18 @@ bool TurningSets::advance(Turning& set) {
   step =
       std::min({step, joins ? finer_step : most_step, joins ? set.joined - set.clock : HUGE_VAL});
   Displacements by(set.turn, set.clock, step, following_.least_radius(), following_.most_radius());
-  Shape swept = sum(set.at, joins ? by.begun : by.partial);
-  const Box all = swept.bounds();
-  if ((all.x1 - all.x0 + 1.0) * (all.y1 - all.y0 + 1.0) > most_parts_met) {
-    following_.lose();
-    return false;
-  }
+  const Box at = set.at.bounds();
+  const Box way = (joins ? by.begun : by.partial).bounds();
+  const Box all{at.x0 + way.x0, at.y0 + way.y0, at.x1 + way.x1, at.y1 + way.y1};
+  if ((all.x1 - all.x0 + 1.0) * (all.y1 - all.y0 + 1.0) > most_parts_met) following_.lose();
+  if (following_.is_lost()) return false;
   const double sooner = step_before_changes(set, all, step);
   if (sooner < step) {
     step = sooner;
     by = Displacements(set.turn, set.clock, step, following_.least_radius(),
                        following_.most_radius());
-    swept = sum(set.at, joins ? by.begun : by.partial);
   }
+  const Shape swept = sum(set.at, joins ? by.begun : by.partial);
   const Point middle = unit(set.turn * (set.clock + 0.5 * step));  // all are in its quadrant
   (middle.x > 0.0 ? set.sure.x1 : set.sure.x0) = middle.x > 0.0 ? HUGE_VAL : -HUGE_VAL;
   (middle.y > 0.0 ? set.sure.y1 : set.sure.y0) = middle.y > 0.0 ? HUGE_VAL : -HUGE_VAL;
@@ -123,28 +122,30 @@ bool TurningSets::advance(Turning& set) {
 /// Whether all are in parts whose arcs hold their heading when the step begins: then nobody turns
 /// on, and who would come to other parts during the step is told of as leaving these.
 bool TurningSets::align_all(const Turning& set, double step, const Past& past) {
+  const auto keep_arc = [&](Cell part) {
+    return following_.kind_of(part) == ordinary &&
+           keep_to(following_.arc_of(part), set.turn, set.clock, step, set.memory,
+                   following_.contract());
+  };
+  // Mostly one place that is in no other part tells that it is not so.
+  const Point one = set.at.corners().front();
+  const Cell its = part_of(one);
+  if (is_deep_in(one, its, 2.0 * skin) && !keep_arc(its)) return false;
   bool all = true;
-  bool any = false;
-  for_parts(set.at, skin + blur, [&](Cell part, const Shape& there) {
+  near_.clear();
+  for_parts_while(set.at, skin + blur, [&](Cell part, const Shape& there) {
     const Shape in_part = within(there, box_of(part).grown(skin));
-    if (!all || is_followed_beyond(set, set.clock + step, part, in_part)) return;
-    any = true;
-    all = following_.kind_of(part) == ordinary;
-    if (!all) return;
-    const Arc arc = following_.arc_of(part);
-    const double first = set.turn > 0 ? arc.right : -(arc.right + arc.width);
-    const bool wholly = around_from(set.clock - first) + step <= arc.width + angle_slack;
-    all = wholly && !is_loose(arc, following_.contract()) &&
-          !choices_in(first, arc.width, set.clock, step, set.memory, following_.contract()).goes_on;
+    if (is_followed_beyond(set, set.clock + step, part, in_part)) return true;
+    all = keep_arc(part);
+    if (all) near_.push_back({part, in_part, true});
+    return all;
   });
-  if (!all || !any) return false;
+  if (!all || near_.empty()) return false;
   const double least = set.turn > 0 ? set.clock : -(set.clock + step);
-  for_parts(set.at, skin + blur, [&](Cell part, const Shape& there) {
-    const Shape in_part = within(there, box_of(part).grown(skin));
-    if (is_followed_beyond(set, set.clock + step, part, in_part)) return;
-    following_.visit(part, least, least + step);
-    following_.align(part, in_part, false, set.sure, least + 0.5 * step, past);
-  });
+  for (const Near& n : near_) {
+    following_.visit(n.part, least, least + step);
+    following_.align(n.part, n.there, false, set.sure, least + 0.5 * step, past);
+  }
   return true;
 }
 
@@ -153,11 +154,9 @@ void TurningSets::meet(const Turning& set, double step, const Shape& swept, cons
   met_.clear();
   near_.clear();
   for_parts(swept, skin + blur, [&](Cell part, const Shape& there) {
-    const auto begins_in = [&](const Shape& at) {
-      return !at.empty() && !clipped(at, box_of(part).grown(skin + blur)).empty();
-    };
+    const Box box = box_of(part).grown(skin + blur);
     const bool ends = following_.kind_of(part) != ordinary;
-    near_.push_back({part, there, ends || begins_in(set.at) || begins_in(set.joining)});
+    near_.push_back({part, there, ends || meets(set.at, box) || meets(set.joining, box)});
   });
   // Nobody comes behind obstacles but over sides of other parts: through the corner where two
   // obstacles meet, one touches both. (A convex set over such a corner does not show it.)
@@ -207,7 +206,7 @@ void TurningSets::meet_part(const Turning& set, double step, Cell part, const Sh
                             const Past& past, Memory& memory) {
   const CellKind kind = following_.kind_of(part);
   if (kind != ordinary) {
-    if (clipped(there, box_of(part).grown(touch)).empty()) return;
+    if (!meets(there, box_of(part).grown(touch))) return;
     following_.end_in(kind, past);
     met_.push_back({part, false});
     return;
@@ -267,7 +266,7 @@ void TurningSets::turn_back(const Turning& set, double end, Cell part, const Sha
 /// parts. False: nothing is left.
 bool TurningSets::part_from(Turning& set) {
   const bool none_lost = std::all_of(met_.begin(), met_.end(), [&](const Met& m) {
-    return m.stays || clipped(set.at, box_of(m.part).grown(-skin - blur)).empty();
+    return m.stays || !meets(set.at, box_of(m.part).grown(-skin - blur));
   });
   if (none_lost) return true;
   const bool many = waiting_.size() > few_waiting;  // then they stay one set

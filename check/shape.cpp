@@ -4,25 +4,15 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 namespace fairway_check {
 namespace {
 
-constexpr double alike = 0x1p-44;
 constexpr int simple_corners = 48;
 constexpr int roomy = Shape::most - 32;  // leaves room for clipping
 
 /// Edges by angle, from east counterclockwise: first those that go up or due east.
 bool goes_back(Point v) { return v.y < 0.0 || (v.y == 0.0 && v.x < 0.0); }
-/// Not of edges that are parallel within rounding: those are walked together.
-bool turns_before(Point a, Point b) {
-  const double size = (std::abs(a.x) + std::abs(a.y)) * (std::abs(b.x) + std::abs(b.y));
-  const double turn = cross(a, b);
-  if (std::abs(turn) <= alike * size && a.x * b.x + a.y * b.y > 0.0) return false;
-  return goes_back(a) != goes_back(b) ? goes_back(b) : turn > 0.0;
-}
-
 /// The lowest corner, of equally low ones the leftmost: there the edges begin.
 int lowest(std::span<const Point> p) {
   const auto below = [](Point a, Point b) { return a.y < b.y || (a.y == b.y && a.x < b.x); };
@@ -30,17 +20,48 @@ int lowest(std::span<const Point> p) {
 }
 
 /// The corners of one, in turn, from the lowest.
-struct Walk {
-  explicit Walk(const Shape& shape) : p(shape.corners()), first(lowest(p)) {}
-  bool done() const { return steps == static_cast<int>(p.size()) || p.size() == 1; }
-  Point corner() const { return p[static_cast<std::size_t>(first + steps) % p.size()]; }
-  Point edge() const {
-    return p[static_cast<std::size_t>(first + steps + 1) % p.size()] - corner();
+class Walk {
+ public:
+  explicit Walk(const Shape& shape)
+      : p_(shape.corners()), at_(static_cast<std::size_t>(lowest(p_))), left_(shape.count()) {
+    if (left_ == 1) left_ = 0;
+    look();
   }
-  std::span<const Point> p;
-  int first;
-  int steps = 0;
+  bool done() const { return left_ == 0; }
+  Point corner() const { return p_[at_]; }
+  Point edge() const { return edge_; }
+  bool goes_back() const { return goes_back_; }
+  void step() {
+    at_ = next();
+    --left_;
+    look();
+  }
+
+ private:
+  std::size_t next() const { return at_ + 1 < p_.size() ? at_ + 1 : 0; }
+  void look() {
+    edge_ = p_[next()] - p_[at_];
+    goes_back_ = fairway_check::goes_back(edge_);
+  }
+
+  std::span<const Point> p_;
+  std::size_t at_;
+  int left_;
+  Point edge_{};
+  bool goes_back_ = false;
 };
+
+/// Which of two edges comes first by its angle: positive for that of `a`, negative for that of `b`,
+/// 0 where they are parallel within rounding: those are walked together.
+double order_of(const Walk& a, const Walk& b) {
+  const Point u = a.edge();
+  const Point v = b.edge();
+  const double turn = cross(u, v);
+  const double size = (std::abs(u.x) + std::abs(u.y)) * (std::abs(v.x) + std::abs(v.y));
+  if (std::abs(turn) <= alike * size && u.x * v.x + u.y * v.y > 0.0) return 0.0;
+  if (a.goes_back() == b.goes_back()) return turn;
+  return b.goes_back() ? 1.0 : -1.0;
+}
 
 /// A polygon of `simple_corners` directions around it.
 Shape around(std::span<const Point> all) {
@@ -64,44 +85,49 @@ Shape around(std::span<const Point> all) {
   return simple;
 }
 
-/// Keeps what is left of x <= limit, where x = sign * one coordinate.
+/// Of `a`, what is left of x <= limit, where x = sign * one coordinate.
 template <double Point::*coordinate>
-void cut(Shape& a, double sign, double limit) {
-  Shape kept;
+void cut(const Shape& a, double sign, double limit, Shape& kept) {
+  kept.clear();
   const auto p = a.corners();
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const Point from = p[i];
-    const Point to = p[i + 1 < p.size() ? i + 1 : 0];
-    const double before = limit - sign * (from.*coordinate);
+  if (p.empty()) return;
+  Point from = p.front();
+  double before = limit - sign * (from.*coordinate);
+  for (std::size_t i = 1; i <= p.size(); ++i) {  // of a single corner, it is the next one, too
+    const Point to = p[i < p.size() ? i : 0];
     const double after = limit - sign * (to.*coordinate);
     if (before >= 0.0) kept.add(from);
-    if ((before < 0.0) != (after < 0.0) && p.size() > 1) {
+    if ((before < 0.0) != (after < 0.0)) {
       Point at = from + before / (before - after) * (to - from);
       at.*coordinate = sign * limit;
       kept.add(at);
     }
+    from = to;
+    before = after;
   }
-  a = kept;
 }
 
 }  // namespace
 
-void Shape::add(Point p) {
-  const auto same = [p](Point q) {
-    return std::abs(p.x - q.x) < alike && std::abs(p.y - q.y) < alike;
-  };
-  if (count_ > 0 && (same(at_[count_ - 1]) || same(at_[0]))) return;
-  if (count_ == most) throw std::length_error("a polygon has too many corners");
-  at_[count_++] = p;
-}
-
 Box Shape::bounds() const {
-  Box box{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  for (const Point p : corners()) {
-    box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x),
-           std::max(box.y1, p.y)};
+  // Of every other corner, so that the processor need not wait for each before the next.
+  constexpr Box none{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  Box even = none;
+  Box odd = none;
+  const auto hold = [](Box& box, Point p) {
+    box.x0 = std::min(box.x0, p.x);
+    box.y0 = std::min(box.y0, p.y);
+    box.x1 = std::max(box.x1, p.x);
+    box.y1 = std::max(box.y1, p.y);
+  };
+  int i = 0;
+  for (; i + 1 < count_; i += 2) {
+    hold(even, at_[i]);
+    hold(odd, at_[i + 1]);
   }
-  return box;
+  if (i < count_) hold(even, at_[i]);
+  return {std::min(even.x0, odd.x0), std::min(even.y0, odd.y0), std::max(even.x1, odd.x1),
+          std::max(even.y1, odd.y1)};
 }
 
 Shape sum(const Shape& a, const Shape& b, Point shift) {
@@ -115,11 +141,9 @@ Shape sum(const Shape& a, const Shape& b, Point shift) {
   Walk other(b);
   all.add(one.corner() + other.corner() + shift);
   while (!one.done() || !other.done()) {
-    const bool take_one = other.done() || (!one.done() && !turns_before(other.edge(), one.edge()));
-    const bool take_other =
-        one.done() || (!other.done() && !turns_before(one.edge(), other.edge()));
-    if (take_one) ++one.steps;
-    if (take_other) ++other.steps;
+    const double order = other.done() ? 1.0 : one.done() ? -1.0 : order_of(one, other);
+    if (order >= 0.0) one.step();
+    if (order <= 0.0) other.step();
     if (!one.done() || !other.done()) all.add(one.corner() + other.corner() + shift);
   }
   return all;
@@ -127,12 +151,31 @@ Shape sum(const Shape& a, const Shape& b, Point shift) {
 
 Shape clipped(const Shape& a, const Box& box) {
   const Box b = a.bounds();
-  Shape kept = a;
-  if (b.x1 > box.x1) cut<&Point::x>(kept, 1.0, box.x1);
-  if (b.x0 < box.x0) cut<&Point::x>(kept, -1.0, -box.x0);
-  if (b.y1 > box.y1) cut<&Point::y>(kept, 1.0, box.y1);
-  if (b.y0 < box.y0) cut<&Point::y>(kept, -1.0, -box.y0);
+  Shape kept;
+  if (b.x0 > box.x1 || b.x1 < box.x0 || b.y0 > box.y1 || b.y1 < box.y0) return kept;
+  // From one to the other and back, so that few corners are copied.
+  Shape other;
+  const Shape* last = &a;
+  const auto keep = [&](bool is_needed, const auto& cut_to) {
+    if (!is_needed) return;
+    Shape& made = last == &kept ? other : kept;
+    cut_to(made);
+    last = &made;
+  };
+  keep(b.x1 > box.x1, [&](Shape& made) { cut<&Point::x>(*last, 1.0, box.x1, made); });
+  keep(b.x0 < box.x0, [&](Shape& made) { cut<&Point::x>(*last, -1.0, -box.x0, made); });
+  keep(b.y1 > box.y1, [&](Shape& made) { cut<&Point::y>(*last, 1.0, box.y1, made); });
+  keep(b.y0 < box.y0, [&](Shape& made) { cut<&Point::y>(*last, -1.0, -box.y0, made); });
+  if (last != &kept) kept = *last;
   return kept;
+}
+
+bool meets(const Shape& a, const Box& box) {
+  const auto corners = a.corners();
+  const bool holds_one = std::any_of(corners.begin(), corners.end(), [&box](Point p) {
+    return p.x > box.x0 && p.x < box.x1 && p.y > box.y0 && p.y < box.y1;
+  });
+  return holds_one || !clipped(a, box).empty();
 }
 
 Shape hull(const Shape& a, const Shape& b) {

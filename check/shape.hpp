@@ -3,8 +3,11 @@
 // 2^-30 of it (docs/trust.md, "The second theorem").
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <initializer_list>
 #include <span>
+#include <stdexcept>
 
 namespace fairway_check {
 
@@ -16,6 +19,11 @@ inline Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
 inline Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
 inline Point operator*(double k, Point a) { return {k * a.x, k * a.y}; }
 inline double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+
+inline constexpr double alike = 0x1p-44;
+inline bool are_alike(Point p, Point q) {
+  return std::abs(p.x - q.x) < alike && std::abs(p.y - q.y) < alike;
+}
 
 struct Box {
   double x0;
@@ -45,7 +53,11 @@ class Shape {
   int count() const { return count_; }
   void clear() { count_ = 0; }
   /// Corners closer than 2^-44 to the last one are left out.
-  void add(Point p);
+  void add(Point p) {
+    if (count_ > 0 && (are_alike(p, at_[count_ - 1]) || are_alike(p, at_[0]))) return;
+    if (count_ == most) throw std::length_error("a polygon has too many corners");
+    at_[count_++] = p;
+  }
   std::span<const Point> corners() const { return {at_, static_cast<std::size_t>(count_)}; }
   Box bounds() const;
 
@@ -63,6 +75,9 @@ Shape sum(const Shape& a, const Shape& b, Point shift = {0.0, 0.0});
 
 /// The part in a box; empty when they do not meet.
 Shape clipped(const Shape& a, const Box& box);
+
+/// Whether they meet: `clipped` gives some corner.
+bool meets(const Shape& a, const Box& box);
 
 /// The convex hull of two.
 Shape hull(const Shape& a, const Shape& b);

@@ -94,11 +94,11 @@ class Surveyor {
     const auto range = graph.leaves_of(answer.undecided_section, unit, unit + 1);
     for (auto id = range.first; id < range.last; ++id) {
       if (graph.leaf(id).state != LeafState::open) continue;
-      const auto cause = prover_.last().cause[id];
+      const auto cause = prover_.last().cause[graph.slot(id)];
       const PartPlace part = parts_.place(graph.section_of(cause) / 4);
       const int per_cell = parts_.nx() / flow_.grid.nx;
       return {flow_.grid.index({part.ix / per_cell, part.iy / per_cell}),
-              prover_.last().trouble[cause]};
+              prover_.last().trouble[graph.slot(cause)]};
     }
     return {own, Trouble::mixed};
   }

@@ -101,21 +101,33 @@ std::size_t LinkStore::bytes() const {
 CrossingGraph::CrossingGraph(const Parts& parts, std::uint32_t pieces)
     : first_(sections_per_part * parts.size() + 1) {
   require(sections_per_part * parts.size() < ~Id{0} / pieces, "a plan has fewer than 2^32 leaves");
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    const PartPlace place = parts.place(p);
-    for (std::size_t side = 0; side < sections_per_part; ++side) {
-      first_[sections_per_part * p + side] = static_cast<Id>(leaf_.size());
-      if (parts.kind(place) != PartKind::ordinary) continue;
-      const bool crossed = is_crossed(parts.arc(place), static_cast<PartSide>(side));
-      for (std::uint32_t k = 0; k < (crossed ? pieces : 1U); ++k) {
-        Leaf& leaf = leaf_.emplace_back();
-        leaf.begin = side_units / pieces * k;
-        leaf.state = crossed ? LeafState::fresh : LeafState::idle;
-      }
+  const auto is_ordinary = [&](std::size_t s) {
+    return parts.kind(parts.place(s / sections_per_part)) == PartKind::ordinary;
+  };
+  const auto crossed = [&](std::size_t s) {
+    return is_crossed(parts.arc(parts.place(s / sections_per_part)),
+                      static_cast<PartSide>(s % sections_per_part));
+  };
+  for (std::size_t s = 0; s < sections(); ++s) {
+    first_[s + 1] = first_[s] + (!is_ordinary(s) ? 0U : crossed(s) ? pieces : 1U);
+  }
+  leaf_.resize(first_.back());
+  for (std::size_t s = 0; s < sections(); ++s) {
+    for (Id id = first_[s]; id < first_[s + 1]; ++id) {
+      leaf_[id].begin = side_units / pieces * (id - first_[s]);
+      leaf_[id].state = crossed(s) ? LeafState::fresh : LeafState::idle;
     }
   }
-  first_.back() = static_cast<Id>(leaf_.size());
-  place_.resize(leaf_.size());
+  take_slots();
+  place_.resize(slots());
+}
+
+/// Of the leaves as they are.
+void CrossingGraph::take_slots() {
+  slots_ = {};
+  for (Id id = 0; id < leaf_.size(); ++id) {
+    slots_.add(leaf_[id].state != LeafState::closed && leaf_[id].state != LeafState::idle);
+  }
 }
 
 std::size_t CrossingGraph::section_of(Id id) const {
@@ -190,7 +202,7 @@ void CrossingGraph::fly(const Parts& parts, const BehaviourOptions& options,
         if (!go_on()) continue;
         for (std::size_t k = c * chunk; k < std::min(fresh.size(), (c + 1) * chunk); ++k) {
           fly_leaf(fresh[k], section[k], parts, options, links);
-          place_[fresh[k]].count = static_cast<std::uint16_t>(links.size());
+          place_[slot(fresh[k])].count = static_cast<std::uint16_t>(links.size());
           flown[c].insert(flown[c].end(), links.begin(), links.end());
         }
       }
@@ -199,7 +211,7 @@ void CrossingGraph::fly(const Parts& parts, const BehaviourOptions& options,
     for (std::size_t k = 0; k < fresh.size(); ++k) {
       const std::vector<CrossingLink>& from = flown[k / chunk];
       if (k % chunk == 0) taken = 0;
-      LinkStore::Place& place = place_[fresh[k]];
+      LinkStore::Place& place = place_[slot(fresh[k])];
       const std::size_t count = place.count;
       place = links_.add({from.data() + taken, count});
       taken += count;
@@ -219,44 +231,60 @@ void CrossingGraph::fly(const Parts& parts, const BehaviourOptions& options,
 }
 
 void CrossingGraph::forget_links() {
-  place_.assign(leaf_.size(), {});
+  place_ = {};
   links_ = {};
 }
 
-void CrossingGraph::cut(const std::vector<bool>& which) {
-  // One array after the other, so that only one of them is there twice.
-  const auto more = std::count(which.begin(), which.end(), true);
-  const std::size_t count = leaf_.size() + static_cast<std::size_t>(more);
-  require(count < ~Id{0}, "a plan has fewer than 2^32 leaves");
-  std::vector<LinkStore::Place> place;
-  place.reserve(count);
+/// Those of leaves that are kept: before the leaves themselves are cut.
+void CrossingGraph::cut_places(const std::vector<bool>& which) {
+  const auto is_in = [&](Id id) {
+    const LeafState state = leaf_[id].state;
+    return which[id] || (state != LeafState::closed && state != LeafState::idle);
+  };
+  Slots slots;
   for (Id id = 0; id < leaf_.size(); ++id) {
+    slots.add(is_in(id));
+    if (which[id]) slots.add(true);
+  }
+  std::vector<LinkStore::Place> place;
+  place.reserve(slots.count());
+  for (Id id = 0; id < leaf_.size(); ++id) {
+    if (!is_in(id)) continue;
     const bool kept = leaf_[id].state == LeafState::open && !which[id];
-    place.push_back(kept ? place_[id] : LinkStore::Place{});
+    place.push_back(kept ? place_[slot(id)] : LinkStore::Place{});
     if (which[id]) place.emplace_back();
   }
+  slots_ = std::move(slots);
   place_ = std::move(place);
   links_.keep(place_);
-  std::vector<Leaf> leaf;
-  leaf.reserve(count);
-  for (std::size_t s = 0; s < sections(); ++s) {
+}
+
+void CrossingGraph::cut(const std::vector<bool>& which) {
+  const auto old_count = static_cast<Id>(leaf_.size());
+  const auto more = std::count(which.begin(), which.end(), true);
+  require(old_count + static_cast<std::size_t>(more) < ~Id{0}, "a plan has fewer than 2^32 leaves");
+  cut_places(which);
+  // From the last one on, each moves to its place, where none is that has not moved yet.
+  leaf_.resize(old_count + static_cast<std::size_t>(more));
+  Id to = static_cast<Id>(leaf_.size());
+  Id end = old_count;
+  first_.back() = to;
+  for (std::size_t s = sections(); s-- > 0;) {
     const Id begin = first_[s];
-    const Id end = first_[s + 1];
-    const Id new_first = static_cast<Id>(leaf.size());
-    for (Id id = begin; id < end; ++id) {
-      const Leaf& old = leaf_[id];
-      if (!which[id]) {
-        leaf.push_back(old);
-        continue;
+    std::uint32_t until = side_units;
+    for (Id id = end; id-- > begin;) {
+      const Leaf old = leaf_[id];
+      if (which[id]) {
+        leaf_[--to] = {.begin = old.begin + (until - old.begin) / 2};
+        leaf_[--to] = {.begin = old.begin};
+      } else {
+        leaf_[--to] = old;
       }
-      const std::uint32_t middle =
-          old.begin + ((id + 1 < end ? leaf_[id + 1].begin : side_units) - old.begin) / 2;
-      for (const std::uint32_t at : {old.begin, middle}) leaf.emplace_back().begin = at;
+      until = old.begin;
     }
-    first_[s] = new_first;  // read no more: ends are taken before
+    end = begin;
+    first_[s] = to;
   }
-  first_.back() = static_cast<Id>(leaf.size());
-  leaf_ = std::move(leaf);
 }
 
 }  // namespace fairway

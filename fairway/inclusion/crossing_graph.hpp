@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -16,6 +17,7 @@
 #include "fairway/inclusion/behaviour_flight.hpp"
 #include "fairway/inclusion/contract_verdicts.hpp"
 #include "fairway/inclusion/heading_arc.hpp"
+#include "fairway/inclusion/leaf_array.hpp"
 #include "fairway/verify/verdict.hpp"
 
 namespace fairway {
@@ -93,6 +95,36 @@ struct Leaf {
 };
 static_assert(sizeof(Leaf) == 16);
 
+/// Numbers for some of many: those of a set, in order.
+class Slots {
+ public:
+  /// The next one of all, in or out.
+  void add(bool is_in) {
+    if (size_ % in_word == 0) {
+      word_.push_back(0);
+      before_.push_back(count_);
+    }
+    word_.back() |= std::uint64_t{is_in} << size_ % in_word;
+    ++size_;
+    count_ += is_in ? 1U : 0U;
+  }
+  std::uint32_t count() const { return count_; }
+  bool has(std::size_t k) const { return (word_[k / in_word] >> k % in_word & 1U) != 0; }
+  /// Of one of the set.
+  std::uint32_t number(std::size_t k) const {
+    const std::uint64_t below = word_[k / in_word] & ((std::uint64_t{1} << k % in_word) - 1);
+    return before_[k / in_word] + static_cast<std::uint32_t>(std::popcount(below));
+  }
+  std::size_t bytes() const { return word_.capacity() * 8 + before_.capacity() * 4; }
+
+ private:
+  static constexpr std::size_t in_word = 64;
+  std::vector<std::uint64_t> word_;
+  std::vector<std::uint32_t> before_;  // in earlier words
+  std::size_t size_ = 0;
+  std::uint32_t count_ = 0;
+};
+
 class CrossingGraph {
  public:
   using Id = std::uint32_t;
@@ -109,7 +141,15 @@ class CrossingGraph {
   std::uint32_t end_of(Id id, std::size_t section) const {
     return id + 1 < first_[section + 1] ? leaf_[id + 1].begin : side_units;
   }
-  std::span<const CrossingLink> links(Id id) const { return links_.of(place_[id]); }
+  /// Leaves that were neither decided nor idle when leaves were last cut have slots: what is kept
+  /// of them alone is numbered so.
+  std::size_t slots() const { return slots_.count(); }
+  bool has_slot(Id id) const { return slots_.has(id); }
+  std::size_t slot(Id id) const { return slots_.number(id); }
+  std::span<const CrossingLink> links(Id id) const {
+    if (place_.empty() || !slots_.has(id)) return {};
+    return links_.of(place_[slot(id)]);
+  }
 
   /// The leaves that a range of a section touches, [first, last).
   struct Range {
@@ -133,17 +173,20 @@ class CrossingGraph {
   void forget_links();
 
   std::size_t bytes() const {
-    return first_.capacity() * sizeof(Id) + leaf_.capacity() * sizeof(Leaf) +
+    return first_.capacity() * sizeof(Id) + leaf_.bytes() + slots_.bytes() +
            place_.capacity() * sizeof(LinkStore::Place) + links_.bytes();
   }
 
  private:
+  void take_slots();
+  void cut_places(const std::vector<bool>& which);
   void fly_leaf(Id id, std::size_t section, const Parts& parts, const BehaviourOptions& options,
                 std::vector<CrossingLink>& links);
 
   std::vector<Id> first_;
-  std::vector<Leaf> leaf_;
-  std::vector<LinkStore::Place> place_;  // [leaves]
+  LeafArray<Leaf> leaf_;
+  Slots slots_;
+  std::vector<LinkStore::Place> place_;  // [slots]; empty when links are forgotten
   LinkStore links_;
 };
 

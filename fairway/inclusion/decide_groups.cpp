@@ -36,9 +36,9 @@ class Decider {
  public:
   Decider(const Parts& parts, CrossingGraph& graph, GroupRecord& groups)
       : parts_(parts), graph_(graph), groups_(groups) {
-    result_.hope.assign(graph.leaves(), CutHope::none);
-    result_.cause.assign(graph.leaves(), nobody);
-    result_.trouble.assign(graph.leaves(), Trouble::none);
+    result_.hope.assign(graph.slots(), CutHope::none);
+    result_.cause.assign(graph.slots(), nobody);
+    result_.trouble.assign(graph.slots(), Trouble::none);
     groups.begin();
   }
 
@@ -50,7 +50,9 @@ class Decider {
   }
 
  private:
-  void look(Id id, Prospect& p) const {
+  Id& cause_of(Id id) { return result_.cause[graph_.slot(id)]; }
+
+  void look(Id id, Prospect& p) {
     const Leaf& leaf = graph_.leaf(id);
     p.gave_up |= leaf.gave_up;
     p.verdicts |= leaf.ends;
@@ -60,7 +62,7 @@ class Decider {
       for (Id to = range.first; to < range.last; ++to) {
         const Leaf& target = graph_.leaf(to);
         const double flown = static_cast<double>(link.flown);
-        if (result_.cause[to] == one_of_group) {
+        if (graph_.has_slot(to) && cause_of(to) == one_of_group) {
           p.headings = p.comes_back ? p.headings.with(link.headings()) : link.headings();
           p.comes_back = true;
         } else if (target.state == LeafState::closed) {
@@ -76,7 +78,7 @@ class Decider {
   }
 
   void decide(std::span<const Id> members) {
-    for (const Id id : members) result_.cause[id] = one_of_group;
+    for (const Id id : members) cause_of(id) = one_of_group;
     Prospect all;
     for (const Id id : members) look(id, all);
     const bool progress =
@@ -101,7 +103,7 @@ class Decider {
       leaf.state = LeafState::closed;
       leaf.verdict = verdict;
       leaf.group = group;
-      result_.cause[id] = nobody;
+      cause_of(id) = nobody;
     }
     result_.decided += members.size();
   }
@@ -146,10 +148,10 @@ class Decider {
       const Trouble trouble = own.gave_up ? Trouble::gave_up
                               : several   ? Trouble::mixed
                                           : Trouble::none;
-      result_.hope[id] = own.gave_up         ? CutHope::faint
-                         : own.meets_decided ? CutHope::fair
-                         : own.comes_back    ? CutHope::faint
-                                             : CutHope::none;
+      result_.hope[graph_.slot(id)] = own.gave_up         ? CutHope::faint
+                                      : own.meets_decided ? CutHope::fair
+                                      : own.comes_back    ? CutHope::faint
+                                                          : CutHope::none;
       if (trouble != Trouble::none && reason == Trouble::none) {
         cause = id;
         reason = trouble;
@@ -160,7 +162,7 @@ class Decider {
       reason = of_group;
     }
     if (reason == Trouble::none && all.waits_for != nobody) {
-      cause = result_.cause[all.waits_for];
+      cause = graph_.has_slot(all.waits_for) ? cause_of(all.waits_for) : nobody;
       // Of a leaf that nothing should cross nothing is known: the trouble is here.
       if (cause != nobody) reason = Trouble::waits;
     }
@@ -169,8 +171,8 @@ class Decider {
       reason = Trouble::mixed;
     }
     for (const Id id : members) {
-      result_.cause[id] = cause;
-      result_.trouble[id] = id == cause ? reason : Trouble::waits;
+      cause_of(id) = cause;
+      result_.trouble[graph_.slot(id)] = id == cause ? reason : Trouble::waits;
     }
   }
 

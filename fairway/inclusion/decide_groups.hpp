@@ -46,8 +46,8 @@ enum class CutHope : std::uint8_t {
 
 struct Deciding {
   std::size_t decided = 0;    ///< leaves, this time
-  std::vector<CutHope> hope;  ///< [leaves], of open ones
-  /// [leaves], of open ones: the leaf that it waits for, itself if it is the trouble, and why.
+  std::vector<CutHope> hope;  ///< [slots], of open leaves
+  /// [slots], of open leaves: the leaf that it waits for, itself if it is the trouble, and why.
   std::vector<CrossingGraph::Id> cause;
   std::vector<Trouble> trouble;
 };

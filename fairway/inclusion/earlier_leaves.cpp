@@ -1,5 +1,7 @@
 // Where to begin from an earlier proof. Its verdicts are not looked at: leaves begin where they
 // began there, and what follows from them is found again.
+#include <algorithm>
+
 #include "fairway/base/error.hpp"
 #include "fairway/inclusion/contract_verdicts.hpp"
 #include "fairway/inclusion/crossing_graph.hpp"
@@ -20,7 +22,7 @@ void CrossingGraph::begin_as(const ContractVerdicts& earlier) {
     std::size_t next = earlier.first[s];
     for (Id id = begin; id < end; ++id) {
       leaf.push_back(leaf_[id]);
-      place.push_back(place_[id]);
+      place.push_back(slots_.has(id) ? place_[slot(id)] : LinkStore::Place{});
       const LeafState state = leaf_[id].state;
       if (state == LeafState::idle || state == LeafState::closed) continue;
       const std::uint32_t until = id + 1 < end ? leaf_[id + 1].begin : side_units;
@@ -37,8 +39,13 @@ void CrossingGraph::begin_as(const ContractVerdicts& earlier) {
   }
   first_.back() = static_cast<Id>(leaf.size());
   require(leaf.size() < ~Id{0}, "a plan has fewer than 2^32 leaves");
-  leaf_ = std::move(leaf);
-  place_ = std::move(place);
+  leaf_.resize(leaf.size());
+  std::copy(leaf.begin(), leaf.end(), leaf_.all().begin());
+  take_slots();
+  place_.clear();
+  for (Id id = 0; id < leaf.size(); ++id) {
+    if (slots_.has(id)) place_.push_back(place[id]);
+  }
   links_.keep(place_);
 }
 

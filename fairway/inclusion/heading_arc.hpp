@@ -12,7 +12,13 @@ inline constexpr double whole_turn_rad = 2.0 * pi;
 
 /// In [0, 2 pi]; rounding may give 2 pi itself.
 inline double counted_from_zero(double angle_rad) {
-  const double wrapped = std::fmod(angle_rad, whole_turn_rad);
+  double wrapped =
+      angle_rad;  // fmod's own result, bit by bit: differences of such numbers are exact
+  if (!(std::abs(angle_rad) < whole_turn_rad)) {
+    wrapped = std::abs(angle_rad) < 2.0 * whole_turn_rad
+                  ? angle_rad - std::copysign(whole_turn_rad, angle_rad)
+                  : std::fmod(angle_rad, whole_turn_rad);
+  }
   return wrapped < 0.0 ? wrapped + whole_turn_rad : wrapped;
 }
 

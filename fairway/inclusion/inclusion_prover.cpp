@@ -50,7 +50,8 @@ std::vector<bool> InclusionProver::to_cut(int level) const {
   const CutHope enough = level <= limits_.faint_level ? CutHope::faint : CutHope::fair;
   for (std::size_t s = 0; s < graph_.sections(); ++s) {
     for (auto id = graph_.first(s); id < graph_.first(s + 1); ++id) {
-      which[id] = graph_.leaf(id).state == LeafState::open && last_.hope[id] >= enough &&
+      which[id] = graph_.leaf(id).state == LeafState::open &&
+                  last_.hope[graph_.slot(id)] >= enough &&
                   graph_.end_of(id, s) - graph_.leaf(id).begin >= 2 * least;
     }
   }

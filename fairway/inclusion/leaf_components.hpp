@@ -15,22 +15,23 @@ template <typename Counts>
 class LeafComponents {
  public:
   LeafComponents(const CrossingGraph& graph, const Counts& counts)
-      : graph_(graph), counts_(counts), number_(graph.leaves(), 0) {}
+      : graph_(graph), counts_(counts), number_(graph.slots(), 0) {}
 
   template <typename Body>
   void for_each(const Body& body) {
     for (Id root = 0; root < graph_.leaves(); ++root) {
-      if (number_[root] != 0 || !counts_(root)) continue;
+      if (!counts_(root) || number_[graph_.slot(root)] != 0) continue;
       enter(root);
       while (!way_.empty()) {
         Visit& visit = way_.back();
         if (next_target(visit)) {
           const Id to = visit.target++;
           if (!counts_(to)) continue;
-          if (number_[to] == 0) {
+          const std::uint32_t number = number_[graph_.slot(to)];
+          if (number == 0) {
             enter(to);
-          } else if (number_[to] != done) {
-            visit.low = std::min(visit.low, number_[to]);
+          } else if (number != done) {
+            visit.low = std::min(visit.low, number);
           }
           continue;
         }
@@ -38,13 +39,13 @@ class LeafComponents {
         const std::uint32_t low = visit.low;
         way_.pop_back();
         if (!way_.empty()) way_.back().low = std::min(way_.back().low, low);
-        if (low != number_[left]) continue;
+        if (low != number_[graph_.slot(left)]) continue;
         auto first = stack_.end();
         while (*--first != left) {
         }
         const std::span<const Id> members(first, stack_.end());
         body(members);
-        for (const Id id : members) number_[id] = done;
+        for (const Id id : members) number_[graph_.slot(id)] = done;
         stack_.erase(first, stack_.end());
       }
     }
@@ -62,7 +63,7 @@ class LeafComponents {
   };
 
   void enter(Id id) {
-    number_[id] = ++count_;
+    number_[graph_.slot(id)] = ++count_;
     stack_.push_back(id);
     way_.push_back({id, 0, 0, 0, count_});
   }
@@ -79,14 +80,14 @@ class LeafComponents {
 
   const CrossingGraph& graph_;
   Counts counts_;
-  std::vector<std::uint32_t> number_;
+  std::vector<std::uint32_t> number_;  // [slots]
   std::vector<Id> stack_;
   std::vector<Visit> way_;
   std::uint32_t count_ = 0;
 };
 
-/// Calls body(members) for every component of the leaves with counts(leaf); what body does to a
-/// leaf that is told may make it count no more.
+/// Calls body(members) for every component of the leaves with counts(leaf), which have slots; what
+/// body does to a leaf that is told may make it count no more.
 template <typename Counts, typename Body>
 void for_components(const CrossingGraph& graph, const Counts& counts, const Body& body) {
   LeafComponents<Counts>(graph, counts).for_each(body);

@@ -43,9 +43,8 @@ LookupTable::LookupTable(const Parts& parts, const ContractVerdictsView& verdict
       const HeadingArc& arc = parts.arc(place);
       set_arc(record, arc);
       for (std::size_t side = 0; side < sections_per_part; ++side) {
-        if (is_crossed(arc, static_cast<PartSide>(side))) {
-          record.bits |= 1U << (PartRecord::sides_at + side);
-        }
+        if (!is_crossed(arc, static_cast<PartSide>(side))) continue;
+        record.bits |= 1U << (PartRecord::sides_at + side);
         const std::size_t section = sections_per_part * parts.index(place) + side;
         unsigned found = verdicts.first[section] == verdicts.first[section + 1] ? undecided : 0U;
         float time_s = 0.0F;
@@ -54,6 +53,8 @@ LookupTable::LookupTable(const Parts& parts, const ContractVerdictsView& verdict
           time_s = std::max(time_s, verdicts.group_time_s[verdicts.group[leaf]]);
         }
         record.bits |= found << (PartRecord::verdicts_at + stored_verdict_count * side);
+        record.bits |=
+            found << (PartRecord::verdicts_at + stored_verdict_count * sections_per_part);
         time_s_[k][side] = time_s;
       }
     }

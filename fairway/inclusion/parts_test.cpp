@@ -11,6 +11,18 @@
 namespace fairway {
 namespace {
 
+TEST(HeadingArc, AnglesAreCountedFromZeroAsFmodDoes) {
+  Random random(3);
+  for (int k = 0; k < 20000; ++k) {
+    double angle = random.uniform(-40.0, 40.0);
+    if (k % 4 == 0)
+      angle = whole_turn_rad * static_cast<double>(random.below(9)) - 4.0 * whole_turn_rad;
+    if (k % 8 == 0) angle = std::nextafter(angle, k % 16 == 0 ? 100.0 : -100.0);
+    const double rest = std::fmod(angle, whole_turn_rad);
+    ASSERT_EQ(counted_from_zero(angle), rest < 0.0 ? rest + whole_turn_rad : rest) << angle;
+  }
+}
+
 constexpr float no_command = std::numeric_limits<float>::quiet_NaN();
 
 TEST(FilledCommands, ACellWithoutACommandHasThatOfTheNearestFirstOfEquals) {

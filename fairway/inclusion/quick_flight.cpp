@@ -4,90 +4,14 @@
 #include <bit>
 #include <cmath>
 
-#include "fairway/inclusion/part_pieces.hpp"
-#include "fairway/inclusion/set_flight.hpp"
-
 namespace fairway {
 namespace {
 
+/// Single states from which sets turn back more often are as good as never decided: of 200,000 on
+/// four plans, one.
+constexpr int most_turn_backs = 2;
+
 constexpr unsigned bit(Verdict v) { return 1U << static_cast<unsigned>(v); }
-
-struct Range {
-  double lo;
-  double hi;
-};
-Range above(Range r, double by) { return {r.lo + by, r.hi + by}; }
-Range below(double from, Range r) { return {from - r.hi, from - r.lo}; }
-
-/// A set as one sees it who looks out over a side: places along it, counted from the right, how
-/// deep inside they lie, and the sum and the difference of the two.
-struct Outlook {
-  Range along;
-  Range depth;
-  Range sum;
-  Range difference;
-
-  Outlook(const Octagon& o, PartPlace part, std::size_t side) {
-    const double px = part.ix;
-    const double py = part.iy;
-    const Range x = above({o.lo[0], o.hi[0]}, -px);
-    const Range s = above({o.lo[1], o.hi[1]}, -px - py);
-    const Range y = above({o.lo[2], o.hi[2]}, -py);
-    const Range d = above({o.lo[3], o.hi[3]}, px - py);
-    switch (static_cast<PartSide>(side)) {
-      case PartSide::east:
-        *this = Outlook(y, below(1.0, x), above(d, 1.0), above(s, -1.0));
-        break;
-      case PartSide::north:
-        *this = Outlook(below(1.0, x), below(1.0, y), below(2.0, s), d);
-        break;
-      case PartSide::west:
-        *this = Outlook(below(1.0, y), x, below(1.0, d), below(1.0, s));
-        break;
-      case PartSide::south:
-        *this = Outlook(x, y, s, below(0.0, d));
-        break;
-    }
-    depth.lo = std::max(depth.lo, 0.0);
-  }
-
-  /// Bounds of along + slope depth.
-  double least(double slope) const {
-    const double steep = std::abs(slope);
-    const double end = slope > 0.0 ? sum.lo : difference.lo;
-    if (steep <= 1.0) return (1.0 - steep) * along.lo + steep * end;
-    return end + (steep - 1.0) * (slope > 0.0 ? depth.lo : -depth.hi);
-  }
-  double most(double slope) const {
-    const double steep = std::abs(slope);
-    const double end = slope > 0.0 ? sum.hi : difference.hi;
-    if (steep <= 1.0) return (1.0 - steep) * along.hi + steep * end;
-    return end + (steep - 1.0) * (slope > 0.0 ? depth.hi : -depth.lo);
-  }
-
- private:
-  Outlook(Range a, Range b, Range c, Range d) : along(a), depth(b), sum(c), difference(d) {}
-};
-
-/// The tangent of a heading against a side's outward one, a little less (`sign` -1) or more; none
-/// when others of the arc lead anywhere.
-bool slope_of(Vec2 unit, std::size_t side, double sign, double& slope) {
-  constexpr double least_outward = 0x1p-12;
-  const Vec2 outward = side_axes[side].outward;
-  const double out = dot(outward, unit);
-  const double left = cross(outward, unit);
-  if (!(out > 0.0)) return false;
-  if (out <= least_outward) {
-    if ((sign < 0.0) != (left > 0.0)) return false;
-    slope = -sign / least_outward;
-    return true;
-  }
-  slope = left / out;
-  constexpr double rounding = 4e-7;  // of floats, and of headings counted as aligned
-  const double more = 1.0 + std::abs(slope);
-  slope += sign * rounding * more * more;
-  return true;
-}
 
 }  // namespace
 
@@ -116,7 +40,12 @@ QuickFlightOptions QuickFlightOptions::of(const Parts& parts, double speed_least
   return made;
 }
 
+bool QuickFlight::may_turn(TurnUnits ahead) const {
+  return ahead <= options_.opposite + quick_slack || ahead + quick_slack >= whole_turn_units;
+}
+
 void QuickFlight::fly(Vec2 place, TurnUnits heading, Vec2 unit) {
+  turn_backs_left_ = most_turn_backs;
   const PartPlace part{static_cast<int>(place.x), static_cast<int>(place.y)};  // none is negative
   const PartRecord& record = table_.ringed(part);
   if (ends_there(record.kind(), 0.0)) return;
@@ -126,13 +55,11 @@ void QuickFlight::fly(Vec2 place, TurnUnits heading, Vec2 unit) {
     align({part, &record, beyond}, here, 0.0);
   }
   if (beyond < quick_slack || beyond + quick_slack > record.width) {
-    const TurnUnits hi = record.lo + record.width;
-    const auto may_turn = [&](Turn side, TurnUnits ahead) {
-      if (ahead > options_.opposite + quick_slack && ahead + quick_slack < whole_turn_units) return;
+    const auto begin = [&](Turn side) {
       turning_[turning_count_++] = {here, part, side, heading, 0, unit, 0.0};
     };
-    may_turn(Turn::right, heading - hi);
-    may_turn(Turn::left, record.lo - heading);
+    if (may_turn(heading - record.lo - record.width)) begin(Turn::right);
+    if (may_turn(record.lo - heading)) begin(Turn::left);
   }
   turn_all();
 }
@@ -184,20 +111,20 @@ void QuickFlight::turn_all() {
 
 /// Tells what the step comes to on its way. False when that ends the flight.
 bool QuickFlight::pass(const Step& step, const Octagon& swept) {
-  for (std::size_t k = 0; k < met_count_; ++k) {
+  for (std::size_t k = 0; k < met_count_ && !forgot_; ++k) {
     const PartRecord& record = *met_[k].record;
-    if (record.kind() != PartKind::ordinary) continue;
-    forgot_ |= forgets(met_[k].beyond, step.size, record);
+    if (record.kind() == PartKind::ordinary) forgot_ = forgets(met_[k].beyond, step.size, record);
   }
+  // Whether a command may lie on the other side.
+  const std::uint64_t held = (forgot_ ? options_.opposite : options_.hold_side) + quick_slack;
   for (std::size_t k = 0; k < met_count_; ++k) {
     const PartRecord& record = *met_[k].record;
     if (ends_there(record.kind(), step.flown)) continue;
     const std::uint64_t from = met_[k].beyond;
     const std::uint64_t to = from + step.size;
-    const bool begins_aligned = from <= record.width + quick_slack;
-    if (begins_aligned || to + quick_slack >= whole_turn_units) align(met_[k], swept, step.flown);
-    // Whether a command may lie on the other side.
-    const std::uint64_t held = (forgot_ ? options_.opposite : options_.hold_side) + quick_slack;
+    // Arcs have slack: where one ends or begins, nobody is aligned.
+    const bool begins_aligned = from < record.width;
+    if (begins_aligned || to > whole_turn_units) align(met_[k], swept, step.flown);
     if (begins_aligned ? to > record.width + quick_slack : from - record.width <= held) {
       turn_back(step, swept, met_[k].part);
     }
@@ -223,7 +150,7 @@ void QuickFlight::turn_back(const Step& step, const Octagon& set, PartPlace part
     one.flown = step.flown;
     return;
   }
-  if (turning_count_ == most_turning) {
+  if (turning_count_ == most_turning || turn_backs_left_-- == 0) {
     follows_all_ = false;
     return;
   }
@@ -233,6 +160,7 @@ void QuickFlight::turn_back(const Step& step, const Octagon& set, PartPlace part
 
 /// Of one part, successive steps tell of one set. What the first of them comes to may be enough.
 void QuickFlight::align(const Met& met, const Octagon& set, double flown) {
+  if (adds_nothing(met, flown)) return;
   const Octagon piece = set.within(Octagon::square(met.part.ix, met.part.iy, options_.grown));
   if (piece.is_empty()) return;
   for (std::size_t k = 0; k < aligned_count_; ++k) {
@@ -246,39 +174,6 @@ void QuickFlight::align(const Met& met, const Octagon& set, double flown) {
   if (aligned_count_ == most_aligned) leave_parts();
   aligned_[aligned_count_] = {met, piece, flown, true};
   leave(aligned_[aligned_count_++]);
-}
-
-/// Aligned behaviours stay so until they leave the part.
-void QuickFlight::leave_parts() {
-  for (std::size_t k = 0; k < aligned_count_ && !is_undecided(); ++k) {
-    if (!aligned_[k].is_told) leave(aligned_[k]);
-  }
-  aligned_count_ = 0;
-}
-
-void QuickFlight::leave(const Aligned& aligned) {
-  const PartRecord& record = *aligned.met.record;
-  const Vec2 lowest{static_cast<double>(record.cos_lo), static_cast<double>(record.sin_lo)};
-  const Vec2 highest{static_cast<double>(record.cos_hi), static_cast<double>(record.sin_hi)};
-  for (std::size_t side = 0; side < sections_per_part; ++side) {
-    if (!record.is_crossed(side)) continue;
-    const Outlook seen(aligned.set, aligned.met.part, side);
-    double lo = 0.0;
-    double hi = 1.0;
-    double slope = 0.0;
-    constexpr double rounding = 0x1p-30;
-    if (slope_of(lowest, side, -1.0, slope)) {
-      lo = seen.least(slope) - rounding * (1.0 + std::abs(slope));
-    }
-    if (slope_of(highest, side, 1.0, slope)) {
-      hi = seen.most(slope) + rounding * (1.0 + std::abs(slope));
-    }
-    if (lo > 1.0 || hi < 0.0) continue;
-    const auto found = table_.find(aligned.met.part, side, std::max(lo, 0.0), std::min(hi, 1.0));
-    verdicts_ |= found.verdicts;
-    const double flown = aligned.flown + static_cast<double>(record.longest_way);
-    worst_time_s_ = std::max(worst_time_s_, flown * options_.part_s + found.time_s);
-  }
 }
 
 }  // namespace fairway

@@ -46,6 +46,11 @@ class QuickFlight {
   /// `from` over `span`, less than half a turn, counted counter-clockwise.
   void fly(PartPlace part, const Octagon& set, TurnUnits from, TurnUnits span);
 
+  /// Single behaviours only, of the least and of the widest turn, looked at every few degrees: when
+  /// is_undecided says so, flying all from this state will most probably say it, too. Proves
+  /// nothing.
+  void try_out(Vec2 place, TurnUnits heading, Vec2 unit);
+
   /// Bit v: some behaviour may come to Verdict v; all of them, when all are followed and the bits
   /// do not say undecided.
   unsigned verdicts() const { return verdicts_; }
@@ -104,23 +109,45 @@ class QuickFlight {
     Octagon ends;   ///< from its beginning to its end
   };
 
+  /// Those who turn, at one heading.
+  struct Front {
+    Octagon set;
+    TurnUnits at;
+    Vec2 unit;  ///< of the heading `at`
+    std::uint64_t turned;
+  };
+  /// How far behaviours do nothing but turn on.
+  struct ClearWay {
+    std::uint64_t size = 0;
+    const PartRecord* first = nullptr;  ///< the arc that begins there, if one does
+    bool forgets = false;               ///< some may hold no side after the step
+  };
+
+  bool may_turn(TurnUnits ahead) const;
+  void try_turn(Vec2 place, TurnUnits heading, Vec2 unit, Turn side);
   void turn_all();
   void turn(const Turning& start);
   Sweep sweep(const Octagon& here, Vec2 from, const Step& step) const;
   static Step step_to(Turn side, TurnUnits at, TurnUnits bin);
-  void end_at_edges(Step& step) const;
+  bool end_at_edges(Step& step) const;
   template <typename Body>
   bool for_met(const Octagon& swept, const Body& body) const;
   bool meet(const Octagon& swept, const Step& step);
   bool forgets(std::uint64_t beyond, TurnUnits size, const PartRecord& record) const;
-  bool is_clear(const Octagon& swept, const Step& step) const;
+  ClearWay clear_way(const Octagon& swept, const Step& step) const;
+  static bool end_at(const ClearWay& way, Step& step);
+  TurnUnits leap(TurnUnits bin, Front& front, Turn side);
+  void keep_met(const Octagon& swept);
   bool pass(const Step& step, const Octagon& swept);
   void turn_back(const Step& step, const Octagon& set, PartPlace part);
   bool turns_on(TurnUnits size, const Met& met) const;
   bool ends_there(PartKind kind, double flown);
+  bool adds_nothing(const Met& met, double flown) const;
   void align(const Met& met, const Octagon& set, double flown);
   void leave_parts();
   void leave(const Aligned& aligned);
+  template <std::size_t side>
+  void leave_over(const Aligned& aligned);
 
   const LookupTable& table_;
   const QuickFlightOptions& options_;
@@ -134,6 +161,7 @@ class QuickFlight {
   std::size_t turning_count_ = 0;
   std::size_t turning_kept_ = 0;  ///< from there on they come from the present turn
   int tries_ = 0;
+  int turn_backs_left_ = 1000;
   // Not initialised: they are counted.
   static constexpr std::size_t most_met = 32;
   static constexpr std::size_t most_aligned = 12;

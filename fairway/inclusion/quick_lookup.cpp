@@ -70,7 +70,16 @@ ContractAnswer QuickLookup::answer(Vec2 place, double heading_rad) const {
       answer.worst_time_s = flight.worst_time_s();
       return answer;
     }
-    if (options == &fine_ && flight.was_too_wide()) return flown();
+    if (options == &fine_) {
+      if (flight.was_too_wide()) return flown();
+      break;
+    }
+    QuickFlight single(table_, fine_);
+    single.try_out(place, heading, unit);
+    if (single.is_undecided()) {
+      answer.possible |= static_cast<std::uint8_t>(single.verdicts());
+      break;
+    }
   }
   return answer;
 }

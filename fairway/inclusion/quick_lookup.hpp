@@ -1,10 +1,11 @@
-// Verdicts of single states within a microsecond or two, where contract_answer takes ten or more:
-// for whoever asks millions.
+// Verdicts of single states within a microsecond, where contract_answer takes ten or more: for
+// whoever asks millions.
 //
 // The same flight as that of behaviour_flight.hpp, in a cheaper geometry: sets are octagons
 // (octagon.hpp), headings integers, and where behaviours do nothing but turn on, steps are long.
-// Where that does not give one verdict, it is flown again in short steps, which tell more than
-// those of contract_answer. Only where sets are very large, or a state lies within the slack of a
+// Where that does not give one verdict, a few single behaviours are tried out; where they do not
+// contradict each other, either, it is flown again in short steps, which tell more than those of
+// contract_answer. Only where sets are very large, or a state lies within the slack of a
 // border between parts, contract_answer is asked itself.
 //
 // Properties that always hold:

@@ -1,42 +1,10 @@
 // The turn of a set, in long steps where nothing happens.
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "fairway/inclusion/quick_flight.hpp"
+#include "fairway/inclusion/quick_steps.hpp"
 
 namespace fairway {
-namespace {
-
-// Steps end at multiples of an eighth of a turn, at least, so that within one no direction of the
-// octagon changes its sign.
-constexpr unsigned finest_bits = 24;
-constexpr std::size_t finest_steps = 256;
-
-const std::array<Vec2, finest_steps>& step_ends() {
-  static const std::array<Vec2, finest_steps> made = [] {
-    std::array<Vec2, finest_steps> all;
-    for (std::size_t k = 0; k < finest_steps; ++k) {
-      const double angle = whole_turn_rad / finest_steps * static_cast<double>(k);
-      all[k] = {std::cos(angle), std::sin(angle)};
-    }
-    return all;
-  }();
-  return made;
-}
-
-int floor_of(double v) {
-  const int whole = static_cast<int>(v);
-  return whole - (static_cast<double>(whole) > v ? 1 : 0);
-}
-
-int ceiling_of(double v) {
-  const int whole = static_cast<int>(v);
-  return whole + (static_cast<double>(whole) < v ? 1 : 0);
-}
-
-}  // namespace
-
 /// Calls body(part, record) for the parts that the set lies over, for as long as it says true.
 template <typename Body>
 bool QuickFlight::for_met(const Octagon& swept, const Body& body) const {
@@ -71,21 +39,54 @@ bool QuickFlight::meet(const Octagon& swept, const Step& step) {
   return follows_all_;
 }
 
+/// Keeps those that this set lies over, too: it holds no more than that of meet.
+void QuickFlight::keep_met(const Octagon& swept) {
+  const auto is_over = [&](const PartPlace& p) {
+    const double x = p.ix;
+    const double y = p.iy;
+    return (swept.lo[0] < x + 1.0) & (swept.hi[0] >= x) & (swept.lo[2] < y + 1.0) &
+           (swept.hi[2] >= y) & (swept.lo[1] <= x + y + 2.0) & (swept.hi[1] >= x + y) &
+           (swept.lo[3] <= y - x + 1.0) & (swept.hi[3] >= y - x - 1.0);
+  };
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < met_count_; ++k) {
+    met_[kept] = met_[k];
+    kept += is_over(met_[k].part) ? 1 : 0;
+  }
+  met_count_ = kept;
+}
+
 /// Whether commands may come so near that a side is held no more.
 bool QuickFlight::forgets(std::uint64_t beyond, TurnUnits size, const PartRecord& record) const {
   return beyond <= record.width + quick_slack + options_.hold_side ||
          beyond + size + quick_slack + options_.hold_side >= whole_turn_units;
 }
 
-/// Whether behaviours do nothing but turn on, in all parts on the way.
-bool QuickFlight::is_clear(const Octagon& swept, const Step& step) const {
-  const std::uint64_t behind = (forgot_ ? options_.opposite : options_.hold_side) + quick_slack;
-  const std::uint64_t ahead = (forgot_ ? 0 : options_.hold_side) + quick_slack;
-  return for_met(swept, [&](PartPlace, const PartRecord& record) {
+/// How far on behaviours do nothing but turn on, in all parts that the step leads through: exactly
+/// to where the first arc begins, at most. Arcs have slack, so nobody is aligned there yet.
+QuickFlight::ClearWay QuickFlight::clear_way(const Octagon& swept, const Step& step) const {
+  std::uint64_t farthest = 0;           // beyond the beginning of an arc
+  std::int64_t gap = whole_turn_units;  // since one ended
+  const PartRecord* first = nullptr;
+  unsigned kinds = 0;
+  for_met(swept, [&](PartPlace, const PartRecord& record) {
     const std::uint64_t from = step.beyond(record);
-    return record.kind() == PartKind::ordinary && from > record.width + behind &&
-           from + step.size + ahead < whole_turn_units;
+    first = from >= farthest ? &record : first;
+    farthest = std::max(from, farthest);
+    gap = std::min(gap, static_cast<std::int64_t>(from) - std::int64_t{record.width});
+    kinds |= static_cast<unsigned>(record.kind());
+    return true;
   });
+  static_assert(static_cast<unsigned>(PartKind::ordinary) == 0);
+  if (kinds != 0) return {};
+  const std::uint64_t room = whole_turn_units - farthest;
+  // Whether they hold a side does not matter where no command is opposite.
+  if (gap > std::int64_t{options_.opposite} + std::int64_t{quick_slack}) {
+    return {room, first, step.size + options_.hold_side + quick_slack >= room};
+  }
+  const std::uint64_t hold = options_.hold_side + quick_slack;
+  if (forgot_ || gap <= static_cast<std::int64_t>(hold) || room <= hold) return {};
+  return {room - hold - 1, nullptr, false};
 }
 
 /// Of who is in a part at the end of a step.
@@ -124,63 +125,94 @@ QuickFlight::Step QuickFlight::step_to(Turn side, TurnUnits at, TurnUnits bin) {
   return {at, size, end, side, step_ends()[end >> finest_bits], 0.0};
 }
 
-/// It ends at once where an arc begins or ends.
-void QuickFlight::end_at_edges(Step& step) const {
-  const bool to_left = step.side == Turn::left;
+/// It ends at once where an arc begins or ends. Whether it does.
+bool QuickFlight::end_at_edges(Step& step) const {
+  // Those at most the slack ahead wrap to the far end.
+  constexpr auto nearest = static_cast<TurnUnits>(quick_slack) + 1;
+  if (step.size <= nearest) return false;
+  TurnUnits least = step.size - nearest;
+  const PartRecord* first = nullptr;
+  bool is_end = false;  // of an arc
   for (std::size_t k = 0; k < met_count_; ++k) {
-    const PartRecord& record = *met_[k].record;
-    if (record.kind() != PartKind::ordinary) continue;
-    const auto cut = [&](TurnUnits edge, float cosine, float sine) {
-      const TurnUnits on = to_left ? edge - step.at : step.at - edge;
-      if (on <= quick_slack || on >= step.size) return;
-      step.size = on;
-      step.end = edge;
-      step.end_unit = {static_cast<double>(cosine), static_cast<double>(sine)};
-    };
-    cut(record.lo, record.cos_lo, record.sin_lo);
-    cut(record.lo + record.width, record.cos_hi, record.sin_hi);
+    const auto beyond = static_cast<TurnUnits>(met_[k].beyond);
+    const TurnUnits begin = 0U - beyond - nearest;
+    const TurnUnits end = met_[k].record->width - beyond - nearest;
+    const TurnUnits on = std::min(begin, end);
+    is_end = on < least ? end < begin : is_end;
+    first = on < least ? met_[k].record : first;
+    least = std::min(on, least);
   }
+  if (first == nullptr) return false;
+  const bool to_left = step.side == Turn::left;
+  step.size = least + nearest;
+  step.end = to_left ? step.at + step.size : step.at - step.size;
+  step.end_unit = to_left == is_end ? first->highest() : first->lowest();
+  return true;
+}
+
+/// Ends a step where the way is clear no farther; false where that is not worth a step.
+bool QuickFlight::end_at(const ClearWay& way, Step& step) {
+  constexpr TurnUnits least = 1U << 22U;
+  if (way.size >= step.size) return true;
+  if (way.size < least) return false;
+  const bool to_left = step.side == Turn::left;
+  const auto size = static_cast<TurnUnits>(way.size);
+  if (way.first != nullptr) {
+    step.size = size;
+    step.end_unit = to_left ? way.first->lowest() : way.first->highest();
+  } else {
+    const TurnUnits over =
+        (to_left ? step.at + size : 0U - (step.at - size)) & ((1U << finest_bits) - 1U);
+    if (over + least > size) return false;
+    step.size = size - over;
+    const TurnUnits end = to_left ? step.at + step.size : step.at - step.size;
+    step.end_unit = step_ends()[end >> finest_bits];
+  }
+  step.end = to_left ? step.at + step.size : step.at - step.size;
+  return true;
+}
+
+/// Turns on, as far as nothing else happens. `bin`: what the step ends at a multiple of, at most.
+/// Gives that of the next step.
+TurnUnits QuickFlight::leap(TurnUnits bin, Front& front, Turn side) {
+  Step step = step_to(side, front.at, bin);
+  Sweep by = sweep(front.set, front.unit, step);
+  const TurnUnits size = step.size;
+  const ClearWay way = clear_way(by.swept, step);
+  if (!end_at(way, step)) return options_.finest_bin;
+  if (step.size < size) by = sweep(front.set, front.unit, step);
+  forgot_ |= way.forgets;
+  front = {by.ends, step.end, step.end_unit, front.turned + step.size};
+  return step.size < size ? options_.finest_bin : options_.widest_bin;
 }
 
 void QuickFlight::turn(const Turning& start) {
-  Octagon here = start.set;
-  TurnUnits at = start.first;
-  Vec2 from = start.unit;
-  std::uint64_t turned = 0;
+  Front front{start.set, start.first, start.unit, 0};
   TurnUnits bin = options_.widest_bin;
   const PartRecord& first = table_.ringed(start.from);
-  const Step none{at, 0, at, start.side, {}, 0.0};
+  bool is_clear = false;
+  const Step none{front.at, 0, front.at, start.side, {}, 0.0};
   forgot_ = forgets(none.beyond(first), 0, first);
   while (true) {
-    const bool more_start = start.span > turned + quick_slack;
+    const bool more_start = start.span > front.turned + quick_slack;
     follows_all_ &= ++tries_ <= most_tries;
     if (!follows_all_) return;
     // Far, while they turn on in all parts on the way.
     if (more_start) bin = options_.finest_bin;
-    Step step = step_to(start.side, at, bin);
-    Sweep by = sweep(here, from, step);
     if (bin > options_.finest_bin) {
-      if (!is_clear(by.swept, step)) {
-        bin /= 2;
-        continue;
-      }
-      here = by.ends;
-      turned += step.size;
-      at = step.end;
-      from = step.end_unit;
-      bin = std::min(4 * bin, options_.widest_bin);
+      bin = leap(bin, front, start.side);
       continue;
     }
+    Step step = step_to(start.side, front.at, bin);
+    Sweep by = sweep(front.set, front.unit, step);
     if (!meet(by.swept, step)) return;
-    const TurnUnits size = step.size;
-    end_at_edges(step);
-    if (step.size < size) {
-      by = sweep(here, from, step);
-      if (!meet(by.swept, step)) return;
+    if (end_at_edges(step)) {
+      by = sweep(front.set, front.unit, step);
+      keep_met(by.swept);
     }
-    turned += step.size;
+    front.turned += step.size;
     step.flown = start.flown + options_.turn_radius.most / turn_units_per_rad *
-                                   static_cast<double>(turned + whole_turn_units / 32);
+                                   static_cast<double>(front.turned + whole_turn_units / 32);
     if (!pass(step, by.swept)) return;
     // Some begin to turn at every heading of the step.
     const Octagon& there = more_start ? by.swept : by.ends;
@@ -190,20 +222,24 @@ void QuickFlight::turn(const Turning& start) {
       if (turns_on(step.size, met_[k])) met_[on++] = met_[k];
     }
     if (on == met_count_) {
-      here = there;
-      bin = std::min(4 * bin, options_.widest_bin);
+      front.set = there;
+      // The first part ahead may just not be met yet: far again only after two such steps.
+      if (is_clear) bin = options_.widest_bin;
+      is_clear = !is_clear;
     } else {
-      here = Octagon::empty();
+      Octagon here = Octagon::empty();
       for (std::size_t k = 0; k < on; ++k) {
         const PartPlace p = met_[k].part;
         const Octagon piece = there.within(Octagon::square(p.ix, p.iy, options_.grown));
         if (!piece.is_empty()) here.hold(piece);
       }
-      if (start.span > turned + quick_slack) here.hold(start.set);
+      if (start.span > front.turned + quick_slack) here.hold(start.set);
       if (here.is_empty()) return;
+      front.set = here;
+      is_clear = false;
     }
-    at = step.end;
-    from = step.end_unit;
+    front.at = step.end;
+    front.unit = step.end_unit;
   }
 }
 
