@@ -1,6 +1,7 @@
 #include "check/contract_proof.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -125,29 +126,77 @@ std::string defect_of_leaf(const ContractCertificate& c, Behaviours& behaviours,
   return {};
 }
 
+/// Of states handed over to a mode: the longest that any of their behaviours takes to reach, or
+/// infinity. Behaviours of few states spread less than those of many, so what does not reach as a
+/// whole is asked in halves.
+class HandOverTime {
+ public:
+  explicit HandOverTime(const ContractCertificate& to)
+      : to_(to), behaviours_(to.parts, to.contract) {}
+
+  double seconds(const StatesOfPart& states, int halvings = most_halvings) {
+    Outcome outcome(to_, 0, reach);
+    behaviours_.follow_states(states.part, states.at, states.least, states.most, outcome);
+    if (outcome.verdict() == reach) return outcome.onwards_s;
+    if (halvings == 0) {
+      why_ = outcome.gave_up ? "cannot be followed" : told_instead(outcome.told);
+      return HUGE_VAL;
+    }
+    double worst = 0.0;
+    for (const StatesOfPart& half : halves_of(states)) {
+      if (!half.at.empty()) worst = std::max(worst, seconds(half, halvings - 1));
+      if (worst == HUGE_VAL) break;
+    }
+    return worst;
+  }
+  /// Of the last that did not reach.
+  const std::string& why() const { return why_; }
+
+ private:
+  static constexpr int most_halvings = 7;
+  static constexpr double narrow = 0.1;  ///< headings that are halved no more before places are
+
+  static std::array<StatesOfPart, 2> halves_of(const StatesOfPart& states) {
+    std::array<StatesOfPart, 2> halves{states, states};
+    if (states.most - states.least > narrow) {
+      halves[0].most = halves[1].least = 0.5 * (states.least + states.most);
+      return halves;
+    }
+    const Box all = states.at.bounds();
+    Box first = all.grown(touch);
+    Box second = first;
+    if (all.x1 - all.x0 > all.y1 - all.y0) {
+      first.x1 = second.x0 = 0.5 * (all.x0 + all.x1);
+    } else {
+      first.y1 = second.y0 = 0.5 * (all.y0 + all.y1);
+    }
+    halves[0].at = clipped(states.at, first.grown(touch));
+    halves[1].at = clipped(states.at, second.grown(touch));
+    return halves;
+  }
+
+  const ContractCertificate& to_;
+  Behaviours behaviours_;
+  std::string why_ = "is not known";
+};
+
 /// The rule for a leaf of mode `m` that is handed over.
 std::string defect_of_hand_over(const ContractCertificate& c, const ContractCertificate& m,
                                 const std::vector<KnownBoxes>& known, std::size_t section,
                                 std::size_t leaf, Share& share) {
   const ContractCertificate& next = c.of_mode(m.group_next[m.group[leaf]]);
-  Behaviours behaviours(next.parts, next.contract);
-  std::string why = "is handed over from states that are not known";
-  const auto seconds = [&](const StatesOfPart& states) {
-    Outcome outcome(next, 0, reach);
-    behaviours.follow_states(states.part, states.at, states.least, states.most, outcome);
-    if (outcome.verdict() == reach) return outcome.onwards_s;
-    why = fmt::format("is handed over to mode {}, but from there: {}", next.mode,
-                      outcome.gave_up ? "cannot be followed" : told_instead(outcome.told));
-    return HUGE_VAL;
-  };
+  HandOverTime time(next);
   const bool all = for_states_around(m, section, leaf, [&](const StatesOfPart& states) {
-    double found = known[next.mode].seconds(states, seconds);
+    // Boxes are asked once for many leaves; what they cannot prove is asked of the leaf alone.
+    double found = known[next.mode].seconds(
+        states, [&](const StatesOfPart& box) { return time.seconds(box, 0); });
     const double claimed = static_cast<double>(m.group_time_s[m.group[leaf]]);
-    if (found * time_margin > claimed) found = seconds(states);
+    if (found * time_margin > claimed) found = time.seconds(states);
     share.onwards_s = std::max(share.onwards_s, found);
     return found < HUGE_VAL;
   });
-  return all ? "" : why;
+  if (all) return "";
+  return fmt::format("is handed over to mode {}, but from there: {}", next.mode, time.why());
 }
 
 /// The rules for single leaves of mode `m` of the certificate `whole`.
