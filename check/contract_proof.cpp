@@ -134,17 +134,19 @@ class HandOverTime {
   explicit HandOverTime(const ContractCertificate& to)
       : to_(to), behaviours_(to.parts, to.contract) {}
 
-  double seconds(const StatesOfPart& states, int halvings = most_halvings) {
+  /// In `enough` seconds, if halves can show it.
+  double seconds(const StatesOfPart& states, double enough, int halvings = most_halvings) {
     Outcome outcome(to_, 0, reach);
     behaviours_.follow_states(states.part, states.at, states.least, states.most, outcome);
-    if (outcome.verdict() == reach) return outcome.onwards_s;
+    const bool reaches = outcome.verdict() == reach;
+    if (reaches && (halvings == 0 || outcome.onwards_s <= enough)) return outcome.onwards_s;
     if (halvings == 0) {
       why_ = outcome.gave_up ? "cannot be followed" : told_instead(outcome.told);
       return HUGE_VAL;
     }
     double worst = 0.0;
     for (const StatesOfPart& half : halves_of(states)) {
-      if (!half.at.empty()) worst = std::max(worst, seconds(half, halvings - 1));
+      if (!half.at.empty()) worst = std::max(worst, seconds(half, enough, halvings - 1));
       if (worst == HUGE_VAL) break;
     }
     return worst;
@@ -153,7 +155,7 @@ class HandOverTime {
   const std::string& why() const { return why_; }
 
  private:
-  static constexpr int most_halvings = 7;
+  static constexpr int most_halvings = 9;
   static constexpr double narrow = 0.1;  ///< headings that are halved no more before places are
 
   static std::array<StatesOfPart, 2> halves_of(const StatesOfPart& states) {
@@ -189,9 +191,9 @@ std::string defect_of_hand_over(const ContractCertificate& c, const ContractCert
   const bool all = for_states_around(m, section, leaf, [&](const StatesOfPart& states) {
     // Boxes are asked once for many leaves; what they cannot prove is asked of the leaf alone.
     double found = known[next.mode].seconds(
-        states, [&](const StatesOfPart& box) { return time.seconds(box, 0); });
-    const double claimed = static_cast<double>(m.group_time_s[m.group[leaf]]);
-    if (found * time_margin > claimed) found = time.seconds(states);
+        states, [&](const StatesOfPart& box) { return time.seconds(box, HUGE_VAL, 0); });
+    const double enough = static_cast<double>(m.group_time_s[m.group[leaf]]) / time_margin;
+    if (found > enough) found = time.seconds(states, enough);
     share.onwards_s = std::max(share.onwards_s, found);
     return found < HUGE_VAL;
   });

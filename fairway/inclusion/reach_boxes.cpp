@@ -91,7 +91,22 @@ bool ReachBoxes::may_reach(PartPlace part, double heading_rad) const {
   return time_s != not_proved;
 }
 
+/// In pieces of few headings. A flight of many headings at once may tell less than those of its
+/// pieces: where a side is chosen depends on the steps of its clock. Whoever checks flies others,
+/// and what is so near to failing is better left alone.
 double ReachBoxes::flown_time_s(PartPlace part, const ConvexSet& set,
+                                const HeadingArc& headings) const {
+  const double pieces = std::max(1.0, std::ceil(headings.width_rad / bin_rad - 1e-3));
+  const double width_rad = headings.width_rad / pieces;
+  double worst_s = 0.0;
+  for (double k = 0.0; k < pieces && worst_s < not_proved; ++k) {
+    const HeadingArc piece{headings.lo_rad + k * width_rad, width_rad};
+    worst_s = std::max(worst_s, piece_time_s(part, set, piece.widened(heading_slack_rad)));
+  }
+  return worst_s;
+}
+
+double ReachBoxes::piece_time_s(PartPlace part, const ConvexSet& set,
                                 const HeadingArc& headings) const {
   // Of what is flown here, as of links: whoever checks may add it up in another way.
   const QuickLookup::SetReach quick = quick_.reach(part, set, headings);

@@ -42,6 +42,7 @@ class ReachBoxes {
   double known_or(std::uint64_t key, const Find& find) const;
   double box_time_s(PartPlace part, std::uint64_t bin) const;
   double flown_time_s(PartPlace part, const ConvexSet& set, const HeadingArc& headings) const;
+  double piece_time_s(PartPlace part, const ConvexSet& set, const HeadingArc& headings) const;
 
   const Parts& parts_;
   ContractVerdictsView verdicts_;
