@@ -28,8 +28,8 @@ struct Compared {
   Comparison comparison;
 };
 
-/// Throws InputError as read_compared_plan(), prove_compared_plan() and compare_plans() do, and when
-/// the folder is one of the runs; then no file is written.
+/// Throws InputError as read_compared_plan(), prove_compared_plan() and compare_plans() do, and
+/// when the folder is one of the runs; then no file is written.
 [[nodiscard]] Compared compare(CompareRequest request, Existing existing, const Progress& progress);
 
 }  // namespace fairway
