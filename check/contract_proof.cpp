@@ -167,19 +167,19 @@ class HandOverTime {
     const Box all = states.at.bounds();
     Box first = all.grown(touch);
     Box second = first;
-    if (all.x1 - all.x0 > all.y1 - all.y0) {
-      first.x1 = second.x0 = 0.5 * (all.x0 + all.x1);
-    } else {
-      first.y1 = second.y0 = 0.5 * (all.y0 + all.y1);
-    }
-    halves[0].at = clipped(states.at, first.grown(touch));
-    halves[1].at = clipped(states.at, second.grown(touch));
+    const double middle_x = 0.5 * (all.x0 + all.x1);
+    const double middle_y = 0.5 * (all.y0 + all.y1);
+    const bool is_wide = all.x1 - all.x0 > all.y1 - all.y0;
+    (is_wide ? first.x1 : first.y1) = (is_wide ? middle_x : middle_y) + touch;
+    (is_wide ? second.x0 : second.y0) = (is_wide ? middle_x : middle_y) - touch;
+    halves[0].at = clipped(states.at, first);
+    halves[1].at = clipped(states.at, second);
     return halves;
   }
 
   const ContractCertificate& to_;
   Behaviours behaviours_;
-  std::string why_ = "is not known";
+  std::string why_ = "which states that are is not known";
 };
 
 /// The rule for a leaf of mode `m` that is handed over.
